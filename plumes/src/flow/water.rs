@@ -26,6 +26,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use world::area::Area;
 use world::fields::Flow;
+use world::limits::range::stream_m_s;
 use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::seeds::Seed;
@@ -92,7 +93,14 @@ pub struct Water {
     pub(super) waves: Option<Waves>,
     blocked: Option<Blocked>,
     /// Currents of no kind named above.
-    others: Vec<Arc<dyn PlaneCurrent>>,
+    others: Vec<Other>,
+}
+
+/// A current of no kind of this crate, with its name in scenarios.
+#[derive(Clone, Debug)]
+struct Other {
+    name: &'static str,
+    current: Arc<dyn PlaneCurrent>,
 }
 
 /// The water over one place at one time; cheap to evaluate at many heights.
@@ -184,11 +192,17 @@ impl WaterSpec {
         };
         for (current, field) in self.currents.iter().zip(&fields) {
             current.join(&mut water, &place(field))?;
+            water.name_others(current.name());
+        }
+        if let Some(problem) = water.fault(area.centre, 0.0) {
+            let field = "water.currents".to_string();
+            return Err(PlumeError::Invalid { field, problem });
         }
         // Meanders last: the mean of the other currents carries them, wherever they stand in the list.
         let carrier = water.depth_mean(area.centre);
         for (current, field) in self.currents.iter().zip(&fields) {
             current.join_carried(&mut water, &place(field), carrier)?;
+            water.name_others(current.name());
         }
         water.advance(0.0);
         Ok(water)
@@ -198,7 +212,19 @@ impl WaterSpec {
 impl Water {
     /// Adds a current that is the same at all depths.
     pub fn add(&mut self, current: Arc<dyn PlaneCurrent>) {
-        self.others.push(current);
+        self.others.push(Other { name: "", current });
+    }
+
+    /// Gives those currents a name that have none yet.
+    fn name_others(&mut self, name: &'static str) {
+        let nameless = self.others.iter_mut().filter(|o| o.name.is_empty());
+        nameless.for_each(|o| o.name = name);
+    }
+
+    /// What is wrong with the currents of other crates at a place and a time. In the water they must be right.
+    #[must_use]
+    pub fn fault(&self, p: Vector2<f64>, t_s: f64) -> Option<String> {
+        (self.others.iter()).find_map(|o| fault(o.name, p, t_s, o.current.velocity(p, t_s)))
     }
 
     /// The channel, if the water is a channel.
@@ -259,7 +285,7 @@ impl Water {
     pub(crate) fn is_steady(&self) -> bool {
         self.meanders.is_empty()
             && self.tides.is_empty()
-            && self.others.iter().all(|o| o.is_steady())
+            && self.others.iter().all(|o| o.current.is_steady())
             && self.layered.as_ref().is_none_or(Layered::is_steady)
     }
 
@@ -278,7 +304,7 @@ impl Water {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));
         let wandering = tides.chain(self.meanders.iter().map(|m| m.velocity(p, t_s)));
-        let wandering = wandering.chain(self.others.iter().map(|o| other(&**o, p, t_s)));
+        let wandering = wandering.chain(self.others.iter().map(|o| other(o, p, t_s)));
         Column {
             water: self,
             floor,
@@ -298,12 +324,32 @@ impl Water {
     }
 }
 
+/// What is wrong with a velocity of a current of another crate.
+fn fault(name: &str, p: Vector2<f64>, t_s: f64, v: Vector2<f64>) -> Option<String> {
+    let most = stream_m_s.1;
+    // This form also refuses what is not a number.
+    let wrong = !v.iter().all(|v| v.abs() <= most);
+    wrong.then(|| {
+        format!(
+            "the current {name} flows at ({}, {}) m/s at east {} m, north {} m, {t_s} s: both must be within ±{most}; \
+             correct the current",
+            v.x, v.y, p.x, p.y
+        )
+    })
+}
+
 /// A current of which only values are known, as numbers that may ask for its slopes.
-fn other<N: Number>(current: &dyn PlaneCurrent, p: Vector2<N>, t_s: N) -> Vector2<N> {
+///
+/// # Panics
+/// If it flows faster than water does. A plume in such water would take steps without end.
+fn other<N: Number>(other: &Other, p: Vector2<N>, t_s: N) -> Vector2<N> {
     /// Small compared with a current's scales, large compared with rounding at places of 10³ m; m and s.
     const H: f64 = 1e-3;
     let place = Vector2::new(p.x.value(), p.y.value());
+    let Other { name, current } = other;
     let (now_s, here) = (t_s.value(), current.velocity(place, t_s.value()));
+    let fault = fault(name, place, now_s, here);
+    assert!(fault.is_none(), "{}", fault.unwrap_or_default());
     let part = |d: usize| {
         N::known(here[d], [p.x, p.y, t_s], || {
             let at = |dx: f64, dy: f64, dt: f64| {

@@ -1,7 +1,7 @@
 //! The estimator that a scenario chose.
 
 use super::{DeadReckoning, DeadReckoningSpec};
-use crate::handoff::{Estimate, Readings};
+use crate::handoff::{Estimate, Need, Readings};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -23,12 +23,21 @@ impl Default for EstimatorSpec {
 }
 
 impl EstimatorSpec {
-    /// Whether it needs a CTD on board.
+    /// The instruments that it needs to tell heading, place, depth and water layer; paths below `estimator`. The flow
+    /// needs an ADCP, too, and the altitude an altimeter, for those who ask for them.
     #[must_use]
-    pub fn needs_ctd(&self) -> bool {
-        match self {
-            Self::DeadReckoning(s) => s.layer_aware.is_some(),
+    pub fn needs(&self) -> Vec<Need> {
+        let Self::DeadReckoning(spec) = self;
+        let mut needs = vec![
+            Need::wish("", "compass", "never knows its heading"),
+            Need::wish("", "dvl", "never knows how it moves"),
+            Need::wish("", "depth", "never knows its depth"),
+        ];
+        if spec.layer_aware.is_some() {
+            let so = "cannot tell water layers apart by their density";
+            needs.push(Need::vital("layer_aware", "ctd", so));
         }
+        needs
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod answer;
 mod belief;
+mod bounds;
 mod command;
 mod control;
 mod decision;
@@ -13,10 +14,12 @@ mod gantry;
 mod goal;
 mod layers;
 mod lcdp;
+mod need;
 mod pictures;
 mod pilot_spec;
 mod rates;
 mod readings;
+mod readings_fault;
 mod regions;
 mod setting;
 mod side;
@@ -24,6 +27,7 @@ mod zone;
 
 pub use answer::{Answer, Consulted, HeadOrder, MoveOrder, Order, Told};
 pub use belief::{Belief, BeliefGrid, Odour};
+pub use bounds::Bounds;
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{
     Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant,
@@ -40,6 +44,7 @@ pub use gantry::{
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
+pub use need::Need;
 pub use pictures::{Picture, SidescanPing};
 pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};

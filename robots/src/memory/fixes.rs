@@ -13,7 +13,7 @@
 //! every point moves by J. The points then keep the distances that dead reckoning gave them, and only the newest fix
 //! places them: this is right if fixes are noisier than the drift of dead reckoning.
 
-use crate::handoff::Estimate;
+use crate::handoff::{Estimate, Need};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,6 +29,21 @@ pub enum FixMove {
     Share,
     /// All move by the whole jump.
     Whole,
+}
+
+impl FixMove {
+    /// The instruments that the rule needs; paths below the strategy.
+    #[must_use]
+    pub fn needs(self) -> Vec<Need> {
+        match self {
+            Self::Stay => Vec::new(),
+            Self::Share | Self::Whole => vec![Need::wish(
+                "fixes",
+                "lbl",
+                "gets no fix that moves anything",
+            )],
+        }
+    }
 }
 
 /// A fix that moved the believed position.

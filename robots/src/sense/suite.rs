@@ -98,6 +98,12 @@ pub trait SensorParams: Spec {
     /// If a mount is missing, or if a parameter is out of range.
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
 
+    /// The instruments of the program whose readings it gives, too: an instrument of another crate that says so is one of
+    /// those that a strategy may need.
+    fn stands_for(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
     /// field.
     fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
@@ -172,9 +178,15 @@ impl From<&Decision> for Asked {
     }
 }
 
+/// An instrument of a robot; of one from another crate its name, too.
+type Fitted = (Box<dyn Sensor>, Option<&'static str>);
+
 /// The instruments of a robot.
 #[derive(Component, Debug)]
-pub struct SensorSuite(Vec<Box<dyn Sensor>>);
+pub struct SensorSuite {
+    all: Vec<Fitted>,
+    robot: String,
+}
 
 impl SensorSuite {
     /// The instruments of `spec`. `mounts` gives the pose in body axes of a mount of the vehicle by its name (that of
@@ -188,8 +200,14 @@ impl SensorSuite {
         robot: OnBoard,
     ) -> Result<Self, RobotError> {
         let on = Fitting { mounts, robot };
-        let all = spec.iter().map(|s| s.build(&on));
-        all.collect::<Result<_, _>>().map(Self)
+        let all = spec.iter().map(|s| {
+            let own = s.is_own().then(|| s.name());
+            s.build(&on).map(|sensor| (sensor, own))
+        });
+        Ok(Self {
+            all: all.collect::<Result<_, _>>()?,
+            robot: robot.robot_id.to_string(),
+        })
     }
 
     /// The readings of all instruments in this step.
@@ -200,10 +218,23 @@ impl SensorSuite {
     }
 
     /// The same in the place of earlier readings.
+    ///
+    /// # Panics
+    /// If an instrument of another crate gives a reading that is no number.
     pub fn read_into(&mut self, around: &Around, readings: &mut Readings) {
         empty(readings);
-        for sensor in &mut self.0 {
+        for (sensor, own) in &mut self.all {
             sensor.sense(around, readings);
+            if let Some(name) = own {
+                let fault = readings.fault();
+                assert!(
+                    fault.is_none(),
+                    "robot \"{}\": its sensor {name} gave a reading that says nothing at {} s: {}; correct the sensor",
+                    self.robot,
+                    around.clock.t_s(),
+                    fault.unwrap_or_default()
+                );
+            }
         }
     }
 }

@@ -14,8 +14,8 @@ use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
-    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Observation, Order,
-    Outcome, Setting, Told, Vertical,
+    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Need, Observation,
+    Order, Outcome, Setting, Told, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -111,8 +111,9 @@ impl StrategyParams for ExternalSpec {
         })
     }
 
-    fn needs_ranging(&self) -> bool {
-        self.fallback().is_some_and(|spec| spec.needs_ranging())
+    fn needs(&self) -> Vec<Need> {
+        let needs = self.fallback().map_or_else(Vec::new, |spec| spec.needs());
+        needs.into_iter().map(|n| n.within("on_late")).collect()
     }
 
     fn flies_for(&self) -> [bool; 2] {

@@ -16,7 +16,8 @@ use super::wishes::Wishes;
 use crate::behave::Stride;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting,
+    Vertical,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -84,6 +85,10 @@ impl StrategyParams for InspectSpec {
 
     fn declares_at_most(&self) -> usize {
         self.places.len()
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        self.survey.needs("survey")
     }
 
     fn flies_for(&self) -> [bool; 2] {

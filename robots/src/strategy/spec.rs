@@ -2,7 +2,7 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Consulted, Decision, Observation, Setting, Vertical};
+use crate::handoff::{Consulted, Decision, Need, Observation, Setting, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -38,9 +38,10 @@ pub trait StrategyParams: Spec {
         true
     }
 
-    /// Whether it needs a forward ranging on board.
-    fn needs_ranging(&self) -> bool {
-        false
+    /// The instruments that it needs beside those of a search and of its [`wishes`](Self::wishes); paths below
+    /// `strategy`.
+    fn needs(&self) -> Vec<Need> {
+        Vec::new()
     }
 
     /// Whether it flies passes for sidescan and camera after a declaration.
@@ -48,7 +49,7 @@ pub trait StrategyParams: Spec {
         [false; 2]
     }
 
-    /// The heights and speeds that it will command.
+    /// The heights and speeds that it will command. Who commands any needs instruments to hold them.
     fn wishes(&self) -> Wishes {
         Wishes::default()
     }

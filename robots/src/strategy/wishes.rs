@@ -3,7 +3,7 @@
 
 use super::spec::VerticalSpec;
 use super::survey::{AfterDeclaration, SurveySpec};
-use crate::handoff::Vertical;
+use crate::handoff::{Capabilities, Need, Vertical};
 use world::ranges::Positive;
 
 /// Heights and speeds, each with the path of its field below the strategy.
@@ -17,7 +17,42 @@ pub struct Wishes {
     pub waits: Vec<String>,
 }
 
+/// What a vehicle that holds a depth does without its instrument.
+pub(super) const NO_DEPTH: &str = "cannot hold a depth";
+
 impl Wishes {
+    /// The instruments that guidance and autopilot need to carry them out with a vehicle that can do so much; paths
+    /// below the strategy.
+    #[must_use]
+    pub fn needs(&self, able: &Capabilities) -> Vec<Need> {
+        if *self == Self::default() {
+            return Vec::new();
+        }
+        let mut needs = vec![Need::vital("", "compass", "cannot steer a course")];
+        // A vehicle that holds no height is told so elsewhere.
+        let heights = self
+            .verticals
+            .iter()
+            .filter(|_| able.dives && able.holds_depth);
+        needs.extend(heights.map(|(field, vertical)| match vertical {
+            Vertical::Altitude(_) => Need::vital(field, "altimeter", "cannot hold an altitude"),
+            Vertical::Depth(_) => Need::vital(field, "depth", NO_DEPTH),
+        }));
+        if able.dives && !able.holds_depth {
+            needs.push(Need::vital(
+                "",
+                "depth",
+                "never turns at the depths of its autopilot",
+            ));
+            needs.push(Need::wish(
+                "",
+                "altimeter",
+                "does not turn up before the bed",
+            ));
+        }
+        needs
+    }
+
     /// The demands of a mission at one speed and height.
     pub(super) fn mission(speed_m_s: Positive, vertical: VerticalSpec) -> Self {
         Self {

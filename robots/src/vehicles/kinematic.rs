@@ -12,9 +12,10 @@
 //!
 //! *Deviations:* each step is an exact arc, so a steady turn has its radius U/r at any length of the step. The hull
 //! stays level. Through the water it drifts horizontally with the water's velocity u at its origin; its height it
-//! keeps by itself. In contacts it has the mass and the moment of inertia about the vertical of its URDF, without
-//! added mass, and cannot be tilted. What a contact does to its velocity lasts for that step: then it does again what
-//! its helm asks for, so it stops at a wall or slides along it. It does not rise above the surface.
+//! keeps by itself. In contacts it has no momentum and no friction: they take away what it would go into a wall, and it
+//! slides along the wall and turns as its helm asks for. Where its own turn moves it against something, it gives way and
+//! turns less, by the mass and the moment of inertia about the vertical of its URDF, without added mass; it cannot be
+//! tilted. What a contact does to its velocity lasts for that step. It does not rise above the surface.
 
 use super::files::Files;
 use super::kinematic_spec::{KinematicSpec, Moves};
@@ -97,6 +98,7 @@ impl Kinematic {
                 STIFF_KG_M2,
                 about_vertical,
             )),
+            without_momentum: true,
         }
     }
 

@@ -192,6 +192,68 @@ fn no_wall_lets_it_through() {
     }
 }
 
+/// At full speed into a wall, or into a corner, it keeps its heading control: it turns round to where its helm asks for
+/// and goes there, whichever way that is, at every legal step and also with the water behind it.
+#[test]
+fn it_turns_away_from_a_wall_at_full_speed() {
+    let side = |north_m: f64| {
+        let size_m = [200.0, 1.0, 39.0].map(Positive::new).into();
+        let spec = ObstacleSpec {
+            surface: Default::default(),
+            id: "side".into(),
+            shape: ShapeSpec::Box(BoxShape { size_m }),
+            east_m: Finite::new(-100.0),
+            north_m: Finite::new(north_m),
+            base: Base::OnBed,
+            heading_deg: HeadingDeg::new(90.0),
+        };
+        Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a wall")
+    };
+    for dt_s in [0.02, 0.1, 0.5] {
+        for corner in [None, Some(2.0), Some(-2.0)] {
+            for (heading_deg, asked_deg) in [
+                (90.0, 270.0),
+                (90.0, 250.0),
+                (81.67, 270.0),
+                (85.0, 200.0),
+                (95.0, 340.0),
+                (60.0, 230.0),
+                (120.0, 275.0),
+            ] {
+                let car = vehicle(Moves::ThroughWater, None);
+                let mut physics = Physics::new(dt_s);
+                physics.add_obstacle(&plate(1.0));
+                if let Some(north_m) = corner {
+                    physics.add_obstacle(&side(north_m));
+                }
+                let mut t = start(heading_deg);
+                t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
+                let id = physics.add_body(car.body_spec("car", t));
+                // Pressed against the wall for a while first.
+                let asked = [(10.0, heading_deg), (60.0, asked_deg)];
+                for (for_s, deg) in asked {
+                    for _ in 0..(for_s / dt_s) as u32 {
+                        let error = t.pose.heading().turn_to(Heading::from_deg(deg));
+                        let turn_deg_s = (error / dt_s / DEG).clamp(-10.0, 10.0);
+                        let set = rates(turn_deg_s, 0.0, 1.5);
+                        physics.push(id, car.step(&t, &Vector3::new(0.3, 0.0, 0.0), &set, dt_s));
+                        physics.step();
+                        t = physics.truth(id);
+                        let nose = t.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
+                        assert!(nose.max(t.pose.p_WB.x) < 0.02, "through the wall");
+                    }
+                }
+                let case = format!("{dt_s} s, corner {corner:?}, {heading_deg} to {asked_deg}");
+                let off = t.pose.heading().turn_to(Heading::from_deg(asked_deg)) / DEG;
+                // A course along the wall, or into the side of the corner, is kept while it slides.
+                assert!(off.abs() < 1.0, "{case}: {off} degrees off");
+                let went_m = (t.pose.p_WB.xy() - Vector2::new(-3.0, 0.0)).norm();
+                assert!(went_m > 10.0, "{case}: {went_m} m");
+            }
+        }
+    }
+}
+
 #[test]
 fn its_hull_is_that_of_the_remus() {
     let car = vehicle(Moves::ThroughWater, None);

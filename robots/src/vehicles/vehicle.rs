@@ -98,6 +98,7 @@ impl Vehicle {
             shapes: self.hull.shapes.clone(),
             p_BG: Vector3::new(0.0, 0.0, -c.z_g_m),
             mass: self.equation.whole_mass_flu(),
+            without_momentum: false,
         }
     }
 

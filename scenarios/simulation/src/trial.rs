@@ -4,6 +4,8 @@
 //! read in between. All three give the same run, bit for bit.
 
 mod asking;
+#[cfg(test)]
+mod own_tests;
 mod progress;
 mod watch;
 mod water;

@@ -5,7 +5,8 @@ use super::{golden, pond, refused};
 /// The pond with eyes and with `strategy` in place of the open loop.
 fn pond_with_eyes(strategy: &str) -> String {
     let estimator = "estimator: DeadReckoning(),";
-    let eyes = "sensors: (fluorometer: (), sidescan: (), camera: ()),\n            ";
+    let eyes = "sensors: (fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), sidescan: (), \
+        camera: ()),\n            ";
     let eyed = pond(estimator, &format!("{eyes}{estimator}"));
     let blind = "OpenLoop(table: [(t_s: 0, rpm: 0)], end_s: 1)";
     assert_eq!(eyed.matches(blind).count(), 1);

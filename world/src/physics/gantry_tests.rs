@@ -189,6 +189,7 @@ fn a_body_that_runs_into_the_head_is_named_and_stopped() {
         )],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(3.0, 3.0, 3.0, 0.01, 0.01, 0.01)),
+        without_momentum: false,
     });
     physics.drive(id, at_speed([0.0, 0.0]));
     let mut named = false;

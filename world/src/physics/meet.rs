@@ -7,6 +7,8 @@
 //! *Parameters:* the coefficient of friction.
 //!
 //! *Deviations:* where nothing touched a body, its end of the step is that of its own equation, to the last bit.
+//! A body without momentum (a kinematic vehicle) is first stopped as if it did not turn, and then its turn is resolved:
+//! otherwise the speed that it is told anew in each step would press it against a wall and hold or turn it there.
 //! Velocity that an impulse adds is kept apart from that motion until the end of the step; the forces of the water
 //! include it from the next step on.
 
@@ -15,7 +17,7 @@ use super::course::{Course, Who, note};
 use super::gaps::{Placed, Point};
 use super::impulses::{Row, solve};
 use super::solid::{FRICTION, Physics};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Solids closer than this touch, m.
 const TOUCH_M: f64 = 1e-4;
@@ -80,9 +82,8 @@ impl Physics {
             return undo;
         }
         let inverse = self.inverse_masses(courses);
-        let mut rates: Vec<_> = courses.iter().map(Course::rate).collect();
-        let impulses = solve(rows, &inverse, &mut rates, |row| row.gap_m.max(0.0) / h);
-        note(courses, rows, &impulses, &inverse);
+        let rates: Vec<_> = courses.iter().map(Course::rate).collect();
+        self.stop(courses, rows, &inverse, rates, |row| row.gap_m.max(0.0) / h);
         if rows.iter().any(|row| row.gap_m < -SLACK_M) {
             let smooth: Vec<_> = rows
                 .iter()
@@ -109,9 +110,42 @@ impl Physics {
         let near = self.near(courses, &things, still, 0.0);
         let rows = self.rows(courses, &things, still, &near, TOUCH_M);
         let inverse = self.inverse_masses(courses);
-        let mut rates: Vec<_> = courses.iter().map(|c| c.end + c.gained).collect();
-        let impulses = solve(&rows, &inverse, &mut rates, |_| 0.0);
-        note(courses, &rows, &impulses, &inverse);
+        let rates: Vec<_> = courses.iter().map(|c| c.end + c.gained).collect();
+        self.stop(courses, &rows, &inverse, rates, |_| 0.0);
+    }
+
+    /// Applies the impulses after which the solids of no row approach faster than `fastest` says, m/s.
+    fn stop(
+        &self,
+        courses: &mut [Course],
+        rows: &[Row],
+        inverse: &[Matrix6<f64>],
+        mut rates: Vec<Vector6<f64>>,
+        fastest: impl Fn(&Row) -> f64,
+    ) {
+        let without_momentum: Vec<bool> = courses.iter().map(|c| self.has_no_momentum(c)).collect();
+        let theirs = |row: &&Row| row.on.iter().flatten().any(|(m, _)| without_momentum[*m]);
+        let theirs: Vec<Row> = rows.iter().filter(theirs).cloned().collect();
+        if !theirs.is_empty() {
+            let (mut straight, turning) = (inverse.to_vec(), rates.clone());
+            for m in (0..courses.len()).filter(|m| without_momentum[*m]) {
+                straight[m].fixed_rows_mut::<3>(3).fill(0.0);
+                straight[m].fixed_columns_mut::<3>(3).fill(0.0);
+                rates[m].fixed_rows_mut::<3>(3).fill(0.0);
+            }
+            let impulses = solve(&theirs, &straight, &mut rates, &fastest);
+            note(courses, &theirs, &impulses, &straight);
+            for m in (0..courses.len()).filter(|m| without_momentum[*m]) {
+                let turn = turning[m].fixed_rows::<3>(3);
+                rates[m].fixed_rows_mut::<3>(3).copy_from(&turn);
+            }
+        }
+        let impulses = solve(rows, inverse, &mut rates, fastest);
+        note(courses, rows, &impulses, inverse);
+    }
+
+    fn has_no_momentum(&self, course: &Course) -> bool {
+        matches!(course.who, Who::Body(i) if self.bodies[i].without_momentum)
     }
 
     /// Fixed things.
@@ -209,7 +243,8 @@ impl Physics {
                 Some(thing) => (&thing.placed, thing.on),
                 None => (&still[b - things.len()], None),
             };
-            let slides = on.is_some_and(|(m, _)| matches!(courses[m].who, Who::Gantry(_)));
+            let slides = on.is_some_and(|(m, _)| matches!(courses[m].who, Who::Gantry(_)))
+                || (first.on.iter().chain(&on)).any(|(m, _)| self.has_no_momentum(&courses[*m]));
             for point in first.placed.points(second, n.nearest, reach_m) {
                 let axes_W = axes(&point.normal_W);
                 let share = |on: Option<(usize, usize)>, sign: f64| {

@@ -60,6 +60,7 @@ fn thrown(rng: &mut Stream, shape: Shape, at: Vector3<f64>, v_W: Vector3<f64>) -
         )],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
+        without_momentum: false,
     }
 }
 
@@ -287,6 +288,7 @@ fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
                     )],
                     p_BG: Vector3::zeros(),
                     mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
+                    without_momentum: false,
                 };
                 let mut physics = Physics::new(STEP_S);
                 physics.add_terrain(&Terrain::Level { depth_m: 20.0 }, &area);

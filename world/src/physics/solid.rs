@@ -57,6 +57,9 @@ pub struct BodySpec {
     /// Mass matrix for the velocity of the body's origin and the angular velocity, in body axes, with added mass: kg,
     /// kg m, kg m²; symmetric and positive definite.
     pub mass: Matrix6<f64>,
+    /// Whether it has no momentum: it goes where it is told, contacts stop it without turning it, and it slides along
+    /// them without friction. Only its own turn can turn it against something.
+    pub without_momentum: bool,
 }
 
 /// Identifies a body of one [`Physics`].
@@ -82,6 +85,7 @@ pub(super) struct Body {
     pub(super) p_BG: Vector3<f64>,
     /// Inverse of the mass matrix about the centre of mass.
     pub(super) inverse_mass_G: Matrix6<f64>,
+    pub(super) without_momentum: bool,
     /// Its shapes in body axes.
     pub(super) parts: Vec<(r::Pose, r::SharedShape)>,
     pub(super) reach_m: f64,
@@ -253,6 +257,7 @@ impl Physics {
             free: None,
             p_BG: spec.p_BG,
             inverse_mass_G: to_G * inverse * to_G.transpose(),
+            without_momentum: spec.without_momentum,
             parts,
             reach_m,
             clear: (Vector3::zeros(), 0.0),

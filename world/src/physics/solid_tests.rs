@@ -23,6 +23,7 @@ fn ball(id: &str, x: f64, v: f64) -> BodySpec {
         )],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(10.0, 10.0, 10.0, 0.2, 0.2, 0.2)),
+        without_momentum: false,
     }
 }
 

@@ -28,6 +28,14 @@ impl<K: Kind> Choice<K> {
         self.0.entry().name
     }
 
+    /// Whether it comes from another crate than the program's.
+    #[must_use]
+    pub fn is_own(&self) -> bool {
+        K::built_in()
+            .iter()
+            .all(|row| row.entry.name != self.name())
+    }
+
     /// Its parameters without the name, to be written.
     pub(super) fn parameters(&self) -> Parameters<'_, K::Spec> {
         Parameters(&self.0)

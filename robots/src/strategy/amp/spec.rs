@@ -7,7 +7,7 @@ use super::machine::Amp;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::Setting;
+use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,6 +78,12 @@ impl Listed for AmpSpec {
 impl StrategyParams for AmpSpec {
     fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
         Ok(Box::new(Amp::new(self)?))
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        needs.extend(self.fixes.needs());
+        needs
     }
 
     fn flies_for(&self) -> [bool; 2] {

@@ -2,13 +2,13 @@
 
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
-use super::super::wishes::Wishes;
+use super::super::wishes::{NO_DEPTH, Wishes};
 use super::evade::EvadeSpec;
 use super::machine::MapAndPlan;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
 use crate::error::RobotError;
-use crate::handoff::{BeliefGrid, Setting};
+use crate::handoff::{BeliefGrid, Need, Setting};
 use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -100,6 +100,14 @@ impl StrategyParams for MapAndPlanSpec {
     fn check(&self, setting: &Setting) -> Result<(), RobotError> {
         let cells = self.room.cells(setting)?;
         self.planner.check(&cells, self.room.plane())
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        if !self.room.plane() {
+            needs.push(Need::vital("room", "depth", NO_DEPTH));
+        }
+        needs
     }
 
     fn wishes(&self) -> Wishes {

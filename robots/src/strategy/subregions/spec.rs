@@ -5,7 +5,7 @@ use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::wishes::Wishes;
 use super::machine::Subregions;
 use crate::error::RobotError;
-use crate::handoff::Setting;
+use crate::handoff::{Need, Setting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroU32;
@@ -66,8 +66,9 @@ impl StrategyParams for SubregionsSpec {
         self.search.check(setting)
     }
 
-    fn needs_ranging(&self) -> bool {
-        self.search.needs_ranging()
+    fn needs(&self) -> Vec<Need> {
+        let needs = self.search.needs().into_iter();
+        needs.map(|n| n.within("search")).collect()
     }
 
     fn flies_for(&self) -> [bool; 2] {

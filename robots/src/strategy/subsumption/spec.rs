@@ -1,7 +1,7 @@
 //! Parameters of the subsumption planner.
 
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
-use super::super::survey::SurveySpec;
+use super::super::survey::{BLIND, SurveySpec};
 use super::super::wishes::Wishes;
 use super::eyes::EyesSpec;
 use super::machine::Subsumption;
@@ -9,7 +9,7 @@ use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::Setting;
+use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -95,8 +95,18 @@ impl StrategyParams for SubsumptionSpec {
         Ok(Box::new(Subsumption::new(self, setting)?))
     }
 
-    fn needs_ranging(&self) -> bool {
-        self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_)))
+    fn needs(&self) -> Vec<Need> {
+        let survey = self.survey.as_ref().map(|s| s.needs("survey"));
+        let mut needs = survey.unwrap_or_default();
+        if self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_))) {
+            let so = "sees no obstacle that its Avoid layer could turn away from";
+            needs.push(Need::vital("layers", "ranging", so));
+        }
+        if self.eyes.is_some() {
+            needs.push(Need::vital("eyes", "camera", BLIND));
+        }
+        needs.extend(self.fixes.needs());
+        needs
     }
 
     fn flies_for(&self) -> [bool; 2] {

@@ -5,6 +5,8 @@ mod looks;
 mod machine;
 mod spec;
 
+pub(super) use spec::BLIND;
+
 pub use machine::{PostDeclaration, Progress};
 pub use spec::{AfterDeclaration, CameraPasses, SidescanPasses, SurveySpec, Verify};
 

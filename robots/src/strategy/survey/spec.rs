@@ -1,6 +1,7 @@
 //! Parameters of the time after a declaration.
 
 use crate::error::RobotError;
+use crate::handoff::Need;
 use crate::survey::DetectSpec;
 use crate::vision::VerifierSpec;
 use crate::vision::place::AddUpSpec;
@@ -12,6 +13,9 @@ use world::ranges::{Finite, Positive};
 const MOST_LINES: usize = 32;
 /// Most pictures over a point.
 const MOST_HELD: u32 = 50;
+
+/// What a vehicle with passes for a camera does without one.
+pub(crate) const BLIND: &str = "sees nothing on the passes for it";
 
 /// What follows the declaration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -28,6 +32,15 @@ pub enum AfterDeclaration {
 }
 
 impl AfterDeclaration {
+    /// The instruments that it needs; paths below the strategy.
+    #[must_use]
+    pub fn needs(&self) -> Vec<Need> {
+        match self {
+            Self::Survey(spec) => spec.needs("after_declaration"),
+            Self::GoHome | Self::Stop => Vec::new(),
+        }
+    }
+
     /// Whether passes are flown for sidescan and camera.
     #[must_use]
     pub fn flies_for(&self) -> [bool; 2] {
@@ -53,6 +66,28 @@ pub struct SurveySpec {
 }
 
 impl SurveySpec {
+    /// The instruments that it needs; paths below `path`.
+    #[must_use]
+    pub fn needs(&self, path: &str) -> Vec<Need> {
+        let far = "never knows how far the bed is that it looks at";
+        let mut needs = Vec::new();
+        if self.sidescan.is_some() {
+            needs.push(Need::vital(
+                "sidescan",
+                "sidescan",
+                "hears nothing on the passes for it",
+            ));
+            needs.push(Need::vital("sidescan", "altimeter", far));
+        }
+        if let Some(camera) = &self.camera {
+            needs.push(Need::vital("camera", "camera", BLIND));
+            if camera.add_up.is_some() {
+                needs.push(Need::vital("camera.add_up", "altimeter", far));
+            }
+        }
+        needs.into_iter().map(|n| n.within(path)).collect()
+    }
+
     /// Whether passes are flown for sidescan and camera.
     #[must_use]
     pub fn flies_for(&self) -> [bool; 2] {

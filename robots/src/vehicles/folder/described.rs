@@ -189,6 +189,7 @@ impl Described {
             shapes: self.shell.shapes.clone(),
             p_BG: Vector3::new(r_G.x, -r_G.y, -r_G.z),
             mass: self.equation.whole_mass_flu(),
+            without_momentum: false,
         }
     }
 

@@ -21,8 +21,8 @@ use robots::estimate::{Estimator, Start};
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
-    Setting, Vertical,
+    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre,
+    Readings, Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Battery;
@@ -168,6 +168,8 @@ fn spawn(
         (
             Searching {
                 strategy,
+                name: spec.strategy.name(),
+                bounds: Bounds::of(spec.strategy.is_own()),
                 rng: Box::new(Stream::new(seed, id, "strategy")),
             },
             Briefing {

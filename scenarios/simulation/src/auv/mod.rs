@@ -17,7 +17,7 @@ pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 use crate::frame::Heard;
 use bevy_ecs::prelude::{Component, Entity, Resource};
 use nalgebra::Vector2;
-use robots::handoff::{Capabilities, ChemicalReading};
+use robots::handoff::{Bounds, Capabilities, ChemicalReading};
 use robots::map::Mapper;
 use robots::strategy::Strategy;
 use robots::vehicles::Craft;
@@ -49,6 +49,10 @@ pub struct Hull {
 pub struct Searching {
     /// The strategy.
     pub strategy: Box<dyn Strategy>,
+    /// Its name in scenarios.
+    pub name: &'static str,
+    /// Within what its numbers must lie.
+    pub bounds: Bounds,
     /// Its random numbers. Apart, because few strategies draw any.
     pub rng: Box<Stream>,
 }

@@ -128,6 +128,7 @@ pub(crate) fn ask(
 }
 
 type Deciding<'a> = (
+    &'a SearcherId,
     Perceived<'a>,
     &'a mut Searching,
     &'a mut Decision,
@@ -135,11 +136,20 @@ type Deciding<'a> = (
 );
 
 pub(crate) fn decide(mut robots: Query<Deciding>) {
-    for (parts, mut searching, mut decision, consulting) in &mut robots {
+    for (id, parts, mut searching, mut decision, consulting) in &mut robots {
         let told = consulting.and_then(|mut c| c.take_told());
         let seen = observation(parts, told);
         let searching = &mut *searching;
         *decision = searching.strategy.step(&seen, &mut searching.rng);
+        let fault = decision.fault(searching.bounds);
+        assert!(
+            fault.is_none(),
+            "robot \"{}\": its strategy {} decided what nobody can carry out at {} s: {}; correct the strategy",
+            id.name,
+            searching.name,
+            seen.t_s,
+            fault.unwrap_or_default()
+        );
     }
 }
 

@@ -5,8 +5,8 @@ use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{Component, Entity, Resource, World};
 use robots::handoff::{
-    Answer, ChemicalReading, Consulted, HeadOrder, Manoeuvre, MoveOrder, Order, Picture, ProbeScan,
-    RangeScan, Readings, SidescanPing, Told, Vertical,
+    Answer, Bounds, ChemicalReading, Consulted, Order, Picture, ProbeScan, RangeScan, Readings,
+    SidescanPing, Told,
 };
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -149,8 +149,8 @@ impl Consulting {
 
     fn fault(&self, answer: &Answer) -> Option<String> {
         let fault = match (&answer.order, self.drives) {
-            (Some(Order::Move(order)), Some(drives)) => fault_of_move(order, drives),
-            (Some(Order::Head(order)), None) => fault_of_head(order),
+            (Some(Order::Move(order)), Some(drives)) => order.fault(drives),
+            (Some(Order::Head(order)), None) => order.fault(Bounds::OWN),
             (Some(Order::Move(_)), None) => {
                 Some("it is an order for a robot: a gantry takes `head`".to_string())
             }
@@ -160,9 +160,7 @@ impl Consulting {
             ),
             (None, _) => None,
         };
-        let place = answer.declared.as_ref().map(|d| d.position);
-        let placed = || place.and_then(|p| fault_of("declare.position_m", &[p.x, p.y], FAR_M));
-        fault.or_else(placed)
+        fault.or_else(|| answer.declared.and_then(|d| d.fault(Bounds::OWN)))
     }
 }
 
@@ -182,90 +180,6 @@ impl Kept {
             Kept::Robot(_) => HeadGathered::default(),
         }
     }
-}
-
-/// Farther no place of a scenario is from its datum, m.
-const FAR_M: f64 = 1e6;
-/// No vehicle is faster, m/s.
-const FAST_M_S: f64 = 100.0;
-
-fn fault_of(field: &str, values: &[f64], most: f64) -> Option<String> {
-    let wrong = values.iter().find(|v| !(v.abs() <= most))?;
-    Some(format!("`{field}` must be within ±{most}, got {wrong}"))
-}
-
-fn fault_of_move(order: &MoveOrder, drives: usize) -> Option<String> {
-    let manoeuvre = match &order.manoeuvre {
-        Manoeuvre::GoToPoint { point, radius_m } => {
-            let radius = radius_m.filter(|m| !(*m > 0.0 && *m <= FAR_M));
-            let radius =
-                radius.map(|m| format!("`radius_m` must be above 0 and at most {FAR_M}, got {m}"));
-            radius.or_else(|| fault_of("point_m", point.as_slice(), FAR_M))
-        }
-        Manoeuvre::SlideTo {
-            point,
-            heading,
-            radius_m,
-        } => {
-            let radius = radius_m.filter(|m| !(*m > 0.0 && *m <= FAR_M));
-            let radius =
-                radius.map(|m| format!("`radius_m` must be above 0 and at most {FAR_M}, got {m}"));
-            radius.or_else(|| fault_of("point_m", &[point.x, point.y, heading.rad()], FAR_M))
-        }
-        Manoeuvre::FollowLine { from, to } => {
-            fault_of("from_m, to_m", &[from.x, from.y, to.x, to.y], FAR_M)
-        }
-        Manoeuvre::GoToPointWithHeading { point, heading } => fault_of(
-            "point_m, heading_rad",
-            &[point.x, point.y, heading.rad()],
-            FAR_M,
-        ),
-        Manoeuvre::Hold { point, heading } => {
-            let heading = heading.map_or(0.0, |h| h.rad());
-            fault_of("point_m, heading_rad", &[point.x, point.y, heading], FAR_M)
-        }
-        Manoeuvre::Course { course: heading } | Manoeuvre::Steer { heading } => {
-            fault_of("heading_rad", &[heading.rad()], FAR_M)
-        }
-        Manoeuvre::Slide {
-            heading,
-            over_ground_m_s: v,
-        } => fault_of("heading_rad", &[heading.rad()], FAR_M)
-            .or_else(|| fault_of("velocity_m_s", &[v.x, v.y], FAST_M_S)),
-        Manoeuvre::Drives(set) if set.all().len() != drives => Some(format!(
-            "`drives` must have a set-point for each of the vehicle's {drives} drives, got {}",
-            set.all().len()
-        )),
-        Manoeuvre::Drives(set) => fault_of("drives", set.all(), FAR_M),
-        Manoeuvre::Direct {
-            rudder_rad,
-            stern_rad,
-            rpm,
-        } => fault_of("direct", &[*rudder_rad, *stern_rad, *rpm], FAR_M),
-    };
-    let vertical = order.vertical.and_then(|v| {
-        let (field, m) = match v {
-            Vertical::Depth(m) => ("depth_m", m),
-            Vertical::Altitude(m) => ("altitude_m", m),
-        };
-        let wrong = !(0.0..=FAR_M).contains(&m);
-        wrong.then(|| format!("`{field}` must be from 0 to {FAR_M}, got {m}"))
-    });
-    let speed = order.speed_m_s.and_then(|m_s| {
-        let wrong = !(0.0..=FAST_M_S).contains(&m_s);
-        wrong.then(|| format!("`speed_m_s` must be from 0 to {FAST_M_S}, got {m_s}"))
-    });
-    manoeuvre.or(vertical).or(speed)
-}
-
-fn fault_of_head(order: &HeadOrder) -> Option<String> {
-    let speed = order.speed_m_s.and_then(|v| {
-        let slow = v.iter().find(|v| !(**v > 0.0 && **v <= FAST_M_S))?;
-        Some(format!(
-            "`speed_m_s` must be above 0 and at most {FAST_M_S}, got {slow}"
-        ))
-    });
-    speed.or_else(|| fault_of("target_m", order.target_m.as_slice(), FAR_M))
 }
 
 /// The true state of a robot that asks; `None` for a gantry.

@@ -13,7 +13,7 @@ use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
-use robots::handoff::{GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
+use robots::handoff::{Bounds, GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
 use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use world::catalogue::Entry;
@@ -94,6 +94,8 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
         GantryReadings::default(),
         Searcher {
             strategy,
+            name: block.tracker.name(),
+            bounds: Bounds::of(block.tracker.is_own()),
             rng: Stream::new(seed, id, "tracker"),
             stopped_s: None,
         },

@@ -11,7 +11,7 @@ use crate::searchers::{SearcherId, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::handoff::{
-    Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
+    Bounds, Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
 };
 use robots::sense::Probes;
 use robots::track::GantryStrategy;
@@ -62,6 +62,10 @@ impl Head {
 pub(crate) struct Searcher {
     /// What decides.
     pub strategy: Box<dyn GantryStrategy>,
+    /// Its name in scenarios.
+    pub name: &'static str,
+    /// Within what its numbers must lie.
+    pub bounds: Bounds,
     /// Its random numbers.
     pub rng: Stream,
     /// When it stopped, s.
@@ -117,6 +121,7 @@ pub(crate) fn ask(
 }
 
 type Tracking<'a> = (
+    &'a SearcherId,
     &'a GantryReadings,
     &'a mut Searcher,
     &'a mut GantryDecision,
@@ -124,7 +129,7 @@ type Tracking<'a> = (
 );
 
 pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
-    for (readings, mut searcher, mut decision, consulting) in &mut gantries {
+    for (id, readings, mut searcher, mut decision, consulting) in &mut gantries {
         let seen = GantryObservation {
             t_s: clock.t_s(),
             readings: *readings,
@@ -132,6 +137,15 @@ pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
         };
         let searcher = &mut *searcher;
         *decision = searcher.strategy.step(&seen, &mut searcher.rng);
+        let fault = decision.fault(searcher.bounds);
+        assert!(
+            fault.is_none(),
+            "gantry \"{}\": its tracker {} decided what nobody can carry out at {} s: {}; correct the tracker",
+            id.name,
+            searcher.name,
+            seen.t_s,
+            fault.unwrap_or_default()
+        );
         if decision.stopped.is_some() {
             searcher.stopped_s.get_or_insert(seen.t_s);
         }

@@ -78,20 +78,20 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         let vehicle = parts(i, robot, step_s, base_dir, &mut found);
         let limit_s = scenario.time.limit_s.get();
         check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
-        if let Some(vehicle) = vehicle {
+        if let Some(vehicle) = &vehicle {
             let place = check_view::Place {
                 area: &area,
                 terrain: &terrain,
                 obstacles: &obstacles,
             };
             if fits {
-                check_view::view(i, robot, &vehicle, &place, &mut found);
+                check_view::view(i, robot, vehicle, &place, &mut found);
             }
             let p_W = robot.start.p_W(&terrain);
             let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
                 .map_or(0.0, |w| w.velocity_without_eddies(&p_W, 0.0).norm());
-            check_able::speeds(i, robot, &vehicle, water_m_s, &mut found);
-            check_able::capabilities(i, robot, &vehicle, step_s, &mut found);
+            check_able::speeds(i, robot, vehicle, water_m_s, &mut found);
+            check_able::capabilities(i, robot, vehicle, step_s, &mut found);
         }
         let setting = robot.setting(&area, &terrain, &obstacles);
         let path = format!("robots[{i}].chart");
@@ -99,8 +99,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         if fits {
             mind(i, robot, &setting, &mut found);
         }
-        check_fitted::fitted(i, robot, &mut found);
-        check_fitted::blind(i, robot, &mut found);
+        check_fitted::fitted(i, robot, vehicle.as_ref(), &mut found);
     }
     check_berth::berths(&scenario.robots, &terrain, &mut found);
     let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
@@ -254,20 +253,6 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) 
     }
     if let Err(e) = robot.strategy.build(setting) {
         found.push(robot_error(&path, "strategy", e));
-    }
-    let [sidescan, camera] = robot.strategy.flies_for();
-    let lacks = [
-        ("sidescan", sidescan && !robot.sensors.has("sidescan")),
-        ("camera", camera && !robot.sensors.has("camera")),
-    ];
-    for (name, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
-        let problem = format!(
-            "robot \"{}\" flies a survey for its {name}, but has none",
-            robot.id.as_str()
-        );
-        let hint = format!("fit one, as in `sensors: ({name}: ())`, or leave out its passes");
-        let field = format!("{path}.strategy");
-        found.push(Found::error(field, problem).hint(&hint));
     }
 }
 

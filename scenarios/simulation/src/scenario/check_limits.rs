@@ -119,6 +119,10 @@ pub(super) fn speeds(
     let middle = scenario.area.build().centre;
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
     for p in starts.chain([middle]) {
+        if let Some(problem) = water.fault(p.xy(), 0.0) {
+            found.push(Found::error("water.currents", problem));
+            return;
+        }
         let speed = water.velocity_without_eddies(&p, 0.0).norm();
         // This form also refuses what is not a number.
         if !(speed <= FASTEST_M_S) {

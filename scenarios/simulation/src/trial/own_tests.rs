@@ -1,0 +1,245 @@
+//! Numbers of strategies, sensors and currents of other crates that nobody can use.
+
+use super::{Trial, Unwatched};
+use crate::lanes::caught;
+use crate::scenario::{check, load_text, template};
+use nalgebra::Vector2;
+use plumes::error::PlumeError;
+use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
+use robots::error::RobotError;
+use robots::handoff::{
+    Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings,
+    Setting, Vertical,
+};
+use robots::sense::{Around, Fitting, Sensor, SensorParams, Sensors};
+use robots::strategy::{Strategies, Strategy, StrategyParams};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use world::catalogue::Entry;
+use world::registry::{Listed, Registry};
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// Which number is bad, and how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+enum Bad {
+    #[default]
+    Fine,
+    SpeedNan,
+    SpeedNegative,
+    SpeedHuge,
+    CourseNan,
+    DeclaredNan,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Wild {
+    bad: Bad,
+}
+
+impl Listed for Wild {
+    const ENTRY: Entry = Entry {
+        name: "Wild",
+        what: "decides nonsense",
+        source: "a test",
+    };
+}
+
+impl StrategyParams for Wild {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl Strategy for Wild {
+    fn step(&mut self, seen: &Observation, _: &mut Stream) -> Decision {
+        let nan = f64::NAN;
+        let course = match self.bad {
+            Bad::CourseNan => Heading::from_rad(nan),
+            _ => Heading::from_deg(270.0),
+        };
+        let goal = Goal {
+            id: 1,
+            manoeuvre: Manoeuvre::Course { course },
+            vertical: Vertical::Depth(5.0),
+            speed_m_s: match self.bad {
+                Bad::SpeedNan => nan,
+                Bad::SpeedNegative => -3.0,
+                Bad::SpeedHuge => 1e9,
+                _ => 1.5,
+            },
+        };
+        let declares = self.bad == Bad::DeclaredNan;
+        Decision {
+            declared: declares
+                .then(|| Declaration::first(seen.t_s, Vector2::new(0.0, nan), "wild")),
+            ..Decision::new(Behaviour::Other("wild"), goal)
+        }
+    }
+}
+
+/// A depth sensor that says nothing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Mute {}
+
+impl Listed for Mute {
+    const ENTRY: Entry = Entry {
+        name: "mute",
+        what: "a depth that is no number",
+        source: "a test",
+    };
+}
+
+impl SensorParams for Mute {
+    fn build(&self, _: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        Ok(Box::new(self.clone()))
+    }
+
+    fn stands_for(&self) -> &'static [&'static str] {
+        &["depth"]
+    }
+}
+
+impl Sensor for Mute {
+    fn sense(&mut self, _: &Around, readings: &mut Readings) {
+        readings.depth = Some(DepthReading { depth_m: f64::NAN });
+    }
+}
+
+/// A current that bursts at some time, or always has.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Burst {
+    at_s: f64,
+}
+
+impl Listed for Burst {
+    const ENTRY: Entry = Entry {
+        name: "Burst",
+        what: "faster than any water",
+        source: "a test",
+    };
+}
+
+impl CurrentParams for Burst {
+    fn join(&self, water: &mut Water, _: &Place) -> Result<(), PlumeError> {
+        water.add(Arc::new(self.clone()));
+        Ok(())
+    }
+
+    fn is_steady(&self) -> bool {
+        false
+    }
+}
+
+impl PlaneCurrent for Burst {
+    fn velocity(&self, _: Vector2<f64>, t_s: f64) -> Vector2<f64> {
+        Vector2::new(if t_s >= self.at_s { 1e6 } else { 0.1 }, 0.0)
+    }
+}
+
+/// What a run of two seconds says at its end; empty if it comes to it.
+fn said(changes: &[(&str, &str)]) -> String {
+    let registry = (Registry::default().with::<Strategies, Wild>())
+        .and_then(|r| r.with::<Sensors, Mute>())
+        .and_then(|r| r.with::<Currents, Burst>())
+        .expect("new names");
+    let mut text = template("uniform_channel")
+        .expect("in the catalogue")
+        .text
+        .to_string();
+    let short = [
+        (
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 20, limit_s: 2",
+        ),
+        (
+            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+            "Wild(bad: Fine)",
+        ),
+    ];
+    for (from, to) in short.iter().chain(changes) {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        text = text.replace(from, to);
+    }
+    let loaded = match load_text(&registry, "wild", &text) {
+        Ok(loaded) => loaded,
+        Err(e) => return e.lines().join("\n"),
+    };
+    let found = check(&loaded.scenario, &loaded.base_dir);
+    if let Some(told) = found
+        .iter()
+        .find(|f| f.severity == crate::scenario::Severity::Error)
+    {
+        return format!("{}: {}", told.path, told.message);
+    }
+    caught(|| {
+        let mut trial = Trial::assemble(&loaded, 1).expect("legal");
+        trial.run(&mut Unwatched);
+    })
+    .err()
+    .unwrap_or_default()
+}
+
+#[test]
+fn what_a_strategy_decides_is_checked_and_the_strategy_named() {
+    assert_eq!(said(&[]), "");
+    for (bad, fault) in [
+        ("SpeedNan", "`speed_m_s` must be from 0 to 100, got NaN"),
+        ("SpeedNegative", "`speed_m_s` must be from 0 to 100, got -3"),
+        (
+            "SpeedHuge",
+            "`speed_m_s` must be from 0 to 100, got 1000000000",
+        ),
+        (
+            "CourseNan",
+            "`heading_rad` must be within ±1000000, got NaN",
+        ),
+        (
+            "DeclaredNan",
+            "`declare.position_m` must be within ±1000000, got NaN",
+        ),
+    ] {
+        assert_eq!(
+            said(&[("bad: Fine", &format!("bad: {bad}"))]),
+            format!(
+                "robot \"auv0\": its strategy Wild decided what nobody can carry out at 0 s: {fault}; correct the \
+                 strategy"
+            )
+        );
+    }
+}
+
+#[test]
+fn what_a_sensor_reads_is_checked_and_the_sensor_named() {
+    // It stands for the depth sensor, so that none is missed.
+    assert_eq!(
+        said(&[("depth: (), ", "mute: (), ")]),
+        "robot \"auv0\": its sensor mute gave a reading that says nothing at 0 s: `depth.depth_m` must be within \
+         ±1000000000, got NaN; correct the sensor"
+    );
+}
+
+#[test]
+fn a_current_faster_than_any_water_ends_the_run_and_is_named() {
+    let with = |burst: &str| said(&[("currents: [", &format!("currents: [{burst}, "))]);
+    assert_eq!(with("Burst(at_s: 1e9)"), "");
+    // From the start it is refused with the scenario, and otherwise where the water is asked.
+    let refused = with("Burst(at_s: 0)");
+    assert!(
+        refused.contains("water.currents: the current Burst flows at (1000000, 0) m/s"),
+        "{refused}"
+    );
+    let ended = with("Burst(at_s: 10)");
+    assert!(
+        ended.starts_with("the current Burst flows at (1000000, 0) m/s"),
+        "{ended}"
+    );
+    assert!(
+        ended.ends_with("both must be within ±15; correct the current"),
+        "{ended}"
+    );
+}
