@@ -133,4 +133,16 @@ fn frames_carry_what_goes_wrong_and_nothing_else() {
         dive.contains(&"touched the bed or an obstacle".to_string()),
         "{dive:?}"
     );
+    // Two that run into each other head on, far from the bed and from any obstacle.
+    let ahead = "OpenLoop(table: [(t_s: 0, rpm: 1500)], end_s: 100)";
+    let facing = |id: &str, east_m: i32, heading_deg: i32| {
+        format!(
+            "(id: \"{id}\", vehicle: Kinematic(moves: OverGround), estimator: DeadReckoning(), strategy: {ahead}, \
+             start: (east_m: {east_m}, north_m: 40, depth_m: 4, heading_deg: {heading_deg})),"
+        )
+    };
+    let two = format!("robots: [{}{}", facing("a", 50, 90), facing("b", 60, 270));
+    let brief = ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 1, limit_s: 8");
+    let met = ends(&[brief, ("robots: [", &two)]);
+    assert_eq!(met, ["touched another vehicle"; 2]);
 }

@@ -26,6 +26,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 #[serde(deny_unknown_fields)]
 pub struct SourceSpec {
     /// Name, unique in the scenario.
+    #[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
     pub id: String,
     /// East of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]

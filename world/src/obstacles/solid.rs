@@ -135,6 +135,19 @@ impl Obstacle {
         (from_parry(b.mins), from_parry(b.maxs))
     }
 
+    /// Its least and its greatest horizontal extent along its own axes, m.
+    #[must_use]
+    pub fn plan_m(&self) -> [f64; 2] {
+        let half = from_parry(self.shape.compute_local_aabb().half_extents());
+        let upright = |axis: usize| (self.pose.R_WB * Vector3::ith(axis, 1.0)).z.abs() > 0.5;
+        let flat = (0..3)
+            .filter(|axis| !upright(*axis))
+            .map(|axis| 2.0 * half[axis]);
+        flat.fold([f64::INFINITY, 0.0], |[least, most], m| {
+            [least.min(m), most.max(m)]
+        })
+    }
+
     /// Distance along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first hit within
     /// `max_m`, m; zero if it starts inside.
     #[must_use]

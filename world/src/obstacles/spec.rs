@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct ObstacleSpec {
     /// Name, unique in the scenario.
+    #[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
     pub id: String,
     /// Its shape.
     pub shape: ShapeSpec,

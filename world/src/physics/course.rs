@@ -207,6 +207,10 @@ pub(super) fn note(
     inverse: &[Matrix6<f64>],
 ) {
     for (row, impulse) in rows.iter().zip(impulses) {
+        let bodies = row.on.iter().all(|on| {
+            let who = on.as_ref().map(|(m, _)| courses[*m].who);
+            matches!(who, Some(Who::Body(_)))
+        });
         let total: Vector3<f64> = (row.axes_W.iter().zip(impulse)).map(|(a, i)| a * *i).sum();
         for (side, (m, by)) in row
             .on
@@ -228,6 +232,7 @@ pub(super) fn note(
             course.moved = true;
             let sign = if side == 0 { 1.0 } else { -1.0 };
             let contact = &mut course.contact;
+            contact.only_bodies = bodies && (contact.only_bodies || !contact.touching);
             contact.touching = true;
             contact.impulse_N_s += total * sign;
             contact.max_penetration_m = contact.max_penetration_m.max(-row.gap_m);

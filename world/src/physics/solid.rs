@@ -71,6 +71,8 @@ pub struct BodyId(pub(super) usize);
 pub struct ContactReport {
     /// Whether anything pushed back.
     pub touching: bool,
+    /// Whether that was another body that moves freely, and nothing else.
+    pub only_bodies: bool,
     /// Deepest overlap in the step, m.
     pub max_penetration_m: f64,
     /// Impulse on the body, world axes, N s.

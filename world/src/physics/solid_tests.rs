@@ -122,3 +122,29 @@ fn a_state_that_is_not_finite_is_named() {
     physics.push(id, free);
     physics.step();
 }
+
+#[test]
+fn who_touched_is_told_apart() {
+    let mut physics = Physics::new(STEP_S);
+    wall(&mut physics);
+    let [a, b] = [ball("a", 0.0, 1.0), ball("b", 0.9, -1.0)].map(|spec| physics.add_body(spec));
+    let c = physics.add_body(ball("c", -9.0, 0.0));
+    let mut met = false;
+    for _ in 0..50 {
+        physics.step();
+        let [a, b] = [a, b].map(|id| physics.contacts(id));
+        met |= a.touching && b.touching;
+        assert_eq!([a.only_bodies, b.only_bodies], [a.touching, b.touching]);
+    }
+    assert!(met);
+    // A wall is no body, and a body at the same time changes nothing of that.
+    physics.set_truth(c, ball("c", 2.5, 3.0).truth);
+    let mut met = false;
+    for _ in 0..50 {
+        physics.step();
+        let contact = physics.contacts(c);
+        met |= contact.touching;
+        assert!(!contact.only_bodies);
+    }
+    assert!(met);
+}

@@ -25,6 +25,8 @@ use super::dynamics::turned;
 use nalgebra::{Matrix6, Vector3};
 use text::{Node, Report, elements, is_xacro, name};
 
+pub(super) use uuv::SURFACE;
+
 /// Coefficients of a body's equation of motion about the origin of its link, in body axes forward, left, up.
 ///
 /// With ν the velocity through the water (m/s, rad/s), the water's force on the body is

@@ -221,7 +221,8 @@ fn what_is_ignored_is_told() {
         ),
         (
             "<metacentric_width>0.3</metacentric_width>",
-            "<metacentric_width>: ignored: surface vessels are not supported; the body is taken as under water",
+            "<metacentric_width>: ignored: the body is taken as under water; `floats: true` takes it as a craft on the \
+             surface",
         ),
         (
             "<offset_volume>0.3</offset_volume>",

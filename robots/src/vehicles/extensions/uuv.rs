@@ -16,15 +16,16 @@
 //!
 //! *Deviations:* `<added_mass>` may have 6 numbers, which uuv_simulator refuses. Of `<quadratic_damping>` only the
 //! diagonal is read, as there. Water has no default density (there: 1028 kg/m³). Hydrodynamics computed from a shape
-//! (`sphere`, `cylinder`, `spheroid`, `box`) and surface vessels are not read.
+//! (`sphere`, `cylinder`, `spheroid`, `box`) and the terms of surface vessels are not read.
 
 use super::text::{Node, Report, Use, elements, name, quote};
 use super::{FossenBlocks, asymmetric, entries, negated, turned};
 use nalgebra::{Matrix6, Vector3};
 
 const IGNORED: &str = "ignored: uuv_simulator has no such element";
-const SURFACE: &str =
-    "ignored: surface vessels are not supported; the body is taken as under water";
+/// Of what is of no use to a hull under water. One that floats does so by its volume and its shapes.
+pub(in crate::vehicles) const SURFACE: &str =
+    "ignored: the body is taken as under water; `floats: true` takes it as a craft on the surface";
 const SERVICE: &str = "ignored, as in uuv_simulator, where only a service can set it while it runs";
 const SHAPES: [&str; 4] = ["sphere", "cylinder", "spheroid", "box"];
 

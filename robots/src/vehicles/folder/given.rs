@@ -10,7 +10,7 @@ use super::blocks::Damping;
 use super::hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec};
 use crate::error::RobotError;
 use crate::vehicles::dynamics::turned;
-use crate::vehicles::extensions;
+use crate::vehicles::extensions::{self, SURFACE};
 use crate::vehicles::urdf_parts::UrdfText;
 use nalgebra::{Matrix6, Vector3};
 
@@ -82,7 +82,9 @@ pub(super) fn given(
             ));
         }
         (true, Some(found)) => {
-            told.extend(found.doubts);
+            // A craft that floats is none under water.
+            let afloat = |doubt: &String| spec.floats && doubt.ends_with(SURFACE);
+            told.extend(found.doubts.into_iter().filter(|doubt| !afloat(doubt)));
             let from_urdf = [found.linear, found.quadratic, found.forward];
             for (block, found) in damping.iter_mut().zip(from_urdf) {
                 block.get_or_insert_with(|| turned(&found));
@@ -107,4 +109,45 @@ pub(super) fn given(
         given.damping.forward,
     ] = damping.map(|block| block.unwrap_or_else(Matrix6::zeros));
     Ok(given)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::files::InMemory;
+    use super::*;
+    use std::path::Path;
+
+    /// A craft of a vehicle.ron, with an element of uuv_simulator that is only for the surface.
+    #[test]
+    fn what_floats_is_not_doubted_to_be_a_surface_vessel() {
+        let urdf = "<robot name=\"boat\"><link name=\"boat\"/><gazebo>\
+            <plugin filename=\"libuuv_underwater_object_ros_plugin.so\" name=\"p\"><link name=\"boat\">\
+            <volume>0.1</volume><metacentric_width>0.3</metacentric_width>\
+            <hydrodynamic_model><type>fossen</type><added_mass>1 1 1 1 1 1</added_mass>\
+            <linear_damping>-1 -2 -3 -4 -5 -6</linear_damping></hydrodynamic_model>\
+            </link></plugin></gazebo></robot>";
+        let files = InMemory::default().with("boat.urdf", urdf.as_bytes());
+        let text = UrdfText::open_at(Path::new("boat.urdf"), &files).expect("there");
+        let told = |floats| {
+            let spec = HydrodynamicsSpec {
+                axes: Axes::Flu,
+                from_urdf: true,
+                volume_m3: None,
+                centre_of_buoyancy_m: None,
+                added_mass: None,
+                linear_damping: None,
+                quadratic_damping: None,
+                forward_damping: None,
+                density_kg_m3: world::ranges::Positive::new(1025.0),
+                gravity_m_s2: world::ranges::Positive::new(9.8),
+                floats,
+            };
+            let mut told = Vec::new();
+            given(&spec, &text, 50.0, &mut told).expect("legal");
+            told.into_iter()
+                .filter(|t| t.contains("metacentric"))
+                .count()
+        };
+        assert_eq!((told(false), told(true)), (1, 0));
+    }
 }

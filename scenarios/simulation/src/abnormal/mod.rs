@@ -42,6 +42,8 @@ pub enum Abnormality {
     NoFlow,
     /// It touched the bed or an obstacle.
     Touched,
+    /// It touched another vehicle.
+    TouchedVehicle,
     /// A thruster was at its limit: it could not give the force that was asked for.
     ThrustersSaturated,
     /// Its battery was empty.
@@ -52,12 +54,13 @@ pub enum Abnormality {
 
 impl Abnormality {
     /// Those that are watched for; faults are known beforehand.
-    pub const WATCHED: [Self; 7] = [
+    pub const WATCHED: [Self; 8] = [
         Self::LeftArea,
         Self::NoBottomLock,
         Self::NoAltitude,
         Self::NoFlow,
         Self::Touched,
+        Self::TouchedVehicle,
         Self::ThrustersSaturated,
         Self::BatteryEmpty,
     ];
@@ -71,6 +74,7 @@ impl Abnormality {
             Self::NoAltitude => "no altitude",
             Self::NoFlow => "no flow",
             Self::Touched => "touched the bed or an obstacle",
+            Self::TouchedVehicle => "touched another vehicle",
             Self::ThrustersSaturated => "thrusters saturated",
             Self::BatteryEmpty => "battery empty",
             Self::Fault => "fault",
@@ -80,7 +84,11 @@ impl Abnormality {
     /// How long it must last to count, s.
     fn patience_s(self) -> f64 {
         match self {
-            Self::LeftArea | Self::Touched | Self::BatteryEmpty | Self::Fault => 0.0,
+            Self::LeftArea
+            | Self::Touched
+            | Self::TouchedVehicle
+            | Self::BatteryEmpty
+            | Self::Fault => 0.0,
             Self::ThrustersSaturated => STRAINED_S,
             Self::NoBottomLock | Self::NoAltitude | Self::NoFlow => BLIND_S,
         }

@@ -5,8 +5,8 @@ use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
-    check_able, check_berth, check_faults, check_fitted, check_limits, check_obstacles,
-    check_sources, check_steps, check_times, check_view, cost,
+    check_able, check_berth, check_faults, check_fitted, check_limits, check_noise,
+    check_obstacles, check_sources, check_steps, check_times, check_view, cost,
 };
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -100,6 +100,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             mind(i, robot, &setting, &mut found);
         }
         check_fitted::fitted(i, robot, vehicle.as_ref(), &mut found);
+        check_noise::fluorometer(i, robot, &mut found);
     }
     check_berth::berths(&scenario.robots, &terrain, &mut found);
     let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
@@ -107,6 +108,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     for (i, gantry) in scenario.gantries.iter().enumerate() {
         let step_s = scenario.time.step_s.get();
         super::check_gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
+        check_noise::probes(i, gantry, &mut found);
         if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
             let problem = format!(
                 "\"{}\" is already the name of robots[{robot}]",

@@ -106,6 +106,25 @@ pub(super) fn blockage(
     };
     match spec.unfelt(area, terrain, obstacles, scenario.water.is_walled()) {
         Ok(thin) => {
+            let cell_m = spec.cell_m.get();
+            let felt = (obstacles.0.iter().enumerate()).filter(|(n, _)| !thin.contains(n));
+            for (_, o) in felt {
+                // What is thin and long is a wall; a pile only becomes as thick as a cell.
+                let [thick_m, long_m] = o.plan_m();
+                if thick_m < cell_m && long_m > 2.0 * cell_m {
+                    found.push(
+                        Found::warning(
+                            "water.blockage.cell_m",
+                            format!(
+                                "obstacle \"{}\" is {thick_m:.2} m thick, less than a cell of {cell_m} m: water flows \
+                                 through it where it lies between the centres of the cells",
+                                o.id
+                            ),
+                        )
+                        .hint("use cells no larger than it is thick, or make it thicker"),
+                    );
+                }
+            }
             for o in thin.iter().filter_map(|n| obstacles.0.get(*n)) {
                 found.push(
                     Found::warning(
@@ -182,6 +201,23 @@ mod tests {
             ]
         );
         assert_eq!(said(&pile, "blockage: (cell_m: 0.001),").len(), 1);
+    }
+
+    #[test]
+    fn a_wall_thinner_than_a_cell_is_told() {
+        let wall = |size: &str| {
+            said(
+                &format!(
+                    "(id: \"wall\", shape: Box(size_m: {size}), east_m: 0, north_m: 0, heading_deg: 60)"
+                ),
+                "blockage: (cell_m: 4),",
+            )
+        };
+        let thin = "water.blockage.cell_m: obstacle \"wall\" is 0.50 m thick, less than a cell of 4 m: water flows \
+                    through it where it lies between the centres of the cells";
+        assert_eq!(wall("(0.5, 60, 9)"), [thin]);
+        assert_eq!(wall("(60, 0.5, 9)"), [thin]);
+        assert_eq!(wall("(60, 4.5, 9)"), [""; 0]);
     }
 
     /// The source of the channel stands where a caisson's cell reaches beyond it.

@@ -10,6 +10,7 @@ mod check_faults;
 mod check_fitted;
 mod check_gantry;
 mod check_limits;
+mod check_noise;
 mod check_obstacles;
 mod check_sources;
 mod check_steps;

@@ -109,7 +109,8 @@ pub(super) fn watch(
     let p = truth.pose.p_WB;
     let outside_m = -ocean.sides.edge_distance(p.xy()).0;
     let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
-    let touching = physics.contacts(hull.body).touching;
+    let contact = physics.contacts(hull.body);
+    let vehicle = contact.touching && contact.only_bodies;
     let strained = pilot
         .saturated()
         .map(|_| saturated(pilot, *battery) == Some(true));
@@ -124,7 +125,8 @@ pub(super) fn watch(
         deaf(readings.altimeter.map(|r| r.valid)),
     );
     see(Abnormality::NoFlow, deaf(readings.adcp.map(|r| r.valid)));
-    see(Abnormality::Touched, Some(touching));
+    see(Abnormality::Touched, Some(contact.touching && !vehicle));
+    see(Abnormality::TouchedVehicle, Some(vehicle));
     see(Abnormality::ThrustersSaturated, strained);
     see(Abnormality::BatteryEmpty, battery.map(Battery::is_empty));
 }
