@@ -79,8 +79,8 @@ fn a_fin_turns_about_the_axis_of_its_joint() {
             "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/><axis",
         );
         let vehicle = load(&fins, &urdf).unwrap_or_else(|e| panic!("{axis}: {e}"));
-        let way = vehicle.acting().nth(2).expect("three drives").1;
-        way
+        let all: Vec<_> = vehicle.acting().collect();
+        all[2].1
     };
     // As the link's y turned onto the axis turns the lift.
     let level = lift("0 1 0");
