@@ -248,7 +248,8 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 // A course along the wall, or into the side of the corner, is kept while it slides.
                 assert!(off.abs() < 1.0, "{case}: {off} degrees off");
                 let went_m = (t.pose.p_WB.xy() - Vector2::new(-3.0, 0.0)).norm();
-                assert!(went_m > 10.0, "{case}: {went_m} m");
+                // The slowest of them slide along a side at 0.2 m/s, against the water.
+                assert!(went_m > 4.0, "{case}: {went_m} m");
             }
         }
     }
