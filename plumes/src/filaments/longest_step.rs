@@ -55,6 +55,15 @@ pub struct Uneven {
     pub t_s: f64,
 }
 
+/// The places (east, north), m, and times, s, at which water is examined from time 0 to `until_s`.
+pub fn examined(area: &Area, until_s: f64) -> impl Iterator<Item = (Vector2<f64>, f64)> {
+    times(until_s).flat_map(move |t_s| places(area).map(move |place| (place, t_s)))
+}
+
+fn times(until_s: f64) -> impl Iterator<Item = f64> {
+    (0..TIMES).map(move |n| until_s * n as f64 / (TIMES - 1) as f64)
+}
+
 impl SharpestMixing {
     /// The sharpest columns of an area from time 0 to `until_s`, as a plume on a grid of this shape sees them.
     #[must_use]
@@ -67,8 +76,7 @@ impl SharpestMixing {
     ) -> Self {
         let mut columns: Vec<Column> = Vec::new();
         let mut slowest_m_s = f64::INFINITY;
-        for n in 0..TIMES {
-            let t_s = until_s * n as f64 / (TIMES - 1) as f64;
+        for t_s in times(until_s) {
             let all: Vec<Column> = places(area)
                 .map(|place| column(flow, place, terrain, shape, t_s))
                 .collect();

@@ -74,6 +74,6 @@ pub use crate::path::instructions;
 pub use cut_off::cut_off;
 pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
-pub use longest_step::{EVEN, SharpestMixing, Uneven};
+pub use longest_step::{EVEN, SharpestMixing, Uneven, examined};
 pub use plume::{Plume, PlumeSettings};
 pub use step::threads;

@@ -46,7 +46,7 @@ impl Bounds {
         self.place("heading_rad", &[heading.rad()])
     }
 
-    fn from_least(self, field: &str, value: f64, most: f64) -> Option<String> {
+    fn at_least(self, field: &str, value: f64, most: f64) -> Option<String> {
         let wrong = !(self.least..=most).contains(&value);
         wrong.then(|| match self.least {
             0.0 => format!("`{field}` must be from 0 to {most}, got {value}"),
@@ -106,13 +106,13 @@ impl Bounds {
 
     fn vertical(self, vertical: Vertical) -> Option<String> {
         match vertical {
-            Vertical::Depth(m) => self.from_least("depth_m", m, self.far_m),
-            Vertical::Altitude(m) => self.from_least("altitude_m", m, self.far_m),
+            Vertical::Depth(m) => self.at_least("depth_m", m, self.far_m),
+            Vertical::Altitude(m) => self.at_least("altitude_m", m, self.far_m),
         }
     }
 
     fn speed(self, speed_m_s: f64) -> Option<String> {
-        self.from_least("speed_m_s", speed_m_s, self.fast_m_s)
+        self.at_least("speed_m_s", speed_m_s, self.fast_m_s)
     }
 }
 

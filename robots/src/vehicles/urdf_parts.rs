@@ -137,7 +137,9 @@ fn check_depth(text: &str) -> Result<(), String> {
 
 /// What a file is that is no URDF, and what to do with it.
 fn other_format(text: &str) -> Option<&'static str> {
-    if text.contains("<xacro:") || (text.contains("xmlns:xacro") && text.contains("${")) {
+    if text.contains("<xacro:")
+        || (text.contains("xmlns:xacro") && ["${", "$("].iter().any(|m| text.contains(m)))
+    {
         return Some(
             "it is xacro that has not been processed: write `xacro FILE > vehicle.urdf`, and name that file",
         );

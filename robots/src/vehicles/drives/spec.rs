@@ -9,13 +9,15 @@ use world::ranges::{Finite, NonNegative, Positive};
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "VehicleDriveSpec")]
 pub enum DriveSpec {
-    /// A propeller that pushes the hull along the link's x axis.
+    /// A propeller that pushes the hull along the axis of the link's joint, or the link's x axis if that is fixed.
     Thruster(ThrusterSpec),
-    /// A fin that turns about the link's y axis. At zero its chord is along x, and its lift along z.
+    /// A fin that turns about the axis of the link's joint, or the link's y axis if that is fixed or x. At zero its
+    /// chord is x without what of it lies along the axis, and its lift is along chord × axis: z for y.
     Fin(FinSpec),
     /// A pump that changes the volume of the hull at the link.
     BuoyancyEngine(BuoyancyEngineSpec),
-    /// A mass, already part of the URDF's, that slides along the link's x axis.
+    /// A mass, already part of the URDF's, that slides along the axis of the link's joint, or the link's x axis if
+    /// that is fixed.
     MovingMass(MovingMassSpec),
 }
 
@@ -54,7 +56,7 @@ pub enum CurveSpec {
     Polynomial((Finite, Finite, Finite, Finite)),
 }
 
-/// A fin. Its set-point is its angle, rad, positive about the link's y axis.
+/// A fin. Its set-point is its angle, rad, positive about its axis.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FinSpec {
@@ -97,7 +99,7 @@ pub struct BuoyancyEngineSpec {
     pub power_w: NonNegative,
 }
 
-/// A moving mass. Its set-point is its place along the link's x axis, m.
+/// A moving mass. Its set-point is its place along its axis, m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MovingMassSpec {

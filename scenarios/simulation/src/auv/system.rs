@@ -7,7 +7,7 @@ use crate::control::Seen;
 use crate::control::consulting::{Consulting, Kept};
 use crate::ocean::Ocean;
 use crate::score::Score;
-use crate::searchers::SearcherId;
+use crate::searchers::{SearcherId, must_be_sound};
 use bevy_ecs::prelude::{Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
@@ -142,14 +142,8 @@ pub(crate) fn decide(mut robots: Query<Deciding>) {
         let searching = &mut *searching;
         *decision = searching.strategy.step(&seen, &mut searching.rng);
         let fault = decision.fault(searching.bounds);
-        assert!(
-            fault.is_none(),
-            "robot \"{}\": its strategy {} decided what nobody can carry out at {} s: {}; correct the strategy",
-            id.name,
-            searching.name,
-            seen.t_s,
-            fault.unwrap_or_default()
-        );
+        let decides = ["strategy", searching.name];
+        must_be_sound(fault, ["robot", &id.name], decides, seen.t_s);
     }
 }
 

@@ -7,7 +7,7 @@ use crate::frame::GantryFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::{SearcherId, whole};
+use crate::searchers::{SearcherId, must_be_sound, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::handoff::{
@@ -138,14 +138,8 @@ pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
         let searcher = &mut *searcher;
         *decision = searcher.strategy.step(&seen, &mut searcher.rng);
         let fault = decision.fault(searcher.bounds);
-        assert!(
-            fault.is_none(),
-            "gantry \"{}\": its tracker {} decided what nobody can carry out at {} s: {}; correct the tracker",
-            id.name,
-            searcher.name,
-            seen.t_s,
-            fault.unwrap_or_default()
-        );
+        let decides = ["tracker", searcher.name];
+        must_be_sound(fault, ["gantry", &id.name], decides, seen.t_s);
         if decision.stopped.is_some() {
             searcher.stopped_s.get_or_insert(seen.t_s);
         }

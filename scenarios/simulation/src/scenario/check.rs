@@ -43,7 +43,10 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     let cost = cost::cost(scenario);
     fits = fits && cost::judge(&cost, memory_bytes, &mut found);
     // Any seed will do, because whether the water can be built does not depend on its random numbers.
-    let water = fits.then(|| scenario.water.build(&area, &terrain, 0));
+    let water = fits.then(|| {
+        let water = scenario.water.build(&area, &terrain, 0)?;
+        check_limits::sound(scenario, water, &area, &terrain)
+    });
     match &water {
         Some(Ok(water)) => {
             check_limits::speeds(scenario, water, &terrain, &mut found);

@@ -4,6 +4,8 @@ use super::check::robot_error;
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario};
 use nalgebra::{Vector2, Vector3};
+use plumes::error::PlumeError;
+use plumes::filaments::examined;
 use plumes::flow::{GridShape, Water};
 use world::area::Area;
 use world::limits::shown;
@@ -108,6 +110,24 @@ pub(super) fn bounds(
     found.len() == before
 }
 
+/// The water, unless a current of another crate is wrong where and when the checks ask for it: asked there, it panics.
+pub(super) fn sound(
+    scenario: &Scenario,
+    water: Water,
+    area: &Area,
+    terrain: &Terrain,
+) -> Result<Water, PlumeError> {
+    let until_s = scenario.time.spin_up_s.get() + scenario.time.limit_s.get();
+    let starts = (scenario.robots.iter()).map(|r| (r.start.p_W(terrain).xy(), 0.0));
+    match (starts.chain(examined(area, until_s))).find_map(|(p, t_s)| water.fault(p, t_s)) {
+        Some(problem) => Err(PlumeError::Invalid {
+            field: "water.currents".to_string(),
+            problem,
+        }),
+        None => Ok(water),
+    }
+}
+
 /// Checks the speed of the water at the robots' starts and in the middle of the area.
 pub(super) fn speeds(
     scenario: &Scenario,
@@ -119,10 +139,6 @@ pub(super) fn speeds(
     let middle = scenario.area.build().centre;
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
     for p in starts.chain([middle]) {
-        if let Some(problem) = water.fault(p.xy(), 0.0) {
-            found.push(Found::error("water.currents", problem));
-            return;
-        }
         let speed = water.velocity_without_eddies(&p, 0.0).norm();
         // This form also refuses what is not a number.
         if !(speed <= FASTEST_M_S) {

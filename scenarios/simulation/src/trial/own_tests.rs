@@ -2,7 +2,7 @@
 
 use super::{Trial, Unwatched};
 use crate::lanes::caught;
-use crate::scenario::{check, load_text, template};
+use crate::scenario::{Loaded, Severity, check, load_text, template};
 use nalgebra::Vector2;
 use plumes::error::PlumeError;
 use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
@@ -143,6 +143,29 @@ impl PlaneCurrent for Burst {
 
 /// What a run of two seconds says at its end; empty if it comes to it.
 fn said(changes: &[(&str, &str)]) -> String {
+    let loaded = match changed(changes) {
+        Ok(loaded) => loaded,
+        Err(told) => return told,
+    };
+    let found = check(&loaded.scenario, &loaded.base_dir);
+    if let Some(told) = found.iter().find(|f| f.severity == Severity::Error) {
+        return format!("{}: {}", told.path, told.message);
+    }
+    ended(&loaded)
+}
+
+/// What a run says at its end without having been checked; empty if it comes to it.
+fn ended(loaded: &Loaded) -> String {
+    caught(|| {
+        let mut trial = Trial::assemble(loaded, 1).expect("legal");
+        trial.run(&mut Unwatched);
+    })
+    .err()
+    .unwrap_or_default()
+}
+
+/// A channel with a strategy, a sensor or a current of its own.
+fn changed(changes: &[(&str, &str)]) -> Result<Loaded, String> {
     let registry = (Registry::default().with::<Strategies, Wild>())
         .and_then(|r| r.with::<Sensors, Mute>())
         .and_then(|r| r.with::<Currents, Burst>())
@@ -165,23 +188,7 @@ fn said(changes: &[(&str, &str)]) -> String {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text = text.replace(from, to);
     }
-    let loaded = match load_text(&registry, "wild", &text) {
-        Ok(loaded) => loaded,
-        Err(e) => return e.lines().join("\n"),
-    };
-    let found = check(&loaded.scenario, &loaded.base_dir);
-    if let Some(told) = found
-        .iter()
-        .find(|f| f.severity == crate::scenario::Severity::Error)
-    {
-        return format!("{}: {}", told.path, told.message);
-    }
-    caught(|| {
-        let mut trial = Trial::assemble(&loaded, 1).expect("legal");
-        trial.run(&mut Unwatched);
-    })
-    .err()
-    .unwrap_or_default()
+    load_text(&registry, "wild", &text).map_err(|e| e.lines().join("\n"))
 }
 
 #[test]
@@ -227,10 +234,24 @@ fn what_a_sensor_reads_is_checked_and_the_sensor_named() {
 fn a_current_faster_than_any_water_ends_the_run_and_is_named() {
     let with = |burst: &str| said(&[("currents: [", &format!("currents: [{burst}, "))]);
     assert_eq!(with("Burst(at_s: 1e9)"), "");
-    // From the start it is refused with the scenario.
-    let refused = with("Burst(at_s: 0)");
+    // Where the check looks it is refused with the scenario, from the start or later, and otherwise where the water is
+    // asked.
+    for burst in ["Burst(at_s: 0)", "Burst(at_s: 10)", "Burst(at_s: 21.9)"] {
+        let refused = with(burst);
+        assert!(
+            refused.contains("water.currents: the current Burst flows at (1000000, 0) m/s"),
+            "{burst}: {refused}"
+        );
+    }
+    let unchecked =
+        changed(&[("currents: [", "currents: [Burst(at_s: 10), ")]).expect("of the right form");
+    let ended = ended(&unchecked);
     assert!(
-        refused.contains("water.currents: the current Burst flows at (1000000, 0) m/s"),
-        "{refused}"
+        ended.starts_with("the current Burst flows at (1000000, 0) m/s"),
+        "{ended}"
+    );
+    assert!(
+        ended.ends_with("both must be within ±15; correct the current"),
+        "{ended}"
     );
 }

@@ -87,16 +87,23 @@ impl<'a> Mender<'a> {
         found
     }
 
-    /// Whether a path leads to, or into, a value that could not be read, or to what has such a value as its field.
+    /// Whether a path leads to, or into, a value that could not be read, or to what has such a value as its field, or to
+    /// what a text that is cut off does not hold.
     pub(super) fn in_hole(&self, path: &str) -> bool {
         let starts = |path: &str, with: &str| {
             let rest = path.strip_prefix(with);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
         };
-        self.reading.tree.borrow().nodes.iter().any(|n| {
+        let tree = self.reading.tree.borrow();
+        let is_hole = |n: &Node| matches!(n.kind, Kind::Hole(_));
+        let is_there = || tree.nodes.iter().any(|n| n.path == path && !is_hole(n));
+        if tree.cut && !path.is_empty() && !is_there() {
+            return true;
+        }
+        tree.nodes.iter().any(|n| {
             let owner = n.path.rsplit_once('.').map_or("", |(owner, _)| owner);
             let is_owner = !path.is_empty() && owner == path;
-            matches!(n.kind, Kind::Hole(_)) && (is_owner || starts(path, &n.path))
+            is_hole(n) && (is_owner || starts(path, &n.path))
         })
     }
 
