@@ -3,17 +3,18 @@
 
     pip install eclipse-zenoh==1.10.2
     rheotaxis run duck_external --allow-control &
-    python controller.py [ENDPOINT]                  # tcp/127.0.0.1:7447
+    python controller.py [ENDPOINT]                  # else all runs at tcp/127.0.0.1:7447 to 7510
 
 The run asks once a period and waits; docs/doors.md has the fields of a question and of an answer.
 """
 import json, math, sys
 import zenoh
 
-endpoint = (sys.argv[1:] + ["tcp/127.0.0.1:7447"])[0]
-hits, state = [], {"side": 1, "in": False}  # times and places of detections; which way it crosses the plume
+# Where runs listen: the first of these ports that is free when they start.
+endpoints = sys.argv[1:2] or [f"tcp/127.0.0.1:{port}" for port in range(7447, 7511)]
+minds = {}  # of each robot of each run: times and places of detections; which way it crosses the plume
 
-def decide(seen):
+def decide(seen, hits, state):
     t, here, gathered = seen["t_s"], seen["estimate"]["position_m"], seen["gathered"]
     flow = seen.get("flow", {"velocity_m_s": [0.0, -1.0]})["velocity_m_s"]
     up_flow = math.atan2(-flow[0], -flow[1])  # a compass heading: atan2(east, north)
@@ -35,13 +36,22 @@ def decide(seen):
 
 def answer(query):
     seen = json.loads(query.payload.to_string())
-    query.reply(query.key_expr, json.dumps({"number": seen["number"], **decide(seen)}))
+    if seen["number"] == 0:  # the beginning of a run
+        minds.pop(str(query.key_expr), None)
+    hits, state = minds.setdefault(str(query.key_expr), ([], {"side": 1, "in": False}))
+    query.reply(query.key_expr, json.dumps({"number": seen["number"], **decide(seen, hits, state)}))
 
-config = zenoh.Config.from_json5(f"""{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{
-    timeout_ms: -1, endpoints: ["{endpoint}"], retry: {{ period_init_ms: 200, period_max_ms: 1000 }} }} }}""")
+config = zenoh.Config.from_json5(f"""{{ mode: "peer", listen: {{ endpoints: [] }},
+    scouting: {{ multicast: {{ enabled: false }}, gossip: {{ enabled: false }} }},
+    connect: {{ endpoints: {json.dumps(endpoints)}, retry: {{ period_init_ms: 200, period_max_ms: 1000 }} }} }}""")
 with zenoh.open(config) as session:
     asked = session.declare_queryable("rheotaxis/*/ask/*", answer)
     runs = session.liveliness().declare_subscriber("rheotaxis/*/@live/sim", history=True)
+    there = set()
     for run in runs:
-        if run.kind == zenoh.SampleKind.DELETE:
-            break
+        if run.kind == zenoh.SampleKind.PUT:
+            there.add(str(run.key_expr))
+        else:
+            there.discard(str(run.key_expr))
+            if not there:
+                break

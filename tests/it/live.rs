@@ -9,6 +9,7 @@ mod kit;
 mod listen;
 mod readings;
 mod ros2;
+mod schemas;
 mod setup;
 
 use crate::waits::until;

@@ -101,6 +101,33 @@ fn a_run_replaces_no_pipe_and_no_device_and_writes_all_the_rest() {
     assert_eq!(leftovers(&out), Vec::<String>::new());
 }
 
+/// The last plume that is recorded is one step old at the start, and as old as the mission is at its end.
+#[test]
+fn the_table_of_the_plume_is_that_of_the_end() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = with_fields(&short(), &[("limit_s", "3.7")]);
+    let (_, summary) = common::mission(dir.path(), "end", &text);
+    let table = fs::read_to_string(dir.path().join("end/plume.csv")).unwrap();
+    let mut lines = table.lines().map(|line| line.split(','));
+    let header: Vec<&str> = lines.next().expect("a header").collect();
+    let column = |name: &str| header.iter().position(|h| *h == name).expect("a column");
+    let (at, mass, n) = (column("t_s"), column("mass_kg"), column("stands_for"));
+    let (mut mass_kg, mut filaments, mut rows) = (0.0, 0.0, 0);
+    for line in lines {
+        let row: Vec<f64> = line.map(|v| v.parse().expect("a number")).collect();
+        assert!((row[at] - 3.7).abs() < 1e-9, "{row:?}");
+        (mass_kg, filaments, rows) = (mass_kg + row[mass], filaments + row[n], rows + 1);
+    }
+    let in_water_kg = summary["run"]["mass"]["in_water_kg"].as_f64();
+    let in_water_kg = in_water_kg.expect("a source");
+    assert!(
+        rows > 10 && (mass_kg / in_water_kg - 1.0).abs() < 1e-4,
+        "{mass_kg} {in_water_kg}"
+    );
+    let all = summary["run"]["filaments"].as_f64().expect("a count");
+    assert!((filaments / all - 1.0).abs() < 1e-4, "{filaments} {all}");
+}
+
 #[test]
 fn no_link_has_its_target_overwritten() {
     let dir = tempfile::tempdir().unwrap();

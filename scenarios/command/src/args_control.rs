@@ -11,9 +11,14 @@ use std::path::{Path, PathBuf};
 pub struct ControlArgs {
     /// Let others control the run over zenoh: decide for robots and gantries whose strategy is `External`, pause, step,
     /// speed up and stop the run. Whoever reaches the endpoint can: it is on the loopback interface unless you say
-    /// otherwise; docs/wire.md tells how to let in only some.
+    /// otherwise; docs/wire.md tells how to let in only some. A configuration that lets in anybody on the network is
+    /// refused.
     #[arg(long, conflicts_with = "no_zenoh")]
     pub allow_control: bool,
+    /// With --allow-control, let anybody on the network control the run, without a user, a client certificate or access
+    /// control, if that is what endpoint and configuration come to.
+    #[arg(long, requires = "allow_control")]
+    pub control_from_anywhere: bool,
     /// How long the first question of each robot waits for a controller, s of real time.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
     pub control_wait: f64,

@@ -36,7 +36,7 @@ pub struct ListenArgs {
     /// Go on when all runs have ended, and wait for the next one.
     #[arg(long)]
     pub follow: bool,
-    /// Endpoint of the run, as `rheotaxis run` prints it [default: tcp/127.0.0.1:7447 to 7463, where runs listen].
+    /// Endpoint of the run, as `rheotaxis run` prints it [default: tcp/127.0.0.1:7447 to 7510, where runs listen].
     #[arg(long, value_name = "ENDPOINT")]
     pub connect: Option<String>,
     /// Configuration file of zenoh (JSON5), for a user's password or TLS: docs/zenoh/as_user.json5 and over_tls.json5.

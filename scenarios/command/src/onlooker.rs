@@ -157,6 +157,7 @@ fn live(
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
     options.plane = Arc::clone(plane);
+    options.control_from_anywhere = args.control.control_from_anywhere;
     if args.ros2.ros2 {
         options.ros2 = Some(Ros2 {
             domain: args.ros2.domain,

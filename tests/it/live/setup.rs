@@ -2,7 +2,10 @@
 
 use super::kit::{client, kept, meta, options};
 use output::live::{Live, LiveError, LiveOptions};
+use std::collections::BTreeSet;
 use std::net::TcpListener;
+use std::sync::Barrier;
+use std::thread;
 use zenoh::Wait;
 
 #[test]
@@ -45,6 +48,37 @@ fn without_a_port_given_the_next_free_one_is_taken_and_told() {
     let session = client(live.endpoint());
     assert!(kept(&session, "default_1").contains_key("meta/version"));
     session.close().wait().unwrap();
+}
+
+/// Many more than would meet at a port that was only tried before.
+#[test]
+fn runs_that_start_together_each_hold_a_port() {
+    const RUNS: usize = 8;
+    let together = Barrier::new(RUNS);
+    let lives: Vec<Live> = thread::scope(|scope| {
+        let starts: Vec<_> = (0..RUNS)
+            .map(|k| {
+                let together = &together;
+                scope.spawn(move || {
+                    let options = LiveOptions {
+                        listen: None,
+                        ..options(&format!("together_{k}"))
+                    };
+                    together.wait();
+                    Live::start(&options, meta()).expect("there are ports enough")
+                })
+            })
+            .collect();
+        starts.into_iter().map(|s| s.join().unwrap()).collect()
+    });
+    let ends: BTreeSet<&str> = lives.iter().map(Live::endpoint).collect();
+    assert_eq!(ends.len(), RUNS, "{ends:?}");
+    // Each is where it says.
+    for (k, live) in lives.iter().enumerate() {
+        let session = client(live.endpoint());
+        assert!(kept(&session, &format!("together_{k}")).contains_key("meta/version"));
+        session.close().wait().unwrap();
+    }
 }
 
 #[test]

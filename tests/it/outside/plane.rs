@@ -9,8 +9,13 @@ const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 
 /// The answer to a command, or why it was refused.
 pub(super) fn command(session: &Session, command: &str) -> Result<Value, String> {
+    command_to(session, "asks_1", command)
+}
+
+/// The same of a run, or of any.
+fn command_to(session: &Session, run: &str, command: &str) -> Result<Value, String> {
     let replies = session
-        .get(format!("rheotaxis/asks_1/rpc/{command}"))
+        .get(format!("rheotaxis/{run}/rpc/{command}"))
         .timeout(PATIENCE)
         .wait()
         .unwrap();
@@ -38,16 +43,35 @@ fn held(session: &Session) -> f64 {
 fn a_run_pauses_steps_and_stops_when_told() {
     let run = Run::start(
         &channel(AMP, ENDLESS_S),
-        &["--allow-control", "--speed", "1"],
+        &["--allow-control", "--speed", "5"],
     );
     let session = client(&run.endpoint);
     command(&session, "pause").unwrap();
     let t_s = held(&session);
-    command(&session, "step?s=2").unwrap();
-    let after = held(&session);
-    assert!((after - t_s - 2.0).abs() < 1e-6, "{t_s} {after}");
-    command(&session, "step").unwrap();
-    assert!((held(&session) - after - 0.02).abs() < 1e-6);
+    // The answer comes when the step is done, whether the run is named or not.
+    let mut at = t_s;
+    for (run, step, s) in [
+        ("asks_1", "step?s=2", 2.0),
+        ("asks_1", "step", 0.02),
+        ("*", "step", 0.02),
+        ("**", "step?s=1", 1.0),
+    ] {
+        let told = command_to(&session, run, step).unwrap();
+        let now = told["t_s"].as_f64().unwrap();
+        assert!((now - at - s).abs() < 1e-6, "{run} {step}: {at} {now}");
+        assert_eq!((&told["paused"], held(&session)), (&json!(true), now));
+        at = now;
+    }
+    assert_eq!(command_to(&session, "*", "status").unwrap()["t_s"], at);
+    // None of two at once is lost.
+    let both = ["step?s=2", "step?s=1"].map(|step| {
+        let replies = session.get(format!("rheotaxis/asks_1/rpc/{step}"));
+        replies.timeout(PATIENCE).wait().unwrap()
+    });
+    for replies in both {
+        assert!(replies.recv().unwrap().result().is_ok());
+    }
+    assert!((held(&session) - at - 3.0).abs() < 1e-6);
     assert!(
         command(&session, "speed?times=-1")
             .unwrap_err()
@@ -55,8 +79,8 @@ fn a_run_pauses_steps_and_stops_when_told() {
     );
     assert!(command(&session, "fly").unwrap_err().contains("resume"));
     command(&session, "speed?times=max").unwrap();
-    command(&session, "step?s=30").unwrap();
-    assert!(held(&session) > 30.0);
+    let told = command(&session, "step?s=30").unwrap();
+    assert!(told["t_s"].as_f64() > Some(30.0) && told["t_s"] == held(&session));
     command(&session, "stop").unwrap();
     let end = run.end();
     assert_eq!(end.code, 130, "{}", end.said);

@@ -299,18 +299,50 @@ fn a_run_that_anybody_may_control_from_elsewhere_says_so() {
     let text = channel(AMP, 1.0);
     let everywhere = "tcp/0.0.0.0";
     let control = ["--allow-control"];
+    let anywhere = ["--allow-control", "--control-from-anywhere"];
     let warned = |run: Run| {
         let endpoint = run.endpoint.clone();
         let said = run.end().said;
         let line = format!(
-            "warning: --allow-control without users or access control: whoever reaches {endpoint} can"
+            "warning: --allow-control without users or access control: anybody on the network can control this run: it \
+             listens on {endpoint};"
         );
         assert_eq!(said.contains("warning"), said.contains(&line), "{said}");
         said.contains(&line)
     };
-    assert!(warned(Run::at(everywhere, &text, &control, |_| {})));
+    assert!(warned(Run::at(everywhere, &text, &anywhere, |_| {})));
     assert!(!warned(Run::at(everywhere, &text, &[], |_| {})));
     assert!(!warned(Run::start(&text, &control)));
     let run = secured("watchers.json5", everywhere, &text, &control, |_| {});
     assert!(!warned(run));
+}
+
+#[test]
+fn a_run_that_anybody_might_control_from_elsewhere_does_not_begin() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("asks.ron"), channel(AMP, 1.0)).unwrap();
+    fs::write(dir.path().join("zenoh.json5"), "{}").unwrap();
+    let refused = |more: &[&str], environment: &[(&str, &str)], ways: &[&str]| {
+        let mut run = crate::common::command(dir.path(), &["run", "asks.ron", "--quiet"]);
+        run.args(["--out", "out", "--allow-control"]).args(more);
+        let end = run.envs(environment.iter().copied()).output().unwrap();
+        let said = String::from_utf8_lossy(&end.stderr);
+        // It may be told over several lines.
+        let said = said.replace(['\n', '│'], " ");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(end.status.code(), Some(1), "{more:?} {said}");
+        for way in ways.iter().chain(&["--control-from-anywhere"]) {
+            assert!(said.contains(way), "{way}: {said}");
+        }
+        assert!(!dir.path().join("out").exists());
+    };
+    let listens = "it listens on tcp/[::]:0";
+    let scouts = "it connects to whoever answers by multicast";
+    let file = ["--zenoh-config", "zenoh.json5"];
+    refused(&file, &[], &[listens, scouts]);
+    refused(&[], &[("ZENOH_CONFIG", "zenoh.json5")], &[listens, scouts]);
+    let here = [&file[..], &["--zenoh-listen", "tcp/127.0.0.1:0"]].concat();
+    refused(&here, &[], &[scouts]);
+    let everywhere = ["--zenoh-listen", "tcp/0.0.0.0:0"];
+    refused(&everywhere, &[], &["it listens on tcp/0.0.0.0:0"]);
 }

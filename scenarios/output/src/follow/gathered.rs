@@ -90,7 +90,8 @@ impl Gathered {
             beliefs: gathered.beliefs,
             pictures: gathered.pictures,
             echoes: gathered.echoes,
-            plume: gathered.last_plume,
+            plume: (gathered.plume_seen)
+                .then(|| plume_at_end(trial, ended.t_s, scenario.record.plume_points)),
             plume_film: gathered.plume_film,
             failure: gathered.failure,
         }
@@ -181,6 +182,18 @@ fn totals(trial: &Trial, ended: &Ended, [spin_up, mission]: [Duration; 2]) -> To
             )
         }),
         ..Totals::default()
+    }
+}
+
+/// The plume at the end of a run. The last one that was recorded may be older by as much as `record.plume_period_s`.
+fn plume_at_end(trial: &Trial, t_s: f64, most: u32) -> PlumeFrame {
+    let ocean = trial.simulation.ocean();
+    let plume = ocean.plume();
+    PlumeFrame {
+        t_s,
+        total: plume.len(),
+        points: plume.decimated(most as usize),
+        centre: ocean.area.centre,
     }
 }
 

@@ -37,7 +37,8 @@ pub(super) struct Gatherer {
     pub(super) echoes: Echoes,
     pub(super) recorder: Option<Recorder>,
     pub(super) failure: Option<ReportError>,
-    pub(super) last_plume: Option<PlumeFrame>,
+    /// Whether there has been a plume to see.
+    pub(super) plume_seen: bool,
     pub(super) plume_film: PlumeFilm,
 }
 
@@ -57,7 +58,7 @@ impl Gatherer {
             echoes: Echoes::default(),
             recorder: None,
             failure: None,
-            last_plume: None,
+            plume_seen: false,
             plume_film: PlumeFilm::default(),
             robots,
             gantries,
@@ -98,7 +99,7 @@ impl Gatherer {
     pub(super) fn take(&mut self, seen: Seen) {
         match seen {
             Seen::Frame(frame) => self.frame(&frame),
-            Seen::Plume(plume) => self.plume(plume),
+            Seen::Plume(plume) => self.plume(&plume),
             Seen::Water(water) => self.record(|r| r.water(&water)),
             Seen::Consulted(told) => self.record(|r| r.consulted(&told)),
             Seen::Picture(picture) => self.picture(&picture),
@@ -123,11 +124,11 @@ impl Gatherer {
         self.record(|r| r.frame(frame));
     }
 
-    fn plume(&mut self, plume: PlumeFrame) {
-        self.record(|r| r.plume(&plume));
-        self.beliefs.plume(&plume);
-        self.plume_film.push(&plume);
-        self.last_plume = Some(plume);
+    fn plume(&mut self, plume: &PlumeFrame) {
+        self.record(|r| r.plume(plume));
+        self.beliefs.plume(plume);
+        self.plume_film.push(plume);
+        self.plume_seen = true;
     }
 
     fn picture(&mut self, picture: &PictureFrame) {

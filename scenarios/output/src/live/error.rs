@@ -16,16 +16,15 @@ pub enum LiveError {
         /// Its port.
         port: u16,
     },
-    /// No port of the default range is free.
+    /// Whoever comes from another machine could control the run.
     #[error(
-        "zenoh found no free port on 127.0.0.1 from {first} to {last}; \
-         choose one with --zenoh-listen, or run with --no-zenoh"
+        "--allow-control would let anybody on the network control this run, without a user, a client certificate or \
+         access control: {ways}. Close that (docs/wire.md has configurations that tell who may), or allow it with \
+         --control-from-anywhere"
     )]
-    NoFreePort {
-        /// First port tried.
-        first: u16,
-        /// Last port tried.
-        last: u16,
+    Exposed {
+        /// By which ways.
+        ways: String,
     },
     /// The endpoint to listen on does not have zenoh's form.
     #[error("`{endpoint}` is not a zenoh endpoint; write one like tcp/127.0.0.1:7447")]

@@ -26,6 +26,9 @@ pub struct LiveOptions {
     pub plume_period: Duration,
     /// What others may ask of the run.
     pub plane: Arc<Plane>,
+    /// Whether that may be anybody who comes from another machine. Otherwise a session that is open to them, and tells
+    /// nobody apart, is refused if the run may be controlled.
+    pub control_from_anywhere: bool,
     /// Publish for ROS 2 as well.
     pub ros2: Option<Ros2>,
 }
@@ -42,6 +45,7 @@ impl LiveOptions {
             state_period: Duration::from_millis(50),
             plume_period: Duration::from_millis(500),
             plane: Arc::new(Plane::new(false, None)),
+            control_from_anywhere: false,
             ros2: None,
         }
     }

@@ -5,6 +5,8 @@
 )]
 
 use serde_json::{Value, json};
+use std::collections::VecDeque;
+use std::fmt;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -20,7 +22,8 @@ pub(super) const COMMANDS: [(&str, &str); 6] = [
     ("resume", "lets it go on"),
     (
         "step",
-        "lets a held run go on for `s` seconds of simulated time, or one step without it",
+        "lets the run go on for `s` seconds of simulated time, or one step without it, and holds it then; it answers \
+         when that is done, and several are done one after the other",
     ),
     (
         "speed",
@@ -43,14 +46,34 @@ struct State {
     steps: u64,
     ended: bool,
     paused: bool,
-    /// A held run goes on up to this time, s.
-    until_s: Option<f64>,
-    one_step: bool,
+    /// What `step` has asked for and is not done, the first one under way.
+    asked: VecDeque<Step>,
     /// Simulated seconds in a second; `None` as fast as the machine can.
     times: Option<f64>,
     stop: bool,
     /// Wall time and mission time from which the pace is counted.
     since: Option<(Instant, f64)>,
+}
+
+/// A step that was asked for, and who waits for its end.
+#[derive(Debug)]
+struct Step {
+    /// How long it is, s; `None` is one step of the run.
+    s: Option<f64>,
+    /// When it ends, once it has begun, s.
+    until_s: Option<f64>,
+    answer: Answer,
+}
+
+/// What tells somebody how the run stands, or why a command was not obeyed.
+type Tell = dyn FnOnce(Result<Value, String>) + Send;
+
+struct Answer(Box<Tell>);
+
+impl fmt::Debug for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Answer")
+    }
 }
 
 impl Plane {
@@ -84,9 +107,12 @@ impl Plane {
         let mut state = self.lock();
         state.t_s = t_s;
         state.steps += 1;
-        let stepped = std::mem::take(&mut state.one_step);
-        if stepped || state.until_s.is_some_and(|until_s| t_s >= until_s - SAME_S) {
-            (state.paused, state.until_s) = (true, None);
+        if let Some(answer) = state.step_done() {
+            let told = self.told(&state);
+            // Whoever hears it may command at once.
+            drop(state);
+            (answer.0)(Ok(told));
+            state = self.lock();
         }
         loop {
             if state.stop || !going() {
@@ -106,17 +132,61 @@ impl Plane {
         }
     }
 
-    /// The run has ended at a time of the mission, s.
+    /// The run has ended at a time of the mission, s. Whoever waits for a step is told so.
     pub fn ended(&self) {
-        self.lock().ended = true;
+        let mut state = self.lock();
+        state.ended = true;
+        let told = self.told(&state);
+        let waiting = std::mem::take(&mut state.asked);
+        drop(state);
+        for step in waiting {
+            (step.answer.0)(Ok(told.clone()));
+        }
     }
 
-    /// Does what a command asks for; the answer says how the run stands.
-    ///
-    /// # Errors
-    /// Why not, in words.
-    pub fn command(&self, name: &str, parameter: Option<&str>) -> Result<Value, String> {
+    /// Does what a command asks for. `answer` is told how the run then stands, or why not, in words: of `step` once it
+    /// is done, from the thread of the run; of the others at once.
+    pub fn command(
+        &self,
+        name: &str,
+        parameter: Option<&str>,
+        answer: impl FnOnce(Result<Value, String>) + Send + 'static,
+    ) {
         let mut state = self.lock();
+        if name == "step" && self.allowed && !state.ended {
+            match parameter.map(|text| positive("s", text)).transpose() {
+                Ok(s) => {
+                    state.ask(s, Answer(Box::new(answer)));
+                    self.changed.notify_all();
+                }
+                Err(why) => {
+                    drop(state);
+                    answer(Err(why));
+                }
+            }
+            return;
+        }
+        let given_up = match name {
+            "pause" | "resume" if self.allowed => std::mem::take(&mut state.asked),
+            _ => VecDeque::new(),
+        };
+        let told = self.obeyed(&mut state, name, parameter);
+        let t_s = state.t_s;
+        drop(state);
+        self.changed.notify_all();
+        for step in given_up {
+            let why = format!("`{name}` came before the step was done: the run is at {t_s} s");
+            (step.answer.0)(Err(why));
+        }
+        answer(told);
+    }
+
+    fn obeyed(
+        &self,
+        state: &mut State,
+        name: &str,
+        parameter: Option<&str>,
+    ) -> Result<Value, String> {
         if name != "status" && !self.allowed {
             return Err(
                 "this run was started without --allow-control: it only tells how it stands"
@@ -124,16 +194,10 @@ impl Plane {
             );
         }
         match name {
-            "status" => {}
-            "pause" => (state.paused, state.until_s) = (true, None),
-            "resume" => (state.paused, state.until_s) = (false, None),
-            "step" => {
-                match parameter {
-                    Some(text) => state.until_s = Some(state.t_s + positive("s", text)?),
-                    None => state.one_step = true,
-                }
-                state.paused = false;
-            }
+            // A run that has ended makes no step.
+            "status" | "step" => {}
+            "pause" => state.paused = true,
+            "resume" => state.paused = false,
             "speed" => {
                 let text = parameter.ok_or("give `times`: a number, or max")?;
                 state.times = match text {
@@ -148,15 +212,52 @@ impl Plane {
                 return Err(format!("no command {name:?}: {}", known.join(", ")));
             }
         }
-        self.changed.notify_all();
-        Ok(json!({
+        Ok(self.told(state))
+    }
+
+    fn told(&self, state: &State) -> Value {
+        json!({
             "t_s": state.t_s, "steps": state.steps, "ended": state.ended, "paused": state.paused,
             "stopping": state.stop, "times": state.times, "controllable": self.allowed,
-        }))
+        })
     }
 }
 
 impl State {
+    /// Asks for a step, which begins when those before it are done.
+    fn ask(&mut self, s: Option<f64>, answer: Answer) {
+        self.asked.push_back(Step {
+            s,
+            until_s: None,
+            answer,
+        });
+        if self.asked.len() == 1 {
+            self.begin();
+        }
+    }
+
+    /// Begins the next step; without one, holds the run.
+    fn begin(&mut self) {
+        self.paused = self.asked.is_empty();
+        if let Some(step) = self.asked.front_mut() {
+            step.until_s = step.s.map(|s| self.t_s + s);
+        }
+    }
+
+    /// Who waits for the step that is done now, if one is.
+    fn step_done(&mut self) -> Option<Answer> {
+        let step = self.asked.front()?;
+        if step
+            .until_s
+            .is_some_and(|until_s| self.t_s < until_s - SAME_S)
+        {
+            return None;
+        }
+        let done = self.asked.pop_front()?;
+        self.begin();
+        Some(done.answer)
+    }
+
     /// How long a run is ahead of its pace; `None` if it is not.
     fn early(&mut self, t_s: f64) -> Option<Duration> {
         let times = self.times?;
@@ -176,81 +277,5 @@ fn positive(name: &str, text: &str) -> Result<f64, String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::Arc;
-    use std::sync::atomic::{AtomicU64, Ordering};
-
-    #[test]
-    fn only_a_run_that_allows_it_is_controlled() {
-        let plane = Plane::new(false, None);
-        assert_eq!(plane.command("status", None).unwrap()["paused"], false);
-        let refused = plane.command("pause", None).unwrap_err();
-        assert!(refused.contains("--allow-control"), "{refused}");
-        assert!(plane.hold(0.1, || true));
-        let plane = Plane::new(true, None);
-        assert!(plane.command("fly", None).unwrap_err().contains("resume"));
-        for wrong in ["0", "-1", "NaN", "inf", "fast"] {
-            assert!(plane.command("speed", Some(wrong)).is_err(), "{wrong}");
-        }
-    }
-
-    /// Runs steps of 1 s in a thread of its own; how far it is.
-    fn runs(plane: &Arc<Plane>) -> (Arc<AtomicU64>, std::thread::JoinHandle<u64>) {
-        let at = Arc::new(AtomicU64::new(0));
-        let (plane, now) = (Arc::clone(plane), Arc::clone(&at));
-        let run = std::thread::spawn(move || {
-            let mut t_s = 0;
-            loop {
-                t_s += 1;
-                now.store(t_s, Ordering::SeqCst);
-                if !plane.hold(t_s as f64, || true) {
-                    return t_s;
-                }
-            }
-        });
-        (at, run)
-    }
-
-    /// Waits until the run is held; its time.
-    fn held(plane: &Plane, at: &AtomicU64) -> u64 {
-        loop {
-            let told = plane.command("status", None).unwrap();
-            let now = at.load(Ordering::SeqCst);
-            // At first it is paused before it has begun.
-            if now > 0 && told["paused"] == true && told["t_s"].as_f64() == Some(now as f64) {
-                return now;
-            }
-            std::thread::yield_now();
-        }
-    }
-
-    #[test]
-    fn a_held_run_steps_goes_on_and_stops() {
-        let plane = Arc::new(Plane::new(true, None));
-        plane.command("pause", None).unwrap();
-        let (at, run) = runs(&plane);
-        assert_eq!(held(&plane, &at), 1);
-        plane.command("step", None).unwrap();
-        assert_eq!(held(&plane, &at), 2);
-        plane.command("step", Some("3")).unwrap();
-        assert_eq!(held(&plane, &at), 5);
-        plane.command("resume", None).unwrap();
-        while at.load(Ordering::SeqCst) < 50 {
-            std::thread::yield_now();
-        }
-        plane.command("stop", None).unwrap();
-        assert!(run.join().unwrap() >= 50);
-    }
-
-    #[test]
-    fn whoever_ends_the_run_ends_a_pause() {
-        let plane = Plane::new(true, None);
-        plane.command("pause", None).unwrap();
-        assert!(!plane.hold(1.0, || false));
-        plane.command("resume", None).unwrap();
-        plane.command("speed", Some("1e-9")).unwrap();
-        plane.hold(1.0, || false);
-        assert!(!plane.hold(1000.0, || false), "far ahead of its pace");
-    }
-}
+#[path = "plane_tests.rs"]
+mod tests;

@@ -1,8 +1,7 @@
 //! The thread that owns the zenoh session, and the handle that the run has.
 
-use super::config::{configured, plain};
+use super::config::{Opened, Told, endpoint, opened, plain};
 use super::controller::{Going, LiveController};
-use super::exposed;
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
@@ -10,6 +9,7 @@ use super::message::Message;
 use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
+use crate::scene::ros_name;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::topic::chunk;
 use std::path::PathBuf;
@@ -56,25 +56,24 @@ impl Drop for Open {
     }
 }
 
-/// What the thread reports when it is running: where clients connect, and its session.
-type Up = Result<(String, LiveSession), LiveError>;
+/// What the thread reports when it is running: where clients connect, its session, and what the user is told.
+type Up = Result<(String, LiveSession, Told), LiveError>;
 
 impl Live {
     /// Opens a zenoh session in its own thread and publishes what is known beforehand.
     ///
     /// # Errors
-    /// If the port is busy, if the configuration cannot be used, or if zenoh does not start.
+    /// If the port is busy, if the configuration cannot be used or lets others control the run against
+    /// [`LiveOptions::control_from_anywhere`], or if zenoh does not start.
     pub fn start(options: &LiveOptions, meta: LiveMeta) -> Result<Self, LiveError> {
         options.check()?;
-        let (config, notice) =
-            configured(options, std::env::var_os("ZENOH_CONFIG").map(PathBuf::from))?;
-        let warning = (options.plane.allowed())
-            .then(|| exposed::warning(&config))
-            .flatten();
-        let open = move || zenoh::open(config).wait().map(|s| Arc::new(Open(s)));
-        let mut live = Self::publishing(options, meta, open)?;
-        (live.notice, live.warning) = (notice, warning);
-        Ok(live)
+        let from_env = std::env::var_os("ZENOH_CONFIG").map(PathBuf::from);
+        let asked = options.clone();
+        let open = move || {
+            let Opened { session, told } = opened(&asked, from_env)?;
+            Ok((Arc::new(Open(session)), told))
+        };
+        Self::publishing(options, meta, open)
     }
 
     /// The same in the session of another run, at the same port, or in one of its own if that is closed.
@@ -89,7 +88,7 @@ impl Live {
         match session.0.upgrade() {
             Some(open) => {
                 options.check()?;
-                Self::publishing(options, meta, move || Ok(open))
+                Self::publishing(options, meta, move || Ok((open, Told::default())))
             }
             None => Self::start(options, meta),
         }
@@ -104,7 +103,7 @@ impl Live {
     fn publishing(
         options: &LiveOptions,
         meta: LiveMeta,
-        open: impl FnOnce() -> zenoh::Result<Arc<Open>> + Send + 'static,
+        open: impl FnOnce() -> Result<(Arc<Open>, Told), LiveError> + Send + 'static,
     ) -> Result<Self, LiveError> {
         let mailbox = Arc::new(Mailbox::new(options.state_period, options.plume_period));
         let (up, is_up) = sync_channel::<Up>(1);
@@ -123,7 +122,7 @@ impl Live {
             .name("live".to_owned())
             .spawn(thread)
             .map_err(|e| LiveError::Open { why: e.to_string() })?;
-        let (endpoint, session) = is_up.recv().unwrap_or_else(|_| {
+        let (endpoint, session, told) = is_up.recv().unwrap_or_else(|_| {
             Err(LiveError::Open {
                 why: "its thread broke off".to_owned(),
             })
@@ -132,8 +131,8 @@ impl Live {
             mailbox,
             gone,
             endpoint,
-            notice: None,
-            warning: None,
+            notice: told.notice,
+            warning: told.warning,
             session,
             run_id: options.run_id.clone(),
             ros_domain: options.ros2.as_ref().map(|r| r.domain),
@@ -156,7 +155,7 @@ impl Live {
         })?;
         let key = format!("rheotaxis/{}/ask/{}", self.run_id, chunk(robot));
         let ros = (self.ros_domain)
-            .map(|domain| RosCommands::listen(open.session(), domain, &chunk(robot)));
+            .map(|domain| RosCommands::listen(open.session(), domain, &ros_name(robot)));
         let ros = ros
             .transpose()
             .map_err(|e| LiveError::Open { why: plain(&e) })?;
@@ -175,7 +174,8 @@ impl Live {
         self.notice.as_deref()
     }
 
-    /// A warning for the user, if necessary: that anybody who comes from another machine can control the run.
+    /// A warning for the user, if necessary: that anybody who comes from another machine can control the run, as
+    /// [`LiveOptions::control_from_anywhere`] allows.
     #[must_use]
     pub fn warning(&self) -> Option<&str> {
         self.warning.as_deref()
@@ -247,16 +247,16 @@ impl Drop for Live {
 
 /// Main function of the thread.
 fn publish(
-    open: impl FnOnce() -> zenoh::Result<Arc<Open>>,
+    open: impl FnOnce() -> Result<(Arc<Open>, Told), LiveError>,
     options: &LiveOptions,
     meta: Vec<Message>,
     mailbox: &Mailbox,
     up: &SyncSender<Up>,
 ) {
-    let session = match open() {
-        Ok(session) => session,
+    let (session, told) = match open() {
+        Ok(opened) => opened,
         Err(e) => {
-            let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
+            let _nobody_waits = up.send(Err(e));
             return;
         }
     };
@@ -272,6 +272,7 @@ fn publish(
             let _nobody_waits = up.send(Ok((
                 endpoint(&session.0),
                 LiveSession(Arc::downgrade(&session)),
+                told,
             )));
             serve(&mut tree, &mut ros, mailbox, options.plume_period);
         }
@@ -350,20 +351,4 @@ fn say_rest(tree: &Tree<'_>, ros: &mut Option<Door<'_>>, rest: &Rest) {
     if let Some(water) = &rest.water {
         drop(tree.say(message::water(water)));
     }
-}
-
-/// Where clients connect: the loopback address first, because it is the same on every machine.
-fn endpoint(session: &Session) -> String {
-    let mut locators: Vec<String> = session
-        .info()
-        .locators()
-        .wait()
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    locators.sort_by_key(|l| !l.contains("127.0.0.1"));
-    locators
-        .into_iter()
-        .next()
-        .unwrap_or_else(|| "none".to_owned())
 }

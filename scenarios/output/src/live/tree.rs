@@ -5,7 +5,7 @@ use super::{LiveOptions, Payload, Plane};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use zenoh::bytes::Encoding;
-use zenoh::key_expr::{KeyExpr, OwnedKeyExpr};
+use zenoh::key_expr::{KeyExpr, OwnedKeyExpr, keyexpr};
 use zenoh::liveliness::LivelinessToken;
 use zenoh::qos::CongestionControl;
 use zenoh::query::{Query, Queryable};
@@ -40,9 +40,9 @@ impl<'a> Tree<'a> {
             .complete(true)
             .callback({
                 let (kept, plane) = (Arc::clone(&kept), Arc::clone(&options.plane));
-                let rpc = format!("{base}/rpc/");
-                move |query| match query.key_expr().as_str().strip_prefix(&rpc) {
-                    Some(command) => obey(&plane, command, &query),
+                let own = OwnedKeyExpr::new(base.clone())?;
+                move |query| match command(&own, query.key_expr()) {
+                    Some((command, key)) => obey(&plane, &command, key, query),
                     None => answer(&kept, &query),
                 }
             })
@@ -138,19 +138,31 @@ fn answer(kept: &Kept, query: &Query) {
     }
 }
 
-/// Answers a command of the control plane.
-fn obey(plane: &Plane, command: &str, query: &Query) {
+/// The command that a query names, and its key in this run. The name of the run may be a wildcard, but not `rpc`: who
+/// asks for all that a run keeps commands nothing.
+fn command(own: &keyexpr, asked: &keyexpr) -> Option<(String, OwnedKeyExpr)> {
+    let (runs, command) = asked.as_str().rsplit_once("/rpc/")?;
+    let to_this = keyexpr::new(runs).is_ok_and(|runs| runs.intersects(own));
+    let key = OwnedKeyExpr::new(format!("{own}/rpc/{command}")).ok()?;
+    to_this.then(|| (command.to_owned(), key))
+}
+
+/// Does a command of the control plane, which answers the query: at once, or when it is done.
+fn obey(plane: &Plane, command: &str, key: OwnedKeyExpr, query: Query) {
     let parameter = ["s", "times"]
         .iter()
-        .find_map(|name| query.parameters().get(*name));
-    // It is no failure if the one who asked has gone away.
-    let _gone = match plane.command(command, parameter) {
-        Ok(told) => query
-            .reply(query.key_expr(), told.to_string())
-            .encoding(Encoding::APPLICATION_JSON)
-            .wait(),
-        Err(why) => query.reply_err(why).wait(),
-    };
+        .find_map(|name| query.parameters().get(*name))
+        .map(str::to_owned);
+    plane.command(command, parameter.as_deref(), move |told| {
+        // It is no failure if the one who asked has gone away.
+        let _gone = match told {
+            Ok(told) => query
+                .reply(KeyExpr::from(key), told.to_string())
+                .encoding(Encoding::APPLICATION_JSON)
+                .wait(),
+            Err(why) => query.reply_err(why).wait(),
+        };
+    });
 }
 
 fn encoding(message: &Message) -> Encoding {
@@ -166,6 +178,27 @@ mod tests {
     use super::super::{LiveCounts, message};
     use super::*;
     use zenoh::Config;
+
+    #[test]
+    fn a_command_is_named_in_a_run_that_may_be_any() {
+        let own = OwnedKeyExpr::new("rheotaxis/run_1").unwrap();
+        let of = |asked: &str| {
+            let (command, key) = super::command(&own, keyexpr::new(asked).unwrap())?;
+            assert_eq!(key.as_str(), format!("rheotaxis/run_1/rpc/{command}"));
+            Some(command)
+        };
+        for asked in ["rheotaxis/run_1", "rheotaxis/*", "rheotaxis/**", "**"] {
+            assert_eq!(of(&format!("{asked}/rpc/step")).as_deref(), Some("step"));
+        }
+        for asked in [
+            "rheotaxis/run_2/rpc/step",
+            "rheotaxis/run_1/**",
+            "rheotaxis/run_1/*/step",
+            "**",
+        ] {
+            assert_eq!(of(asked), None, "{asked}");
+        }
+    }
 
     #[test]
     fn what_reaches_a_subscriber_is_already_kept() {

@@ -220,7 +220,7 @@ pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
     for [x, y, z, size, mass, n] in &plume.points {
         writeln!(
             text,
-            "{:.1},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}",
+            "{:.2},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}",
             plume.t_s
         )
         .expect("writing to a String succeeds");

@@ -100,7 +100,7 @@ impl Machine {
 }
 
 /// A machine's own name in ROS: a name there begins with a letter and has no two underscores in a row.
-fn ros_name(id: &str) -> String {
+pub(crate) fn ros_name(id: &str) -> String {
     let mut name = String::new();
     if !id.starts_with(|c: char| c.is_ascii_alphabetic()) {
         name.push('r');

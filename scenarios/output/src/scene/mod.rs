@@ -14,6 +14,8 @@ mod sensors;
 
 pub use bed::Bed;
 pub use machine::Machine;
+#[cfg(feature = "live")]
+pub(crate) use machine::ros_name;
 pub use mesh::{MOST_TRIANGLES, Mesh};
 pub use place::{Scene, Solid};
 pub use sensors::SensorPlace;

@@ -163,9 +163,13 @@ fn goal(t_s: f64, g: &Goal) -> Value {
             point,
             radius_m,
             heading,
-        } => json!({
-            "manoeuvre": "slide_to", "point_m": point.as_slice(), "radius_m": radius_m, "heading_rad": heading.rad(),
-        }),
+        } => with(
+            json!({
+                "manoeuvre": "slide_to", "point_m": point.as_slice(), "heading_rad": heading.rad(),
+            }),
+            "radius_m",
+            radius_m,
+        ),
         Manoeuvre::Course { course } => json!({"manoeuvre": "course", "heading_rad": course.rad()}),
         Manoeuvre::Steer { heading } => {
             json!({"manoeuvre": "steer", "heading_rad": heading.rad()})

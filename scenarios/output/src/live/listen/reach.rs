@@ -105,8 +105,8 @@ mod tests {
             (config.get_json("connect/endpoints").unwrap(), place)
         };
         let (all, place) = endpoints(None, None);
-        assert_eq!(all.matches("tcp/").count(), 17);
-        assert_eq!(place, "tcp/127.0.0.1:7447 to 7463");
+        assert_eq!(all.matches("tcp/").count(), 64);
+        assert_eq!(place, "tcp/127.0.0.1:7447 to 7510");
         assert!(endpoints(None, Some(file.clone())).0.contains(":1\""));
         let (one, place) = endpoints(Some("tcp/127.0.0.1:2"), Some(file));
         assert!(!one.contains(":1\"") && one.contains(":2\""), "{one}");

@@ -2,7 +2,8 @@
 //!
 //! Each question of the run takes the first command that came after the one it took last. Its velocities become
 //! set-points over the time since the last question: x is the speed ahead through the water, z (up) changes the depth,
-//! the rate about z (to port) the heading; y (left) moves hulls that go sideways. Stamps are not read.
+//! the rate about z (to port) the heading; y (left) moves hulls that go sideways. Stamps are not read. A command in
+//! another frame, or with a number that is not finite, is none.
 //!
 //! *Source*: geometry_msgs/msg/TwistStamped; axes of REP 103.
 //! *Parameters*: none.
@@ -12,6 +13,7 @@ use super::keys::{self, End, NodeKey};
 use super::node::NAME;
 use super::topics::Qos;
 use crate::ros::MessageKind;
+use crate::scene::frames::BODY;
 use byteorder::LittleEndian;
 use nalgebra::Vector2;
 use rheotaxis::control::{Heard, Question, Seen};
@@ -39,6 +41,8 @@ struct Inbox {
 /// The commands to a robot, as long as it lives.
 pub(in crate::live) struct RosCommands {
     inbox: Arc<Inbox>,
+    /// The frame in which commands are.
+    frame: String,
     taken: u64,
     last_s: Option<f64>,
     _subscriber: Subscriber<()>,
@@ -70,6 +74,7 @@ impl RosCommands {
         let token = node.end(End::Subscriber, number, &name, kind, Qos::Reliable);
         Ok(Self {
             inbox,
+            frame: format!("{robot}/{BODY}"),
             taken: 0,
             last_s: None,
             _subscriber: subscriber,
@@ -105,8 +110,8 @@ impl RosCommands {
         let bytes = newest.1.clone();
         drop(newest);
         let dt_s = question.t_s - self.last_s.replace(question.t_s).unwrap_or(question.t_s);
-        match twist(&bytes) {
-            Ok((_, linear, angular)) => order(question, linear, angular[2], dt_s),
+        match twist(&bytes).and_then(|said| sound(said, &self.frame)) {
+            Ok([linear, angular]) => order(question, linear, angular[2], dt_s),
             Err(why) => Heard::Nonsense(why),
         }
     }
@@ -123,6 +128,29 @@ fn twist(bytes: &[u8]) -> std::result::Result<Twist, String> {
     let read = cdr_encoding::from_bytes::<Twist, LittleEndian>(body);
     read.map(|(twist, _)| twist)
         .map_err(|e| format!("no TwistStamped: {e}"))
+}
+
+/// The velocities of a command that is in a frame; one that names none is.
+fn sound(
+    ((_, frame), linear, angular): Twist,
+    own: &str,
+) -> std::result::Result<[[f64; 3]; 2], String> {
+    if !frame.is_empty() && frame != own {
+        let frame: String = frame.chars().take(100).collect();
+        return Err(format!(
+            "a command must be in the frame `{own}`, or name none, got `{frame}`"
+        ));
+    }
+    for (name, vector) in [("linear", linear), ("angular", angular)] {
+        for (axis, value) in ["x", "y", "z"].into_iter().zip(vector) {
+            if !value.is_finite() {
+                return Err(format!(
+                    "twist.{name}.{axis} of a command must be a finite number, got {value}"
+                ));
+            }
+        }
+    }
+    Ok([linear, angular])
 }
 
 fn order(question: &Question, [ahead, left, up]: [f64; 3], yaw_rad_s: f64, dt_s: f64) -> Heard {
@@ -178,6 +206,32 @@ mod tests {
             b"\0\x01\0\0\x01\0\0\0",
         ] {
             assert!(twist(wrong).is_err(), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_finite_or_in_another_frame_is_refused() {
+        let own = "auv0/base_link";
+        let said = |frame: &str, linear: [f64; 3], angular: [f64; 3]| {
+            sound((((0, 0), frame.to_string()), linear, angular), own)
+        };
+        let ahead = [1.5, 0.0, 0.0];
+        for frame in ["", own] {
+            assert_eq!(said(frame, ahead, [0.0; 3]), Ok([ahead, [0.0; 3]]));
+        }
+        for frame in ["map", "base_link", "auv1/base_link", "/auv0/base_link"] {
+            let why = said(frame, ahead, [0.0; 3]).unwrap_err();
+            assert!(why.contains(own) && why.ends_with(&format!("got `{frame}`")));
+        }
+        for (value, word) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+            for k in 0..6 {
+                let mut all = [0.0; 6];
+                all[k] = value;
+                let [linear, angular] = [[all[0], all[1], all[2]], [all[3], all[4], all[5]]];
+                let why = said(own, linear, angular).unwrap_err();
+                let name = ["linear", "angular"][k / 3].to_string() + "." + ["x", "y", "z"][k % 3];
+                assert!(why.contains(&name) && why.ends_with(word), "{why}");
+            }
         }
     }
 }

@@ -9,8 +9,8 @@ from .errors import LookError
 from .events import Ended, SceneSaid
 from .wire import Wire
 
-#: Where runs listen: the first of these ports that is free when they start.
-FIRST_PORT, PORTS = 7447, 17
+#: Where runs listen: the first of these ports that is free when they start. Only beyond them they listen elsewhere.
+FIRST_PORT, PORTS = 7447, 64
 #: How long to ask a run for its scene before it is shown without, s.
 SCENE_S = 5.0
 
