@@ -1,7 +1,7 @@
 //! Ctrl-C ends a run in order: the recording is whole, the summary says so. A second one ends it at once.
 
 use crate::common;
-use crate::waits::{INT, Process, until};
+use crate::waits::{INT, Process, TERM, until};
 use std::path::Path;
 use std::process::Stdio;
 
@@ -104,6 +104,26 @@ fn long_commands_end_at_ctrl_c() {
         let mut command = common::command(dir.path(), args);
         let mut run = Process::start(command.stderr(Stdio::null()).stdout(Stdio::null()));
         assert_eq!(interrupted_until_it_ends(&mut run), Some(130), "{args:?}");
+    }
+}
+
+/// Nothing is half done there: they end at the first signal, and with the code of one.
+#[test]
+fn short_commands_end_at_a_signal_with_the_code_of_one() {
+    for (signal, number) in [("-INT", INT), ("-TERM", TERM)] {
+        for args in [
+            &["picture", "duck_st", "--at", "0,0,-3"][..],
+            &["vehicle", "trials", "remus100"],
+            &["campaign", "plan", "duck_beta"],
+        ] {
+            let dir = tempfile::tempdir().unwrap();
+            let mut command = common::command(dir.path(), args);
+            let mut run = Process::start(command.stderr(Stdio::null()).stdout(Stdio::null()));
+            assert!(run.handles(number), "{args:?} ended by itself");
+            run.signal(signal);
+            assert_eq!(run.end().code(), Some(130), "{args:?} at {signal}");
+            assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
+        }
     }
 }
 

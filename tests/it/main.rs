@@ -35,6 +35,7 @@ mod score;
 mod sea;
 mod segment;
 mod spin_up;
+mod streams;
 mod structure;
 mod structure_robots;
 mod subregions;

@@ -4,6 +4,7 @@
 
 mod beside;
 mod kept;
+mod shared;
 
 use crate::common::{self, command, with_fields};
 use crate::waits::Process;
@@ -153,7 +154,7 @@ fn no_link_has_its_target_overwritten() {
 /// A limit on the length of files stands for a full disk: both end a write half way.
 fn with_little_room(dir: &Path, args: &str, kib: u32) -> Output {
     let script = format!(
-        "trap '' XFSZ; ulimit -f {kib}; exec '{}' {args}",
+        "ulimit -f {kib}; exec '{}' {args}",
         common::binary().display()
     );
     common::apart(Command::new("bash").args(["-c", &script]))

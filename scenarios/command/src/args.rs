@@ -154,6 +154,9 @@ pub struct RunArgs {
     /// Folder for the results. With several scenarios it gets one folder for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Replace files in that folder that no earlier run left there but that have the names of results.
+    #[arg(long)]
+    pub overwrite: bool,
     /// Speed of the simulation: `max`, `realtime`, or simulated seconds per second, such as 10.
     #[arg(long, default_value = "max", value_name = "max|realtime|X")]
     pub speed: Speed,

@@ -41,6 +41,9 @@ pub struct RerunMcapArgs {
     /// Folder for the results of the new run; without it nothing is written.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Replace files in that folder that no earlier run left there but that have the names of results.
+    #[arg(long)]
+    pub overwrite: bool,
     /// Folder to which file names in the scenario are relative [default: this folder].
     #[arg(long, value_name = "DIR")]
     pub base: Option<PathBuf>,
@@ -64,6 +67,7 @@ impl RunArgs {
             key: key.clone(),
             cache: CacheArgs::default(),
             out: out.map(Path::to_path_buf),
+            overwrite: false,
             speed: Speed::Max,
             no_zenoh: true,
             no_record: false,

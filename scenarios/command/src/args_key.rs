@@ -8,11 +8,12 @@ pub struct KeyArgs {
     /// Secret text on which all random numbers depend beside the seed. Without it, anyone who knows the seed can
     /// compute every random number of the run. The text itself is stored nowhere; summary.json and campaign.json hold
     /// a hash, by which it is recognised. Use at least 20 random characters. The environment variable keeps the text
-    /// out of the list of processes.
+    /// out of the list of processes. An empty text is none, and is refused.
     #[arg(
         long,
         value_name = "TEXT",
         env = "RHEOTAXIS_KEY",
+        value_parser = clap::builder::NonEmptyStringValueParser::new(),
         hide_env_values = true
     )]
     pub key: Option<String>,

@@ -49,7 +49,7 @@ Examples:
   rheotaxis picture duck_st --at 30,40,-5 --look 90,20
   rheotaxis picture mine.ron --at=-3,0,-4.5 --look 85,30 --visibility 4 --out murky.png --truth truth.png
 
-Exit codes: 0 the picture is written; 1 error; 2 wrong usage.";
+Exit codes: 0 the picture is written; 130 interrupted; 1 error; 2 wrong usage.";
 
 /// A fixed count of numbers, separated by commas.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -86,5 +86,5 @@ pub(super) fn tell_fault(kept: Option<&SpinUps>) {
 }
 
 fn warn(problem: &dyn std::fmt::Display) {
-    eprintln!("{problem}");
+    say::note(problem);
 }

@@ -11,6 +11,7 @@ use super::onlooker::Onlooker;
 use super::run::RunError;
 use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
+use output::shown::printable;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::Trial;
 use std::sync::Arc;
@@ -21,7 +22,14 @@ use studies::campaign::{
 
 /// Runs one of its subcommands.
 pub(super) fn campaign(command: &CampaignCommand) -> Exit {
-    stop::listen();
+    match command {
+        CampaignCommand::Plan(_) | CampaignCommand::Status(_) | CampaignCommand::Merge(_) => {
+            stop::begin();
+        }
+        CampaignCommand::Run(_) | CampaignCommand::Report(_) | CampaignCommand::Rerun(_) => {
+            stop::listen();
+        }
+    }
     let done = match command {
         CampaignCommand::Plan(args) => plan(args),
         CampaignCommand::Run(args) => run_share(args),
@@ -73,11 +81,11 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         .expect("the template is well formed")
         .progress_chars("=> "),
     );
-    bar.set_prefix(campaign.name.clone());
+    bar.set_prefix(printable(&campaign.name).into_owned());
     let (failed, share) = (AtomicU64::new(0), AtomicU64::new(0));
     let say_so = |line: &str| {
         if !args.quiet {
-            bar.suspend(|| eprintln!("{line}"));
+            bar.suspend(|| say::note(line));
         }
     };
     let tell = |event: Event<'_>| match event {
@@ -104,7 +112,9 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
             ));
         }
         // Printed even with --quiet, because something damaged the folder.
-        Event::Broken(error) => bar.suspend(|| eprintln!("{error}; it is done again")),
+        Event::Broken(error) => {
+            bar.suspend(|| say::note(format_args!("{error}; it is done again")))
+        }
         Event::Ran(row) => {
             bar.inc(1);
             if let Some(error) = &row.error
@@ -215,10 +225,10 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
         merged.declarations_path.display()
     ));
     if merged.rows < merged.of {
-        eprintln!(
+        say::note(format_args!(
             "the campaign is not complete: {} missing",
             count(merged.of - merged.rows, "run")
-        );
+        ));
     }
     Ok(Exit::Success)
 }

@@ -50,7 +50,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     match write(&out, &about, &read.rows) {
         Ok(written) => {
             if let Some(removed) = say::removed(&out, &written.removed) {
-                eprintln!("{removed}");
+                say::note(removed);
             }
             say::line(written.text);
             say::line(format_args!(
@@ -71,7 +71,7 @@ fn tracks(args: &ReportArgs, read: &Read, arms: &[String]) -> Vec<Shown> {
     let mut campaign = read.campaign.clone();
     campaign.key = args.key.get();
     if let Err(error) = read.manifest.same_key(&campaign) {
-        eprintln!("no tracks are shown: {error}");
+        say::note(format_args!("no tracks are shown: {error}"));
         return Vec::new();
     }
     let picks = picks(arms, &read.rows);

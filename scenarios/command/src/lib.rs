@@ -1,10 +1,5 @@
 //! The command `rheotaxis`: it reads arguments, calls the libraries and prints what they return.
-#![forbid(unsafe_code)]
-#![allow(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "a command writes to standard output and standard error"
-)]
+#![deny(unsafe_code)]
 
 mod args;
 mod args_cache;
@@ -39,6 +34,7 @@ mod run;
 mod say;
 mod score_vision;
 mod segment;
+mod signals;
 mod statistics;
 mod stop;
 mod topics;
@@ -80,13 +76,30 @@ pub fn main() -> ExitCode {
 /// `explain` and campaigns then know them.
 #[must_use]
 pub fn main_with(registry: &Registry) -> ExitCode {
-    // clap ends the process itself for `--help` (0) and for wrong usage (2).
-    let Args { command, memory } = Args::parse();
+    signals::ignore_limits();
+    let Args { command, memory } = match Args::try_parse() {
+        Ok(args) => args,
+        // Wrong usage, or `--help` and the like.
+        Err(said) => return say::usage(&said).into(),
+    };
     cost::set_limit(memory);
-    Exit::guarded(|| registry.scope(|| dispatch(command))).into()
+    say::end(Exit::guarded(|| registry.scope(|| dispatch(command)))).into()
 }
 
 fn dispatch(command: Command) -> Exit {
+    // The others leave their work in order, and say so before a signal can come.
+    if !matches!(
+        command,
+        Command::Run(_)
+            | Command::Rerun(_)
+            | Command::Listen(_)
+            | Command::Campaign(_)
+            | Command::Reproduce(_)
+            | Command::Statistics(_)
+            | Command::ScoreVision(_)
+    ) {
+        stop::begin();
+    }
     match command {
         Command::Run(args) => run::run(&args),
         Command::Rerun(args) => rerun::rerun(&args),

@@ -8,6 +8,7 @@ use super::args_live::ListenArgs;
 use super::exit::Exit;
 use super::{say, stop};
 use output::live::{ListenOptions, Listener, LiveError, News};
+use output::shown::turns;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 use std::num::NonZeroU64;
@@ -30,7 +31,7 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
         Err(error) => return refused(&error),
     };
     if let Some(notice) = listener.notice() {
-        eprintln!("{notice}");
+        say::note(notice);
     }
     let mut exit = Exit::Success;
     let (mut going, mut met, mut steps) = (BTreeSet::new(), false, 0);
@@ -42,14 +43,15 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
                 steps += 1;
                 if steps == PATIENCE && !met {
                     let place = listener.place();
-                    eprintln!(
+                    say::note(format_args!(
                         "no run is there yet: it looks at {place}, until Ctrl-C; `rheotaxis run SCENARIO` in another \
                          terminal is one, and --connect names another place"
-                    );
+                    ));
                 }
             }
             Ok(Some(News::Message(line))) => {
-                if let Err(error) = writeln!(std::io::stdout(), "{line}") {
+                if let Err(error) = writeln!(std::io::stdout(), "{}", shown_json(&line.to_string()))
+                {
                     // A reader that closes the pipe early (`| head`) has what it wanted.
                     let enough = error.kind() == ErrorKind::BrokenPipe;
                     return if enough { exit } else { refused(&error) };
@@ -60,16 +62,18 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
                 }
             }
             Ok(Some(News::Begun(run))) => {
-                eprintln!("rheotaxis/{run} is there");
+                say::note(format_args!("rheotaxis/{run} is there"));
                 met = true;
                 going.insert(run);
             }
             Ok(Some(News::Ended(run))) => {
-                eprintln!("rheotaxis/{run} has ended");
+                say::note(format_args!("rheotaxis/{run} has ended"));
                 going.remove(&run);
             }
             Ok(Some(News::Gone(run))) => {
-                eprintln!("rheotaxis/{run} is gone and did not say that it ended");
+                say::note(format_args!(
+                    "rheotaxis/{run} is gone and did not say that it ended"
+                ));
                 going.remove(&run);
                 exit = Exit::Error;
             }
@@ -93,7 +97,7 @@ fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, Live
         match Listener::open(&options) {
             Err(error @ LiveError::NoSession { .. }) => {
                 if !told {
-                    eprintln!("{error}; it tries again until Ctrl-C");
+                    say::note(format_args!("{error}; it tries again until Ctrl-C"));
                 }
                 told = true;
                 sleep(STEP);
@@ -107,4 +111,13 @@ fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, Live
 fn refused(error: &dyn std::error::Error) -> Exit {
     say::error(error, None);
     Exit::Error
+}
+
+/// A line of JSON without characters that turn the direction of writing: they stand in it as JSON writes any character.
+fn shown_json(line: &str) -> String {
+    let one = |c: char| match turns(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    line.chars().map(one).collect()
 }

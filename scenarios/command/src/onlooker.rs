@@ -7,9 +7,10 @@
 use super::args::{RunArgs, Speed};
 use super::company::Company;
 use super::progress::Progress;
-use output::files::{ReportError, begin_folder};
+use output::files::{ReportError, begin_run};
 use output::follow::Follower;
 use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
+use output::report::is_result;
 use rheotaxis::control::{Consultation, Heard};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::outcome::RunOutcome;
@@ -56,7 +57,8 @@ impl Onlooker {
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
         let live = live(args, &mut results, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
-        let out = begin_folder(out, "run")?;
+        let own = |name: &str| is_result(&loaded.scenario, name);
+        let out = begin_run(out, (!args.overwrite).then_some(&own))?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
             progress.say(&removed);
         }

@@ -6,12 +6,12 @@ use super::{cache, say};
 use image::RgbImage;
 use nalgebra::Vector3;
 use output::charts::picture_png;
-use output::files::{ReportError, write_whole};
+use output::files::{ReportError, beside_no_run, write_whole};
 use rheotaxis::assemble::WaterLight;
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, CameraSpec, Rendered, Scene, looking, render};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use world::ranges::Positive;
 use world::seeds;
 use world::units::Heading;
@@ -24,6 +24,12 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
             args.out.display()
         );
         say::error(problem, Some("name another file for one of them"));
+        return Exit::Error;
+    }
+    let files = [Some(&args.out), args.truth.as_ref()];
+    let free = |file: &PathBuf| beside_no_run(file);
+    if let Err(error) = files.into_iter().flatten().try_for_each(free) {
+        say::error(error, None);
         return Exit::Error;
     }
     let checked = load(&args.file).and_then(|mut loaded| {

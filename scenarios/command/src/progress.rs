@@ -1,10 +1,12 @@
 //! The progress bar of a run, and the lines at its end.
 
 use super::args::RunArgs;
+use super::say;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use nalgebra::Vector2;
 use output::results::GantrySummary;
 use output::results::{DeclarationSummary, DeclaredKind, RobotSummary, Summary};
+use output::shown::printable;
 use rheotaxis::frame::Frame;
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::Loaded;
@@ -55,7 +57,8 @@ impl Progress {
                 .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
                 .collect(),
         };
-        progress.bar.set_prefix(progress.name.clone());
+        let name = printable(&progress.name).into_owned();
+        progress.bar.set_prefix(name);
         progress.say(&format!(
             "{}: {}, seed {}",
             progress.name, scenario.title, args.seed
@@ -66,13 +69,14 @@ impl Progress {
     /// Prints a line above the bar.
     pub(super) fn say(&self, line: &str) {
         if !self.quiet {
-            self.bar.suspend(|| eprintln!("{line}"));
+            self.bar.suspend(|| say::note(line));
         }
     }
 
     /// Prints a warning above the bar, also when nothing else is shown.
     pub(super) fn warn(&self, line: &str) {
-        self.bar.suspend(|| eprintln!("warning: {line}"));
+        self.bar
+            .suspend(|| say::note(format_args!("warning: {line}")));
     }
 
     pub(super) fn spun_up(&mut self, share: f64) {
@@ -141,7 +145,7 @@ impl Progress {
 
     fn tell(&self, summary: &Summary, out: &Path) {
         let run = &summary.run;
-        println!(
+        say::line(format_args!(
             "{}: {} after {:.0} s ({} filaments, {})",
             self.name,
             summary.outcome.words(),
@@ -154,9 +158,9 @@ impl Progress {
                 Some(x) => format!("{x:.0} x real time, spin-up included"),
                 None => "in no time".to_string(),
             }
-        );
+        ));
         for robot in &summary.robots {
-            println!(
+            say::line(format_args!(
                 "  {}: travelled {:.0} m, {} detections{}",
                 robot.id,
                 robot.travelled_m,
@@ -165,21 +169,24 @@ impl Progress {
                     Some(t) => format!(", the first after {t:.0} s"),
                     None => String::new(),
                 }
-            );
+            ));
             for line in declared_lines(robot) {
-                println!("  {}: {line}", robot.id);
+                say::line(format_args!("  {}: {line}", robot.id));
             }
         }
         for abnormal in &summary.abnormal {
-            println!("  ! {}: {}", abnormal.robot, abnormal.line);
+            say::line(format_args!("  ! {}: {}", abnormal.robot, abnormal.line));
         }
         for g in &summary.gantries {
             for line in gantry_lines(g) {
-                println!("  {}: {line}", g.id);
+                say::line(format_args!("  {}: {line}", g.id));
             }
         }
-        println!("  digest {}", summary.digest);
-        println!("  results in {}: open report.html", out.display());
+        say::line(format_args!("  digest {}", summary.digest));
+        say::line(format_args!(
+            "  results in {}: open report.html",
+            out.display()
+        ));
     }
 }
 

@@ -5,6 +5,7 @@ use super::campaign_plan::count;
 use super::exit::Exit;
 use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
+use output::shown::printable;
 use rheotaxis::cache::SpinUps;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -40,7 +41,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
     if !args.quiet && !args.no_runs {
-        eprintln!("{}", trials(&references, args));
+        say::note(trials(&references, args));
     }
     let planned = |r: &Reference| (r.arms.len() as u64).saturating_mul(args.n(&r.row));
     let mut work = Work {
@@ -128,11 +129,11 @@ impl Work<'_> {
             };
             if !table.is_empty() {
                 if args.check > 0 && !args.quiet {
-                    eprintln!(
+                    say::note(format_args!(
                         "{}: runs {} again",
                         row.row.id,
                         count(args.check as u64, "kept seed")
-                    );
+                    ));
                 }
                 match table.stale(reference, args.check) {
                     Some(_) if args.anew => table = Table::default(),
@@ -208,8 +209,10 @@ impl Work<'_> {
             if bar.is_hidden() && !args.quiet {
                 let (id, runs) = (&reference.row.id, count(so_far.runs.len() as u64, "trial"));
                 match left.words() {
-                    Some(left) => eprintln!("{id}: {runs} done, about {left} left in all"),
-                    None => eprintln!("{id}: {runs} done"),
+                    Some(left) => {
+                        say::note(format_args!("{id}: {runs} done, about {left} left in all"))
+                    }
+                    None => say::note(format_args!("{id}: {runs} done")),
                 }
             }
             if let (Some(dir), Some(table)) = (&args.keep, tables.get_mut(k)) {
@@ -238,7 +241,7 @@ fn bar(reference: &Reference, quiet: bool, length: u64, done: u64) -> ProgressBa
             .expect("the template is well formed")
             .progress_chars("=> "),
     );
-    bar.set_prefix(reference.row.id.clone());
+    bar.set_prefix(printable(&reference.row.id).into_owned());
     bar.set_position(done);
     bar.enable_steady_tick(Duration::from_millis(500));
     bar

@@ -7,7 +7,7 @@ use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::progress::Progress;
 use super::run::{RunError, refused};
-use super::{cache, stop};
+use super::{cache, say, stop};
 use output::mcap::{ReadError, Recorded, read_recording};
 use rheotaxis::control::Replay;
 use rheotaxis::frame::Frame;
@@ -37,7 +37,7 @@ pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
         Err(RerunError::Scenario(error)) => refused(error.into()),
         Err(RerunError::Run(error)) => refused(error),
         Err(error) => {
-            super::say::error(error, None);
+            say::error(error, None);
             Exit::Error
         }
     }
@@ -77,6 +77,7 @@ fn made(
     let run = RunArgs {
         cache: args.cache.clone(),
         quiet: args.quiet,
+        overwrite: args.overwrite,
         ..RunArgs::alone(recorded.seed, &args.key, args.out.as_deref())
     };
     let seed = args.key.seed(recorded.seed);
@@ -150,21 +151,23 @@ fn compared(recorded: &Recorded, ended: &Ended) -> Exit {
     let asked = recorded.told.len();
     match &recorded.result {
         Some((digest, _)) if *digest == ended.digest => {
-            println!("the same run: digest {digest}, {asked} answers from outside{other}");
+            say::line(format_args!(
+                "the same run: digest {digest}, {asked} answers from outside{other}"
+            ));
             Exit::Success
         }
         Some((digest, _)) => {
-            println!(
+            say::line(format_args!(
                 "another run: digest {}, recorded {digest}{other}",
                 ended.digest
-            );
+            ));
             Exit::NotFound
         }
         None => {
-            println!(
+            say::line(format_args!(
                 "the recording broke off, so there is no digest to compare with: {} after {:.0} s{other}",
                 ended.digest, ended.t_s
-            );
+            ));
             Exit::NotFound
         }
     }

@@ -5,8 +5,9 @@ use super::company::Company;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::{cache, say, stop};
-use output::files::ReportError;
+use output::files::{ReportError, could_begin_run};
 use output::live::LiveError;
+use output::report::is_result;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::error::AssembleError;
 use rheotaxis::lanes::{LaneError, Lanes, alike};
@@ -38,13 +39,24 @@ pub(super) enum RunError {
          another strategy"
     )]
     NotAllowed { scenario: String, robots: String },
-    #[error("{}: another scenario of this command has written its results there", .0.display())]
+    #[error("{}: another scenario of this command writes its results there", .0.display())]
     Taken(PathBuf),
     #[error("--ros2 shows one run, because topics of ROS 2 do not name a run: give one scenario")]
     OneForRos2,
 }
 
+impl RunError {
+    /// What would help.
+    fn help(&self) -> Option<&'static str> {
+        let Self::Report(ReportError::Write(error)) = self else {
+            return None;
+        };
+        (error.is_foreign()).then_some("--overwrite replaces files that have the names of results")
+    }
+}
+
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
+/// But none is run if the results of one cannot go into its folder.
 pub(super) fn run(args: &RunArgs) -> Exit {
     if args.ros2.ros2 && args.files.len() > 1 {
         return refused(RunError::OneForRos2);
@@ -54,10 +66,13 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     let mut exit = Exit::Success;
     let mut ready: Vec<(Loaded, PathBuf)> = Vec::new();
     for file in &args.files {
-        match prepared(file, args, &ready) {
+        match prepared(file, args) {
             Ok(one) => ready.push(one),
             Err(error) => exit = exit.worse(refused(error)),
         }
+    }
+    if let Err(error) = folders(&ready, args) {
+        return refused(error);
     }
     let seed = args.key.seed(args.seed);
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
@@ -75,7 +90,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
 pub(super) fn refused(error: RunError) -> Exit {
     match error {
         RunError::Scenario(error) => say::scenario_error(&error),
-        error => say::error(error, None),
+        error => say::error(&error, error.help()),
     }
     Exit::Error
 }
@@ -89,12 +104,8 @@ fn code(outcome: RunOutcome) -> Exit {
     }
 }
 
-/// The scenario of a file and the folder of its results, unless another file of this command uses that.
-fn prepared(
-    file: &Path,
-    args: &RunArgs,
-    before: &[(Loaded, PathBuf)],
-) -> Result<(Loaded, PathBuf), RunError> {
+/// The scenario of a file and the folder of its results.
+fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> {
     let loaded = load(file)?;
     say::warnings(&loaded.check()?);
     let asking = controlled(&loaded.scenario);
@@ -105,10 +116,19 @@ fn prepared(
         });
     }
     let folder = folder(&loaded, args);
-    if before.iter().any(|(_, taken)| *taken == folder) {
-        return Err(RunError::Taken(folder));
-    }
     Ok((loaded, folder))
+}
+
+/// Whether all results can go into their folders: hours may pass before the last of them is opened.
+fn folders(ready: &[(Loaded, PathBuf)], args: &RunArgs) -> Result<(), RunError> {
+    for (n, (loaded, folder)) in ready.iter().enumerate() {
+        if ready[..n].iter().any(|(_, taken)| taken == folder) {
+            return Err(RunError::Taken(folder.clone()));
+        }
+        let own = |name: &str| is_result(&loaded.scenario, name);
+        could_begin_run(folder, (!args.overwrite).then_some(&own))?;
+    }
+    Ok(())
 }
 
 /// Runs scenarios with the same ocean in lanes.
@@ -124,7 +144,11 @@ fn together(
     for (loaded, folder) in group {
         if !args.quiet {
             let bytes = cost::cost(&loaded.scenario).bytes();
-            eprintln!("{}: takes about {} of memory", loaded.name, memory(bytes));
+            say::note(format_args!(
+                "{}: takes about {} of memory",
+                loaded.name,
+                memory(bytes)
+            ));
         }
         let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
         let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);

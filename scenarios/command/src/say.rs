@@ -1,10 +1,16 @@
-//! How errors and other messages are printed.
+//! How results, errors and other messages are printed. A stream that cannot be written ends no run; that results could
+//! not be printed is said at the end.
 
+use super::exit::Exit;
 use console::{Term, colors_enabled_stderr};
-use output::shown::{self, Look, PLAIN};
+use output::shown::{self, Look, PLAIN, printable};
 use rheotaxis::scenario::{Fault, ScenarioError};
-use std::io::Write;
+use std::io::{self, ErrorKind, Write};
 use std::path::Path;
+use std::sync::OnceLock;
+
+/// Why a line could not be printed to standard output, the first time.
+static UNPRINTED: OnceLock<String> = OnceLock::new();
 
 /// How messages are drawn on standard error.
 fn look() -> Look {
@@ -21,7 +27,7 @@ fn look() -> Look {
 /// Prints each mistake of a scenario to standard error.
 pub(super) fn scenario_error(error: &ScenarioError) {
     for drawn in shown::all(error, look()) {
-        eprintln!("{drawn}");
+        to_stderr(&drawn);
     }
 }
 
@@ -37,9 +43,51 @@ pub(super) fn columns() -> Option<usize> {
     columns.filter(|n| *n > 0)
 }
 
-/// Prints a line to standard output. A reader that closes the pipe early (`| head`) is no error.
+/// Prints a line to standard output.
 pub(super) fn line(text: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stdout(), "{text}");
+    let text = text.to_string();
+    keep(writeln!(io::stdout(), "{}", printable(&text)));
+}
+
+/// Prints a line about the work to standard error.
+pub(super) fn note(text: impl std::fmt::Display) {
+    to_stderr(&printable(&text.to_string()));
+}
+
+/// Standard error may be a full disk or a closed pipe, and there is no other place to say so.
+fn to_stderr(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Keeps an error of standard output. A reader that closes the pipe early (`| head`) is none.
+fn keep(printed: io::Result<()>) {
+    if let Err(error) = printed
+        && error.kind() != ErrorKind::BrokenPipe
+    {
+        let _first = UNPRINTED.set(error.to_string());
+    }
+}
+
+/// How a command ends, if all that it had to print was printed.
+pub(super) fn end(exit: Exit) -> Exit {
+    keep(io::stdout().flush());
+    match UNPRINTED.get() {
+        None => exit,
+        Some(problem) => {
+            error(format!("cannot write to standard output: {problem}"), None);
+            exit.worse(Exit::Error)
+        }
+    }
+}
+
+/// Prints what clap says instead of a command: help, which was asked for, or how a usage is wrong.
+pub(super) fn usage(said: &clap::Error) -> u8 {
+    let printed = said.print();
+    if said.use_stderr() {
+        return u8::try_from(said.exit_code()).unwrap_or(2);
+    }
+    keep(printed);
+    end(Exit::Success).code()
 }
 
 /// Names the files of an earlier run that were removed from a folder, if there were any.
@@ -56,11 +104,11 @@ pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
 /// Prints mistakes or warnings about a scenario to standard error.
 pub(super) fn warnings(faults: &[Fault]) {
     for fault in faults {
-        eprintln!("{}", shown::fault(fault, look()));
+        to_stderr(&shown::fault(fault, look()));
     }
 }
 
 /// Prints any other error: what is wrong and, if known, how to correct it.
 pub(super) fn error(problem: impl std::fmt::Display, help: Option<&str>) {
-    eprintln!("{}", shown::error(&problem.to_string(), help, look()));
+    to_stderr(&shown::error(&problem.to_string(), help, look()));
 }

@@ -30,7 +30,7 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     // Opens the folder first, so that an error does not come after minutes of work.
     let out = begin_folder(&args.out, "score-vision")?;
     if let Some(removed) = say::removed(&args.out, out.removed()) {
-        eprintln!("{removed}");
+        say::note(removed);
     }
     let bar = if args.quiet {
         ProgressBar::hidden()

@@ -33,7 +33,7 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
     });
     let written = begin_folder(&folder, "segment").and_then(|out| {
         if let Some(removed) = say::removed(&folder, out.removed()) {
-            eprintln!("{removed}");
+            say::note(removed);
         }
         write(&out, &segmented)
     });

@@ -4,6 +4,8 @@ use super::args::StatisticsArgs;
 use super::exit::Exit;
 use super::{say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
+use output::files::make_folder;
+use output::shown::printable;
 use rheotaxis::scenario::load;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -25,6 +27,14 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
             return Exit::Error;
         }
     };
+    // First, so that an error does not come after minutes of work.
+    let folder = args.out.clone().unwrap_or_else(|| {
+        PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed))
+    });
+    if let Err(error) = make_folder(&folder) {
+        say::error(error, None);
+        return Exit::Error;
+    }
     let stop = stop::listen();
     let bar = if args.quiet {
         ProgressBar::hidden()
@@ -33,7 +43,7 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     };
     let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
     bar.set_style(style.expect("the template is well formed"));
-    bar.set_prefix(loaded.name.clone());
+    bar.set_prefix(printable(&loaded.name).into_owned());
     let measured =
         statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
             bar.set_position((share * PARTS as f64) as u64);
@@ -52,9 +62,6 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
         }
     };
     say::line(table(&measured));
-    let folder = args.out.clone().unwrap_or_else(|| {
-        PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed))
-    });
     match write(&folder, &measured) {
         Ok(path) => {
             say::line(format_args!("the table is in {}", path.display()));

@@ -7,7 +7,7 @@ use super::exit::Exit;
 use super::say;
 use super::vehicle_fly::flown;
 use output::charts::png;
-use output::files::write_whole;
+use output::files::{beside_no_run, write_whole};
 use rheotaxis::scenario::Beside;
 use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Does};
@@ -226,6 +226,7 @@ fn looks(vehicle: &Described) -> Looks {
 }
 
 fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
+    beside_no_run(&args.out.join("trials.csv")).map_err(plainly)?;
     let craft = loaded(&args.folder)?;
     let name = title(&craft);
     say::line(format_args!(

@@ -66,6 +66,32 @@ pub fn begin_folder(path: &Path, command: &str) -> Result<Folder, ReportError> {
     Ok(Folder::begin(path, command)?)
 }
 
+/// As [`begin_folder`] for a run, but refuses a folder with somebody else's file under a name that `own` says is one of
+/// the run's. Without `own`, such files are replaced.
+pub fn begin_run(path: &Path, own: Option<&dyn Fn(&str) -> bool>) -> Result<Folder, ReportError> {
+    make_folder(path)?;
+    Ok(Folder::begin_with(path, RUN, own)?)
+}
+
+/// Whether [`begin_run`] would take a folder. Nothing is made.
+pub fn could_begin_run(path: &Path, own: Option<&dyn Fn(&str) -> bool>) -> Result<(), ReportError> {
+    Ok(Folder::could_begin(path, RUN, own)?)
+}
+
+/// What the list of a run's files is named after.
+const RUN: &str = "run";
+
+/// Refuses to write a single file into a folder that a run is writing its results into.
+pub fn beside_no_run(file: &Path) -> Result<(), ReportError> {
+    if !files::is_in_use(files::folder_of(file)) {
+        return Ok(());
+    }
+    let problem =
+        "a run is writing its results into that folder: wait for its end, or name another";
+    let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
+    Err(OutputError::new(file, source).into())
+}
+
 /// Writes a file completely or not at all.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
     Ok(files::write(path, bytes)?)

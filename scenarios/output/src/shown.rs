@@ -1,6 +1,7 @@
 //! Draws mistakes of a scenario with the lines around them, and other errors.
 
 use rheotaxis::scenario::{Fault, ScenarioError, Severity};
+use std::borrow::Cow;
 use std::fmt::Write as _;
 use unicode_width::UnicodeWidthStr as _;
 
@@ -18,6 +19,33 @@ pub const PLAIN: Look = Look {
     color: false,
     width: None,
 };
+
+/// A text as a terminal may show it. Titles and names are texts of others: characters in them that would command the
+/// terminal, or turn the direction of writing, are written as `\u{1b}`. Lines and tabs stay.
+#[must_use]
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let acts = |c: char| (c.is_control() && !matches!(c, '\n' | '\t')) || turns(c);
+    if !text.contains(acts) {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        match acts(c) {
+            true => out.extend(c.escape_unicode()),
+            false => out.push(c),
+        }
+    }
+    Cow::Owned(out)
+}
+
+/// Whether a character marks or turns the direction of writing, or ends a line unseen.
+#[must_use]
+pub fn turns(c: char) -> bool {
+    matches!(
+        c,
+        '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    )
+}
 
 /// A mistake or a warning with the lines around it.
 #[must_use]
@@ -91,7 +119,9 @@ fn lines_around(fault: &Fault, text: &str, look: Look) -> String {
     let gap = " ".repeat(wide + 2);
     let mut out = format!(
         "{gap}╭─[{}:{}:{}]\n",
-        fault.source_name, fault.line, fault.column
+        printable(&fault.source_name),
+        fault.line,
+        fault.column
     );
     for (n, line) in shown {
         let _ = writeln!(
@@ -106,7 +136,7 @@ fn lines_around(fault: &Fault, text: &str, look: Look) -> String {
             let pad = " ".repeat(tabs(&line[..begin.min(line.len())]).width());
             let (mark, below) = mark(tabs(&text[fault.span.clone()]).width());
             let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &mark));
-            let label = format!("{}╰── {}", " ".repeat(below), fault.label);
+            let label = format!("{}╰── {}", " ".repeat(below), printable(&fault.label));
             let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &label));
         }
     }
@@ -126,7 +156,8 @@ fn mark(columns: usize) -> (String, usize) {
 }
 
 fn tabs(text: &str) -> String {
-    text.trim_end_matches('\r').replace('\t', "    ")
+    let text = text.trim_end_matches('\r').replace('\t', "    ");
+    printable(&text).into_owned()
 }
 
 /// Words in lines of the look's width, behind a first and further margins of so many columns.
@@ -140,7 +171,7 @@ fn wrapped(text: &str, first: &str, further: &str, margin: usize, look: Look) ->
             out = out + "\n" + further;
         }
         let mut used = 0;
-        for word in paragraph.split(' ') {
+        for word in printable(paragraph).split(' ') {
             let wide = word.width();
             if used > 0 && used + 1 + wide > most {
                 out = out + "\n" + further;
@@ -226,5 +257,25 @@ mod tests {
             },
         );
         assert!(colored.contains("\x1b[31m×\x1b[0m"), "{colored}");
+    }
+
+    #[test]
+    fn what_would_command_a_terminal_is_written_out() {
+        assert_eq!(printable("a — b\t\u{e9}\n"), "a — b\t\u{e9}\n");
+        assert_eq!(
+            printable("\x1b[31m\x07\u{9b}\u{202e}\u{2066}\r"),
+            r"\u{1b}[31m\u{7}\u{9b}\u{202e}\u{2066}\u{d}"
+        );
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        let text = text.replacen("title: \"", "\u{202e}: 3, title: \"\x1b]0;x\x07", 1);
+        let Err(odd) = parse("\x1b.ron", &text) else {
+            panic!("it is no scenario");
+        };
+        let drawn = all(&odd, PLAIN).concat();
+        assert!(drawn.contains(r"\u{1b}.ron"), "{drawn}");
+        assert!(
+            !drawn.contains(|c: char| c != '\n' && (c.is_control() || turns(c))),
+            "{drawn}"
+        );
     }
 }

@@ -8,8 +8,9 @@ use super::error::{Raised, apart, other, scenario_error, warn_of, warn_of_run, w
 use super::result::{Kept, Made, PyRunResult};
 use super::scenario::PyScenario;
 use super::signals::Signals;
-use output::files::begin_folder;
+use output::files::begin_run;
 use output::follow::Follower;
+use output::report::is_result;
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 use rheotaxis::cache::SpinUps;
@@ -83,7 +84,8 @@ fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<Made>
     let mut results = Follower::new(loaded, asked.seed.into()).map_err(other)?;
     // The folder comes last: a run that cannot start must not remove the files of an earlier run.
     if let Some(files) = &asked.files {
-        let out = begin_folder(files, "run").map_err(other)?;
+        let own = |name: &str| is_result(&loaded.scenario, name);
+        let out = begin_run(files, Some(&own)).map_err(other)?;
         results.write_into(&out, asked.recording).map_err(other)?;
     }
     let mut watcher = Watcher {

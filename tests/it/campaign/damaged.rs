@@ -3,6 +3,8 @@
 use super::{ends, folder, rows};
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use studies::campaign::{Event, RunEnded, RunOptions, block_path, load, run};
 
 const RUN: [&str; 7] = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
 
@@ -92,4 +94,54 @@ fn pipes_and_devices_in_the_place_of_a_block_are_said_and_stay() {
     }
     ends(dir, 0, &RUN);
     assert_eq!(rows(&dir.join("out")), good);
+}
+
+/// What is removed while the campaign runs is made again before it says that all is done.
+#[test]
+fn a_block_that_is_removed_meanwhile_is_made_again() {
+    let folder = folder(4, "10", "2");
+    let dir = folder.path();
+    let campaign = load(&dir.join("c.ron")).unwrap();
+    let (out, removed) = (dir.join("out"), AtomicBool::new(false));
+    let options = RunOptions {
+        block: Some(4),
+        jobs: 1,
+        ..RunOptions::default()
+    };
+    let tell = |event: Event<'_>| {
+        if matches!(event, Event::Wrote(2)) && !removed.swap(true, Ordering::Relaxed) {
+            fs::remove_file(block_path(&out, 0)).unwrap();
+        }
+    };
+    let ended = run(&campaign, &out, &options, &AtomicBool::new(false), &tell);
+    assert_eq!(ended.unwrap(), RunEnded::Complete);
+    assert!(removed.into_inner());
+    assert_eq!(rows(&out).len(), 16);
+}
+
+#[test]
+fn what_killed_processes_left_goes_with_the_next_run_or_merge() {
+    let folder = folder(1, "10", "2");
+    let dir = folder.path();
+    let run = ["run", "c.ron", "--out", "out", "--quiet"];
+    ends(dir, 0, &run);
+    let left = [
+        "out/campaign.json.17-0.tmp",
+        "out/part-000000.parquet.17-1.tmp",
+        "out/declarations-000000.parquet.17-2.tmp",
+    ];
+    let of_merge = ["all.parquet.17-0.tmp", "all-declarations.csv.17-3.tmp"];
+    let others = ["out/notes.parquet.17-1.tmp", "rows.parquet.17-1.tmp"];
+    for name in left.iter().chain(&of_merge).chain(&others) {
+        fs::write(dir.join(name), "half").unwrap();
+    }
+    // One that is being written.
+    let written = fs::File::open(dir.join(left[1])).unwrap();
+    written.lock().unwrap();
+    ends(dir, 0, &run);
+    assert!(!dir.join(left[0]).exists() && !dir.join(left[2]).exists());
+    assert!(dir.join(left[1]).exists());
+    ends(dir, 0, &["merge", "out", "-o", "all.parquet", "--csv"]);
+    assert!(!of_merge.iter().any(|name| dir.join(name).exists()));
+    assert!(others.iter().all(|name| dir.join(name).exists()));
 }

@@ -1,7 +1,10 @@
 //! Files are read whole and written whole. Only this module opens, makes, renames or removes files.
 
 mod folder;
+#[cfg(test)]
+mod folder_tests;
 mod input;
+mod lock;
 mod output;
 #[cfg(test)]
 mod output_tests;
@@ -11,5 +14,9 @@ mod shelf_tests;
 
 pub use folder::Folder;
 pub use input::{is_special, open, read, read_text};
-pub use output::{Output, OutputError, make_folder, write, write_new, write_on_disk};
+pub use lock::is_in_use;
+pub use output::{
+    Output, OutputError, clear_abandoned, drop_unfinished, folder_of, make_folder, write,
+    write_new, write_on_disk,
+};
 pub use shelf::{Found, Shelf, ShelfError, Stock};

@@ -3,13 +3,17 @@
 //! Only regular files are replaced. If a folder, a pipe, a socket or a device has the name, or a link to one of them,
 //! that is an error. A link to a regular file, or to nothing, is itself replaced; its target stays as it is. The
 //! temporary file is made with `O_EXCL`, so that no existing file is opened, followed or overwritten. It is removed if
-//! the file is not completed. Its name ends in the process's number, a count and `.tmp`.
+//! the file is not completed. Its name ends in the process's number, a count and `.tmp`. It is locked while it is
+//! written, so that others know whether it was left by a process that was killed.
 
 use super::input::special;
+use super::lock::{is_held, is_removed};
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A file could not be written: its folder is not writable, the disk is full, or something else has its name.
 #[derive(Debug, thiserror::Error)]
@@ -27,7 +31,27 @@ impl OutputError {
         let path = path.to_owned();
         Self { path, source }
     }
+
+    /// The error of somebody else's file that stands in the place; `also` names others like it.
+    pub(super) fn foreign(path: &Path, also: &[String]) -> Self {
+        let also = match also {
+            [] => String::new(),
+            also => format!(" (so it is with {})", also.join(", ")),
+        };
+        Self::new(path, io::Error::other(Foreign(also)))
+    }
+
+    /// Whether somebody else's file stands in the place.
+    #[must_use]
+    pub fn is_foreign(&self) -> bool {
+        self.source.get_ref().is_some_and(|e| e.is::<Foreign>())
+    }
 }
+
+/// What holds of a file that no list of results names.
+#[derive(Debug, thiserror::Error)]
+#[error("it is there, and no earlier run left it: move it away, or name another folder{0}")]
+struct Foreign(String);
 
 /// A file that is being written. If it is dropped before it has its name, it is removed.
 #[derive(Debug)]
@@ -43,6 +67,46 @@ pub struct Output {
 const NAME: usize = 200;
 /// Number of names that are tried. Other processes may make names in the same folder at the same time.
 const TRIES: u32 = 10_000;
+/// What the temporary names end in.
+const ENDING: &str = ".tmp";
+/// The temporary names of this process's files under way, but for those that are kept.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes this process's files under way, for a process that ends at once.
+pub fn drop_unfinished() {
+    for path in std::mem::take(&mut *unfinished()) {
+        let _ = fs::remove_file(path);
+    }
+}
+
+/// Removes the temporary files that killed processes have left in a folder, of files whose names are `of` those meant.
+/// One that somebody is writing, or that cannot be locked, stays.
+pub fn clear_abandoned(dir: &Path, of: impl Fn(&str) -> bool) {
+    let there = fs::read_dir(dir).into_iter().flatten().flatten();
+    for entry in there.filter(|e| e.file_type().is_ok_and(|kind| kind.is_file())) {
+        let name = entry.file_name();
+        if !name.to_str().and_then(whole_name).is_some_and(&of) {
+            continue;
+        }
+        // A lock over a network may need the right to write.
+        let file = File::options().write(true).open(entry.path());
+        if file.is_ok_and(|file| file.try_lock().is_ok()) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The name that a file with a temporary name will have.
+fn whole_name(temporary: &str) -> Option<&str> {
+    let (name, numbers) = temporary.strip_suffix(ENDING)?.rsplit_once('.')?;
+    let (process, count) = numbers.split_once('-')?;
+    let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
+    (digits(process) && digits(count)).then_some(name)
+}
 
 impl Output {
     /// Begins a file that will become `path`; the folder must exist.
@@ -57,10 +121,13 @@ impl Output {
         let end = name.floor_char_boundary(NAME);
         for _ in 0..TRIES {
             let count = COUNT.fetch_add(1, Ordering::Relaxed);
-            let unique = format!("{}.{}-{count}.tmp", &name[..end], std::process::id());
+            let unique = format!("{}.{}-{count}{ENDING}", &name[..end], std::process::id());
             let temporary = path.with_file_name(unique);
             match File::create_new(&temporary) {
+                // Somebody who clears away took it in the moment before it was locked.
+                Ok(file) if is_held(&file) || is_removed(&file) => {}
                 Ok(file) => {
+                    unfinished().insert(temporary.clone());
                     return Ok(Self {
                         file,
                         path: path.to_owned(),
@@ -84,6 +151,7 @@ impl Output {
     pub fn create_kept(path: &Path) -> Result<Self, OutputError> {
         let mut output = Self::create(path)?;
         output.kept = true;
+        unfinished().remove(&output.temporary);
         Ok(output)
     }
 
@@ -109,6 +177,9 @@ impl Output {
                 .and_then(|()| fs::rename(&self.temporary, &self.path))
                 .map_err(|e| self.failed(e))?;
             self.placed = true;
+            unfinished().remove(&self.temporary);
+            // Others may read it while it grows, also where a lock would keep them from that.
+            let _ = self.file.unlock();
         }
         Ok(())
     }
@@ -130,11 +201,7 @@ impl Output {
         self.file.sync_all().map_err(|e| self.failed(e))?;
         let path = self.finish()?;
         // Where a folder cannot be synced, the system takes care of it.
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        if let Ok(folder) = File::open(folder) {
+        if let Ok(folder) = File::open(folder_of(&path)) {
             let _ = folder.sync_all();
         }
         Ok(path)
@@ -146,6 +213,7 @@ impl Drop for Output {
         if !self.placed && !self.kept {
             // Half a file is of no use, and it takes space on a full disk.
             let _ = fs::remove_file(&self.temporary);
+            unfinished().remove(&self.temporary);
         }
     }
 }
@@ -163,6 +231,15 @@ impl Write for Output {
 impl Seek for Output {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.file.seek(to)
+    }
+}
+
+/// The folder that a file is in, or is to be in.
+#[must_use]
+pub fn folder_of(file: &Path) -> &Path {
+    match file.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
     }
 }
 

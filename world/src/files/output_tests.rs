@@ -165,3 +165,25 @@ fn what_comes_to_stand_there_meanwhile_is_not_replaced() {
     assert!(said.contains("a link to a device"), "{said}");
     assert_eq!(count(dir.path()), 1);
 }
+
+#[test]
+fn what_killed_processes_left_is_cleared_and_nothing_else() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    let half = Output::create(&at("a.csv")).unwrap();
+    let stay = [
+        "a.csv",
+        "a.csv.tmp",
+        "a.csv.1-x.tmp",
+        "b.csv.1-2.tmp",
+        "a.csv.1-2.old",
+    ];
+    for name in stay.iter().chain(&["a.csv.1-2.tmp", "a.csv.4711-0.tmp"]) {
+        fs::write(at(name), "").unwrap();
+    }
+    clear_abandoned(dir.path(), |name| name == "a.csv");
+    assert!(half.temporary().exists());
+    assert!(stay.iter().all(|name| at(name).exists()));
+    assert_eq!(count(dir.path()), 1 + stay.len());
+    half.finish().unwrap();
+}

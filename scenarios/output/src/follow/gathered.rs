@@ -127,13 +127,17 @@ impl Gathered {
         Some(png.map(|png| format!("data:image/png;base64,{}", STANDARD.encode(png))))
     }
 
-    /// Writes summary, plume, figures and page into the folder, if there is one.
+    /// Writes summary, plume, figures and page into the folder, if there is one. Then other runs may write there.
     ///
     /// # Errors
     /// If something could not be written, in the run or here; all other files are.
     pub fn write(&mut self, ocean: &Ocean) -> Result<(), ReportError> {
         let report = self.report(ocean);
-        let written = (self.out.as_ref()).map_or(Ok(Vec::new()), |out| write_all(out, &report));
+        let written = (self.out.as_ref()).map_or(Ok(Vec::new()), |out| {
+            let written = write_all(out, &report);
+            out.leave();
+            written
+        });
         let failures = self.failure.take().into_iter().chain(written.err());
         ReportError::of(failures.collect()).map_or(Ok(()), Err)
     }

@@ -156,7 +156,7 @@ impl Gatherer {
 fn begin_recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
     let recorder = Recorder::create(&out.file("run.mcap")?, run)?;
     if let Some(name) = recorder.temporary().file_name() {
-        out.file(&name.to_string_lossy())?;
+        out.enter(&name.to_string_lossy())?;
     }
     Ok(recorder)
 }

@@ -2,11 +2,13 @@
 
 mod film;
 mod html;
+mod names;
 mod tables;
 mod write;
 
 pub use film::{FILM_STYLE, film, film_script, film_section};
 pub use html::STYLE;
+pub use names::is_result;
 pub use tables::tables;
 pub use write::{Figure, figures, write_all};
 

@@ -10,6 +10,8 @@ use crate::results::{RunReport, belief_track, odour};
 use rheotaxis::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use world::area::Area;
 use world::files::Folder;
@@ -39,7 +41,8 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     }
     let figures = figures(run);
     // The pictures are painted beside each other, and while the animation is made.
-    let (film, painted) = beside_each_other(&figures, Figure::png, || guarded(|| film::film(run)));
+    let (film, painted) =
+        beside_each_other(2, &figures, Figure::png, || guarded(|| film::film(run)));
     let mut shown = Vec::new();
     for (Figure { name, title, svg }, png) in figures.into_iter().zip(painted) {
         if let Ok(svg) = svg {
@@ -68,32 +71,37 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     kept.done()
 }
 
-/// What `here` makes in this thread, and what `each` makes of every item meanwhile, in two threads. They end with this
-/// call: a pool that stays would be dead in a process that is forked later.
+/// What `here` makes in this thread, and what `each` makes of every item meanwhile, in so many further threads. They end
+/// with this call: a pool that stays would be dead in a process that is forked later. What they have not made by then,
+/// or all where the system gives no threads, this one makes.
 fn beside_each_other<T: Sync, R: Send, H>(
+    threads: usize,
     items: &[T],
     each: impl Fn(&T) -> R + Sync,
     here: impl FnOnce() -> H,
 ) -> (H, Vec<R>) {
-    let (left, right) = (items.iter().step_by(2), items.iter().skip(1).step_by(2));
-    thread::scope(|scope| {
-        let each = &each;
-        let [left, right] = [
-            scope.spawn(move || left.map(each).collect::<Vec<R>>()),
-            scope.spawn(move || right.map(each).collect::<Vec<R>>()),
-        ];
+    let (next, made) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let take = || {
+        let n = next.fetch_add(1, Ordering::Relaxed);
+        Some((n, items.get(n)?))
+    };
+    let work = || {
+        while let Some((n, item)) = take() {
+            let one = each(item);
+            made.lock().expect("nobody panics with it").push((n, one));
+        }
+    };
+    let here = thread::scope(|scope| {
+        for _ in 0..threads {
+            drop(thread::Builder::new().spawn_scoped(scope, work));
+        }
         let here = here();
-        let [left, right] = [left, right].map(|t| t.join().expect("each picture is guarded"));
-        let (mut left, mut right) = (left.into_iter(), right.into_iter());
-        let in_order = (0..items.len()).map(|n| {
-            if n % 2 == 0 {
-                left.next()
-            } else {
-                right.next()
-            }
-        });
-        (here, in_order.flatten().collect())
-    })
+        work();
+        here
+    });
+    let mut made = made.into_inner().expect("nobody panics with it");
+    made.sort_by_key(|(n, _)| *n);
+    (here, made.into_iter().map(|(_, one)| one).collect())
 }
 
 /// A figure of a run.
@@ -226,4 +234,21 @@ pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
         .expect("writing to a String succeeds");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// None stands for a system that gives no threads: spawning them then fails, and this is what is left.
+    #[test]
+    fn all_is_made_in_order_with_any_number_of_threads() {
+        let items: Vec<u32> = (0..50).collect();
+        for threads in [0, 1, 2] {
+            let (here, made) = beside_each_other(threads, &items, |n| n * n, || "here");
+            assert_eq!(here, "here");
+            assert!(made.iter().copied().eq((0..50).map(|n| n * n)));
+        }
+        assert!(beside_each_other(2, &[0u8; 0], |n| *n, || ()).1.is_empty());
+    }
 }

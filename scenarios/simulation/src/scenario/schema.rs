@@ -73,6 +73,9 @@ pub struct Scenario {
     pub record: RecordSpec,
 }
 
+/// Longest name: a file's name of 255 bytes has room for it and for what it is of.
+const LONGEST_ID: usize = 64;
+
 /// A name that can be part of keys and file names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
@@ -91,7 +94,12 @@ impl TryFrom<String> for Id {
     type Error = String;
     fn try_from(s: String) -> Result<Self, String> {
         let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !s.is_empty() && s.chars().all(fits) {
+        if s.len() > LONGEST_ID {
+            let n = s.len();
+            Err(format!(
+                "must have at most {LONGEST_ID} characters, because names of files are made of it, got {n}"
+            ))
+        } else if !s.is_empty() && s.chars().all(fits) {
             Ok(Self(s))
         } else {
             Err(format!(

@@ -7,7 +7,7 @@
 use super::columns::as_csv;
 use super::contained::contained;
 use super::error::CampaignError;
-use super::manifest::Manifest;
+use super::manifest::{FILE, Manifest};
 use super::plan::hash;
 use super::record::Record;
 use super::row::{DeclarationRow, RunRow};
@@ -54,6 +54,17 @@ pub fn block_path(dir: &Path, block: u64) -> PathBuf {
 #[must_use]
 pub fn declarations_path(dir: &Path, block: u64) -> PathBuf {
     dir.join(format!("declarations-{block:06}.parquet"))
+}
+
+/// Whether a file of this name belongs to a campaign's folder.
+pub(super) fn is_of_campaign(name: &str) -> bool {
+    let of_block = |begin: &str| {
+        let number = name
+            .strip_prefix(begin)
+            .and_then(|n| n.strip_suffix(".parquet"));
+        number.is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit()))
+    };
+    name == FILE || of_block("part-") || of_block("declarations-")
 }
 
 /// The blocks that have a file, in order. Readers go by the files that exist, not by the plan.

@@ -26,6 +26,7 @@ mod spec;
 pub mod stats;
 mod status;
 mod table;
+mod threads;
 mod work;
 
 pub use block::{BlockState, block_path, declarations_path, read_block};

@@ -2,6 +2,7 @@
 
 use super::error::CampaignError;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
+use super::threads::with_threads;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
 use rheotaxis::scenario::{Fault, Loaded, Outline, put};
@@ -185,6 +186,10 @@ impl Campaign {
     /// # Errors
     /// The first mistake, in the order of conditions and arms.
     pub fn check(&self) -> Result<(), CampaignError> {
+        with_threads(|| self.check_all())
+    }
+
+    fn check_all(&self) -> Result<(), CampaignError> {
         let arms = self.spec.arms.len();
         let variants = self.spec.n_conditions() * arms as u64;
         let place = |i: u64| (i / arms as u64, (i % arms as u64) as usize);

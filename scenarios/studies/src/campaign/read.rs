@@ -10,7 +10,7 @@ use super::row::RunRow;
 use super::table::TableWriter;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use world::files::Output;
+use world::files::{Output, clear_abandoned, folder_of};
 
 /// All existing rows, in the order of runs; runs that are not done yet are left out.
 ///
@@ -98,6 +98,17 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
     }
     let declarations_path = beside(to);
     let csv_beside = csv.map(beside);
+    let files = [
+        Some(to),
+        Some(&declarations_path),
+        csv,
+        csv_beside.as_deref(),
+    ];
+    for file in files.into_iter().flatten() {
+        clear_abandoned(folder_of(file), |name| {
+            file.file_name().is_some_and(|f| f == name)
+        });
+    }
     let mut runs = Table::create(to, csv)?;
     let mut declared = Table::create(&declarations_path, csv_beside.as_deref())?;
     let manifest = each_block(dir, |rows| {

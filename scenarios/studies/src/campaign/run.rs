@@ -4,7 +4,7 @@
     reason = "wall time decides when rows are written, never what a run does"
 )]
 
-use super::block::{add_to_block, present, read_block};
+use super::block::{add_to_block, is_of_campaign, present, read_block};
 use super::cost::block_of;
 use super::enough::wanted;
 use super::error::CampaignError;
@@ -21,7 +21,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, OnceLock};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
-use world::files::{OutputError, make_folder};
+use world::files::{OutputError, clear_abandoned, make_folder};
 
 /// Interval of wall time at which finished rows of incomplete blocks are written; a kill loses at most this.
 const SAVE: Duration = Duration::from_secs(30);
@@ -118,6 +118,7 @@ pub fn run(
         }
         let _ = manifest.set(first);
     }
+    clear_abandoned(dir, is_of_campaign);
     let by_cost = |row: &RunRow| new_manifest(campaign, options, row).write_first(dir, false);
     let mut reached = None;
     loop {
@@ -154,6 +155,13 @@ pub fn run(
                 done: share.kept(),
                 left,
             });
+        }
+        // Somebody may have removed rows meanwhile. They are made again.
+        if share.kept() > 0 {
+            let after = Share::look(dir, &manifest, &by_cost, place, tell)?;
+            if after.done < after.runs {
+                continue;
+            }
         }
         if wanted.decided {
             return Ok(RunEnded::Complete);
