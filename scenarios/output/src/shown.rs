@@ -136,7 +136,7 @@ fn lines_around(fault: &Fault, text: &str, look: Look) -> String {
             let pad = " ".repeat(tabs(&line[..begin.min(line.len())]).width());
             let (mark, below) = mark(tabs(&text[fault.span.clone()]).width());
             let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &mark));
-            let label = format!("{}╰── {}", " ".repeat(below), printable(&fault.label));
+            let label = format!("{}╰── {}", " ".repeat(below), printable(fault.label));
             let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &label));
         }
     }

@@ -46,7 +46,7 @@ fn ways(config: &Config) -> Vec<String> {
     let users = said.users();
     let mut ways = Vec::new();
     for endpoint in texts(&said.of_mode("listen/endpoints")) {
-        if !users && !(certified && is_tls(&endpoint)) && is_beyond(&endpoint) {
+        if !(users || certified && is_tls(&endpoint)) && is_beyond(&endpoint) {
             ways.push(format!("it listens on {endpoint}"));
         }
     }
@@ -244,7 +244,8 @@ mod tests {
         ));
         assert!(with("tcp", "access_control: { enabled: false }"));
         let nobody = "rules: [], subjects: [], policies: []";
-        let deny = format!("access_control: {{ enabled: true, default_permission: 'deny', {nobody} }}");
+        let deny =
+            format!("access_control: {{ enabled: true, default_permission: 'deny', {nobody} }}");
         assert!(!with("tcp", &deny) && !open(&format!("{{ {deny} }}")));
         assert!(with("tcp", &deny.replace("deny", "allow")));
         let mutual = "transport: { link: { tls: { enable_mtls: true } } }";

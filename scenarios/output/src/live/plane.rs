@@ -172,6 +172,7 @@ impl Plane {
         };
         let told = self.obeyed(&mut state, name, parameter);
         let t_s = state.t_s;
+        let stops = name == "stop" && told.is_ok();
         drop(state);
         self.changed.notify_all();
         for step in given_up {
@@ -179,6 +180,11 @@ impl Plane {
             (step.answer.0)(Err(why));
         }
         answer(told);
+        // Only then, so that the run does not end before it has answered.
+        if stops {
+            self.lock().stop = true;
+            self.changed.notify_all();
+        }
     }
 
     fn obeyed(
@@ -206,7 +212,11 @@ impl Plane {
                 };
                 state.since = None;
             }
-            "stop" => state.stop = true,
+            "stop" => {
+                let mut told = self.told(state);
+                told["stopping"] = true.into();
+                return Ok(told);
+            }
             _ => {
                 let known: Vec<_> = COMMANDS.iter().map(|(name, _)| *name).collect();
                 return Err(format!("no command {name:?}: {}", known.join(", ")));
