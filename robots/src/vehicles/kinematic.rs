@@ -13,9 +13,9 @@
 //! *Deviations:* each step is an exact arc, so a steady turn has its radius U/r at any length of the step. The hull
 //! stays level. Through the water it drifts horizontally with the water's velocity u at its origin; its height it
 //! keeps by itself. In contacts it has no momentum and no friction: they take away what it would go into a wall, and it
-//! slides along the wall and turns as its helm asks for. Where its own turn moves it against something, it gives way and
-//! turns less, by the mass and the moment of inertia about the vertical of its URDF, without added mass; it cannot be
-//! tilted. What a contact does to its velocity lasts for that step. It does not rise above the surface.
+//! slides along the wall and turns as its helm asks for. Where its own turn moves it against something, it gives way;
+//! between walls without room to turn it turns less, by the mass and the moment of inertia about the vertical of its
+//! URDF, without added mass. It cannot be tilted. What a contact does to its velocity lasts for that step. It does not rise above the surface.
 
 use super::files::Files;
 use super::kinematic_spec::{KinematicSpec, Moves};

@@ -34,7 +34,7 @@ pub(super) struct Row {
 
 impl Row {
     /// Speed of the first solid relative to the second along an axis, m/s.
-    fn speed(&self, axis: usize, rates: &[Vector6<f64>]) -> f64 {
+    pub(super) fn speed(&self, axis: usize, rates: &[Vector6<f64>]) -> f64 {
         let on = self.on.iter().flatten();
         on.map(|(m, by)| by[axis].dot(&rates[*m])).sum()
     }

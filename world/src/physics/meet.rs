@@ -7,8 +7,9 @@
 //! *Parameters:* the coefficient of friction.
 //!
 //! *Deviations:* where nothing touched a body, its end of the step is that of its own equation, to the last bit.
-//! A body without momentum (a kinematic vehicle) is first stopped as if it did not turn, and then its turn is resolved:
-//! otherwise the speed that it is told anew in each step would press it against a wall and hold or turn it there.
+//! A body without momentum (a kinematic vehicle) turns as it is told, and contacts move it aside; otherwise the speed
+//! that it is told anew in each step would press it against a wall or into a corner and hold it there. Where there is no
+//! room for its turn, it is first stopped as if it did not turn, and then turns less.
 //! Velocity that an impulse adds is kept apart from that motion until the end of the step; the forces of the water
 //! include it from the next step on.
 
@@ -19,6 +20,8 @@ use super::impulses::{Row, solve};
 use super::solid::{FRICTION, Physics};
 use nalgebra::{Matrix6, Vector3, Vector6};
 
+/// A turn that still approaches something faster than this when all contacts have moved the body aside has no room, m/s.
+const NO_ROOM_M_S: f64 = 1e-6;
 /// Solids closer than this touch, m.
 const TOUCH_M: f64 = 1e-4;
 /// Anything closer than this is followed point by point, and moves by at most this in a sub-step, m.
@@ -127,18 +130,26 @@ impl Physics {
         let theirs = |row: &&Row| row.on.iter().flatten().any(|(m, _)| without_momentum[*m]);
         let theirs: Vec<Row> = rows.iter().filter(theirs).cloned().collect();
         if !theirs.is_empty() {
-            let (mut straight, turning) = (inverse.to_vec(), rates.clone());
-            for m in (0..courses.len()).filter(|m| without_momentum[*m]) {
+            let all = || (0..without_momentum.len()).filter(|m| without_momentum[*m]);
+            let (mut straight, told) = (inverse.to_vec(), rates.clone());
+            for m in all() {
                 straight[m].fixed_rows_mut::<3>(3).fill(0.0);
                 straight[m].fixed_columns_mut::<3>(3).fill(0.0);
-                rates[m].fixed_rows_mut::<3>(3).fill(0.0);
             }
-            let impulses = solve(&theirs, &straight, &mut rates, &fastest);
+            let mut impulses = solve(&theirs, &straight, &mut rates, &fastest);
+            let approach = |row: &Row| row.speed(0, &rates) + fastest(row);
+            if !theirs.iter().all(|row| approach(row) >= -NO_ROOM_M_S) {
+                rates.clone_from(&told);
+                for m in all() {
+                    rates[m].fixed_rows_mut::<3>(3).fill(0.0);
+                }
+                impulses = solve(&theirs, &straight, &mut rates, &fastest);
+                for m in all() {
+                    let turn = told[m].fixed_rows::<3>(3);
+                    rates[m].fixed_rows_mut::<3>(3).copy_from(&turn);
+                }
+            }
             note(courses, &theirs, &impulses, &straight);
-            for m in (0..courses.len()).filter(|m| without_momentum[*m]) {
-                let turn = turning[m].fixed_rows::<3>(3);
-                rates[m].fixed_rows_mut::<3>(3).copy_from(&turn);
-            }
         }
         let impulses = solve(rows, inverse, &mut rates, fastest);
         note(courses, rows, &impulses, inverse);

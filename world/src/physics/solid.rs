@@ -57,8 +57,8 @@ pub struct BodySpec {
     /// Mass matrix for the velocity of the body's origin and the angular velocity, in body axes, with added mass: kg,
     /// kg m, kg m²; symmetric and positive definite.
     pub mass: Matrix6<f64>,
-    /// Whether it has no momentum: it goes where it is told, contacts stop it without turning it, and it slides along
-    /// them without friction. Only its own turn can turn it against something.
+    /// Whether it has no momentum: it goes where it is told, contacts stop it and move it aside without turning it, and it
+    /// slides along them without friction. It turns as it is told wherever there is room.
     pub without_momentum: bool,
 }
 
