@@ -98,7 +98,7 @@ fn titles_and_names_command_no_terminal() {
     fs::write(dir.path().join(&name), &text).unwrap();
     fs::write(
         dir.path().join("wrong.ron"),
-        text.replace("limit_s", "limit"),
+        text.replacen("title:", "titel:", 1),
     )
     .unwrap();
     let look = |args: &[&str]| {

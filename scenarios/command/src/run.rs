@@ -56,7 +56,7 @@ impl RunError {
 }
 
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
-/// But none is run if the results of one cannot go into its folder.
+/// But none is run if two of them have one folder for their results.
 pub(super) fn run(args: &RunArgs) -> Exit {
     if args.ros2.ros2 && args.files.len() > 1 {
         return refused(RunError::OneForRos2);
@@ -71,9 +71,22 @@ pub(super) fn run(args: &RunArgs) -> Exit {
             Err(error) => exit = exit.worse(refused(error)),
         }
     }
-    if let Err(error) = folders(&ready, args) {
-        return refused(error);
+    for (n, (_, folder)) in ready.iter().enumerate() {
+        if ready[..n].iter().any(|(_, taken)| taken == folder) {
+            return refused(RunError::Taken(folder.clone()));
+        }
     }
+    // Hours may pass before the last of their folders is opened.
+    ready.retain(|(loaded, folder)| {
+        let own = |name: &str| is_result(&loaded.scenario, name);
+        match could_begin_run(folder, (!args.overwrite).then_some(&own)) {
+            Ok(()) => true,
+            Err(error) => {
+                exit = exit.worse(refused(error.into()));
+                false
+            }
+        }
+    });
     let seed = args.key.seed(args.seed);
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
     for group in alike(&runs, cost::limit()) {
@@ -117,18 +130,6 @@ fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> 
     }
     let folder = folder(&loaded, args);
     Ok((loaded, folder))
-}
-
-/// Whether all results can go into their folders: hours may pass before the last of them is opened.
-fn folders(ready: &[(Loaded, PathBuf)], args: &RunArgs) -> Result<(), RunError> {
-    for (n, (loaded, folder)) in ready.iter().enumerate() {
-        if ready[..n].iter().any(|(_, taken)| taken == folder) {
-            return Err(RunError::Taken(folder.clone()));
-        }
-        let own = |name: &str| is_result(&loaded.scenario, name);
-        could_begin_run(folder, (!args.overwrite).then_some(&own))?;
-    }
-    Ok(())
 }
 
 /// Runs scenarios with the same ocean in lanes.

@@ -169,7 +169,7 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
         json!({"head": {"target_m": [0.9, 0.1], "speed_m_s": [0.05, 0.05]}}),
         json!({"declare": {"position_m": [0.1, 0.2]}}),
     ];
-    let flume = answered(&short(shipped("flume_external"), 1.0), "crab0", heads);
+    let flume = answered(&short(shipped("flume_external"), 3.0), "crab0", heads);
     let said = ["joints", "gantry_behaviour", "gantry_declaration"];
     assert!(
         said.iter().all(|t| flume.said.contains(t)),

@@ -90,7 +90,9 @@ impl Folder {
         command: &str,
         own: Option<&dyn Fn(&str) -> bool>,
     ) -> Result<(), OutputError> {
-        let there = dir.ancestors().find(|a| fs::metadata(a).is_ok());
+        // Without a slash at the end, with which a file would not be found.
+        let plain: PathBuf = dir.components().collect();
+        let there = plain.ancestors().find(|a| fs::metadata(a).is_ok());
         if let Some(file) = there.filter(|there| !there.is_dir()) {
             let problem = "it is a file, not a folder";
             return Err(OutputError::new(
