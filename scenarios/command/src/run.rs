@@ -56,7 +56,8 @@ impl RunError {
 }
 
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
-/// But none is run if two of them have one folder for their results.
+/// But none is run if two of them have one folder for their results, or if a folder is in use or holds files of others:
+/// hours may pass before the last of the folders is opened.
 pub(super) fn run(args: &RunArgs) -> Exit {
     if args.ros2.ros2 && args.files.len() > 1 {
         return refused(RunError::OneForRos2);
@@ -76,17 +77,18 @@ pub(super) fn run(args: &RunArgs) -> Exit {
             return refused(RunError::Taken(folder.clone()));
         }
     }
-    // Hours may pass before the last of their folders is opened.
-    ready.retain(|(loaded, folder)| {
+    let mut writable = Vec::new();
+    for (loaded, folder) in ready {
         let own = |name: &str| is_result(&loaded.scenario, name);
-        match could_begin_run(folder, (!args.overwrite).then_some(&own)) {
-            Ok(()) => true,
-            Err(error) => {
-                exit = exit.worse(refused(error.into()));
-                false
+        match could_begin_run(&folder, (!args.overwrite).then_some(&own)) {
+            Ok(()) => writable.push((loaded, folder)),
+            Err(ReportError::Write(error)) if error.is_foreign() || error.is_busy() => {
+                return refused(ReportError::Write(error).into());
             }
+            Err(error) => exit = exit.worse(refused(error.into())),
         }
-    });
+    }
+    let ready = writable;
     let seed = args.key.seed(args.seed);
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
     for group in alike(&runs, cost::limit()) {

@@ -167,7 +167,7 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
     let heads = vec![
         json!({"head": {"target_m": [1.0, 0.0], "behaviour": "step_up"}}),
         json!({"head": {"target_m": [0.9, 0.1], "speed_m_s": [0.05, 0.05]}}),
-        json!({"declare": {"position_m": [0.1, 0.2]}}),
+        json!({"declare": {"position_m": [0.1, 0.2]}, "end": "completed"}),
     ];
     let flume = answered(&short(shipped("flume_external"), 3.0), "crab0", heads);
     let said = ["joints", "gantry_behaviour", "gantry_declaration"];

@@ -46,6 +46,12 @@ impl OutputError {
     pub fn is_foreign(&self) -> bool {
         self.source.get_ref().is_some_and(|e| e.is::<Foreign>())
     }
+
+    /// Whether another run is writing there.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.source.kind() == ErrorKind::ResourceBusy
+    }
 }
 
 /// What holds of a file that no list of results names.
