@@ -2,6 +2,7 @@
 //! what hulls can do and what scenarios refuse them.
 
 mod aboard;
+mod axes;
 mod catalogue;
 mod energy;
 mod heights;
@@ -13,3 +14,4 @@ mod published;
 mod refused;
 mod thrust;
 mod trajectories;
+mod unstable;

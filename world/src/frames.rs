@@ -58,6 +58,9 @@ impl Pose {
     }
 }
 
+/// What is said of a state that is no number.
+pub const NOT_FINITE: &str = "is no longer finite";
+
 /// The true state of a rigid body. A searcher never sees it.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Truth {

@@ -14,7 +14,7 @@ use super::gantry::{CRAB_GANTRY, GantrySpec};
 use super::looks::{JointKind, LinkLook, Motion, Moved, looks, of_drives, of_fins};
 use super::remus100::REMUS100;
 use super::spec::VehicleSpec;
-use super::urdf_parts::{UrdfText, axes, check_tree, drive_axis, parse, place, pose_of, root};
+use super::urdf_parts::{UrdfText, check_tree, parse, place, pose_of, root};
 use crate::error::RobotError;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use urdf_rs::{Collision, Geometry, Visual};
@@ -137,16 +137,14 @@ impl Description {
             axis: (Vector3::from(joint.axis.xyz.0).try_normalize(0.0)).unwrap_or_else(Vector3::x),
         };
         let mut joints: Vec<Mount> = robot.joints.iter().map(mount).collect();
-        let axes = axes(&robot).map_err(fail)?;
         let mut moved = Vec::new();
         for motion in moves {
             // What sits on the body itself moves no joint.
             if let Some(joint) = joints.iter_mut().find(|j| j.child == motion.link) {
+                if !motion.by_joint || joint.kind == JointKind::Fixed {
+                    joint.axis = motion.axis;
+                }
                 joint.kind = motion.kind;
-                joint.axis = match motion.by_joint {
-                    true => drive_axis(motion.axis, axes.get(&motion.link)),
-                    false => motion.axis,
-                };
                 moved.push(Moved {
                     joint: joint.joint.clone(),
                     actuator: motion.actuator.clone(),

@@ -5,8 +5,8 @@
 //! *Parameters:* none.
 //!
 //! *Deviations:* a link without `<visual>` shows what it collides with; so does one whose `<visual>` names a mesh file
-//! that cannot be read (other formats than STL and OBJ). The axis of a joint that a drive moves is that of the drive,
-//! so that a positive set-point turns it the right way.
+//! that cannot be read (other formats than STL and OBJ). A fixed joint that a drive moves gets the drive's axis, and so
+//! do all of a vehicle with rudder, stern plane and propeller, so that a positive set-point turns it the right way.
 
 use super::drives::{CurveSpec, DriveSpec};
 use super::urdf_parts::{UrdfText, pose_of, shape};
@@ -100,7 +100,7 @@ pub(super) struct Motion {
     pub(super) unit: &'static str,
     pub(super) kind: JointKind,
     pub(super) axis: Vector3<f64>,
-    /// Whether the joint's own axis counts instead.
+    /// Whether the axis of a joint that moves counts instead.
     pub(super) by_joint: bool,
 }
 

@@ -17,6 +17,7 @@ mod remus100;
 mod spec;
 mod top_speed;
 mod urdf;
+mod urdf_form;
 mod urdf_mass;
 mod urdf_parts;
 #[cfg(test)]

@@ -10,10 +10,9 @@
 use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
 use super::urdf_parts::{
-    UrdfText, axes, check_tree, finite, joined, parse, place, pose_of, root, shape,
+    Carrier, UrdfText, carriers, check_tree, finite, joined, parse, place, pose_of, root, shape,
 };
 use crate::error::RobotError;
-use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::physics::Shape;
@@ -25,8 +24,8 @@ pub(super) struct Shell {
     pub(super) shapes: Vec<(Pose, Shape)>,
     /// Pose of each link in body axes.
     pub(super) links: BTreeMap<String, Pose>,
-    /// Axis of each link that turns or slides on its parent, in its own axes.
-    pub(super) axes: BTreeMap<String, Vector3<f64>>,
+    /// The joint that carries each link but the first.
+    pub(super) carriers: BTreeMap<String, Carrier>,
     /// Name of the link that is its body.
     pub(super) body: String,
     /// Its mass.
@@ -79,7 +78,6 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     check_tree(&robot).map_err(fail)?;
     let body = root(&robot).map_err(fail)?.name.clone();
     let links = place(&robot, &body).map_err(fail)?;
-    let axes = axes(&robot).map_err(fail)?;
     let ballast = Ballast::of(&robot, &links).map_err(fail)?;
     let mut shapes = Vec::new();
     for link in &robot.links {
@@ -126,7 +124,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     Ok(Shell {
         shapes,
         links,
-        axes,
+        carriers: carriers(&robot),
         body,
         ballast,
         visuals,

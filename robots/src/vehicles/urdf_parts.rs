@@ -7,7 +7,7 @@
 //! *Deviations:* none.
 
 use super::files::Files;
-use super::mesh;
+use super::{mesh, urdf_form};
 use crate::error::RobotError;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
@@ -74,6 +74,10 @@ impl<'a> UrdfText<'a> {
     /// A mesh file beside the URDF as a URL, with its whole path.
     pub(super) fn mesh_url(&self, name: &str) -> String {
         let name = name.strip_prefix("file://").unwrap_or(name);
+        // Who draws it may know other addresses than we do.
+        if name.contains("://") {
+            return name.to_string();
+        }
         let path = self.files.path(&self.folder.join(name));
         let whole = std::path::absolute(&path).unwrap_or(path);
         format!("file://{}", whole.display())
@@ -102,59 +106,12 @@ pub(super) fn as_file<'a>(text: &str, path: &str, files: &'a dyn Files) -> UrdfT
     }
 }
 
-/// Deepest nesting of elements that is read: a URDF has some five levels, and the reader of XML calls itself for each.
-const DEEPEST: usize = 64;
 /// Most links of a vehicle.
 const MOST_LINKS: usize = 1000;
 
-/// Checks that elements are not nested deeper than the reader of XML can follow.
-fn check_depth(text: &str) -> Result<(), String> {
-    let (mut depth, mut rest) = (0_usize, text);
-    while let Some(at) = rest.find('<') {
-        rest = &rest[at..];
-        let end = |mark: &str| rest.find(mark).map_or(rest.len(), |n| n + mark.len());
-        let (length, opens) = if rest.starts_with("<!--") {
-            (end("-->"), false)
-        } else if rest.starts_with("<![CDATA[") {
-            (end("]]>"), false)
-        } else {
-            let length = end(">");
-            depth = depth.saturating_sub(usize::from(rest.starts_with("</")));
-            let named = rest[1..].starts_with(|c: char| c.is_alphabetic() || c == '_');
-            (length, named && !rest[..length].ends_with("/>"))
-        };
-        depth += usize::from(opens);
-        if depth > DEEPEST {
-            let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
-            return Err(format!(
-                "line {line}: elements are nested more than {DEEPEST} deep, which no URDF is"
-            ));
-        }
-        rest = &rest[length..];
-    }
-    Ok(())
-}
-
-/// What a file is that is no URDF, and what to do with it.
-fn other_format(text: &str) -> Option<&'static str> {
-    if text.contains("<xacro:")
-        || (text.contains("xmlns:xacro") && ["${", "$("].iter().any(|m| text.contains(m)))
-    {
-        return Some(
-            "it is xacro that has not been processed: write `xacro FILE > vehicle.urdf`, and name that file",
-        );
-    }
-    (text.contains("<sdf") && !text.contains("<robot")).then_some(
-        "it is SDF, which Gazebo reads: take the URDF from which it was made, or describe its links and joints in one",
-    )
-}
-
 /// Parses links and joints, and checks that the links of every joint exist.
 pub(super) fn parse(text: &str) -> Result<Robot, String> {
-    check_depth(text).map_err(|why| format!("not a URDF file: {why}"))?;
-    if let Some(what) = other_format(text) {
-        return Err(format!("not a URDF file: {what}"));
-    }
+    urdf_form::refuse(text).map_err(|why| format!("not a URDF file: {why}"))?;
     let robot = urdf_rs::read_from_string(text).map_err(|e| {
         // In all these cases the XML reader reports only that it finds nothing.
         let why = if !text.contains("<robot") {
@@ -214,38 +171,27 @@ pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>,
     }
 }
 
-/// Axis of the joint of every link that turns or slides on its parent, in the link's axes, of length 1.
-///
-/// # Errors
-/// If an axis has no direction.
-pub(super) fn axes(robot: &Robot) -> Result<BTreeMap<String, Vector3<f64>>, String> {
-    use JointType::{Continuous, Prismatic, Revolute};
-    let moves = |joint: &&Joint| matches!(joint.joint_type, Continuous | Prismatic | Revolute);
-    let axis = |joint: &Joint| {
-        let given = Vector3::from(joint.axis.xyz.0);
-        let axis = given
-            .try_normalize(1e-6)
-            .filter(|a| a.iter().all(|v| v.is_finite()));
-        let axis = axis.ok_or_else(|| {
-            let [x, y, z] = joint.axis.xyz.0;
-            format!(
-                "joint \"{}\": <axis> must be a direction, got {x} {y} {z}",
-                joint.name
-            )
-        })?;
-        Ok((joint.child.link.clone(), axis))
-    };
-    robot.joints.iter().filter(moves).map(axis).collect()
+/// The joint that carries a link.
+#[derive(Clone, Debug)]
+pub(super) struct Carrier {
+    /// Its name.
+    pub(super) joint: String,
+    /// Its `<axis>` as given, in the axes of the link with the joint at zero; URDF's default is x.
+    pub(super) axis: Vector3<f64>,
+    /// Whether it turns or slides, so that its axis counts.
+    pub(super) moves: bool,
 }
 
-/// The axis about or along which a drive moves its link, in the link's axes: that of the link's joint. Fins turn about
-/// y and all else moves along x where the joint is fixed, and a fin also where the joint has URDF's own axis, x: about
-/// it, it would do nothing.
-pub(super) fn drive_axis(usual: Vector3<f64>, given: Option<&Vector3<f64>>) -> Vector3<f64> {
-    given
-        .filter(|axis| usual != Vector3::y() || **axis != Vector3::x())
-        .copied()
-        .unwrap_or(usual)
+/// The joint that carries each link but the first.
+pub(super) fn carriers(robot: &Robot) -> BTreeMap<String, Carrier> {
+    use JointType::{Continuous, Prismatic, Revolute};
+    let carrier = |joint: &Joint| Carrier {
+        joint: joint.name.clone(),
+        axis: Vector3::from(joint.axis.xyz.0),
+        moves: matches!(joint.joint_type, Continuous | Prismatic | Revolute),
+    };
+    let all = robot.joints.iter();
+    all.map(|j| (j.child.link.clone(), carrier(j))).collect()
 }
 
 /// Checks that every link but one is the child of exactly one joint, that names are unique, and that numbers are
@@ -315,16 +261,15 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
         Geometry::Sphere { radius } => Shape::Sphere {
             radius_m: positive(*radius, "sphere radius")?,
         },
-        Geometry::Mesh { filename, .. }
-            if filename.starts_with("package://") || filename.starts_with("model://") =>
-        {
-            return Err(format!(
-                "mesh \"{filename}\" is an address in a ROS or Gazebo workspace, which is not looked into: copy the \
-                 file beside the URDF and name it relative to the URDF"
-            ));
-        }
         Geometry::Mesh { filename, scale } => {
             let file = filename.strip_prefix("file://").unwrap_or(filename);
+            if let Some((scheme, _)) = file.split_once("://") {
+                let name = file.rsplit('/').next().unwrap_or_default();
+                return Err(format!(
+                    "mesh \"{filename}\": {scheme}:// is not looked up, for there is no ROS or Gazebo here: put the \
+                     file beside the URDF, and write filename=\"{name}\""
+                ));
+            }
             let points =
                 (urdf.mesh(file)).map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
             let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));

@@ -44,6 +44,7 @@ pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
 }
 
 fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
+    say::hush_lost_states();
     let stop = stop::listen();
     let path = match args.recording.is_dir() {
         true => args.recording.join("run.mcap"),

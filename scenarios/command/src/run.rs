@@ -62,6 +62,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     if args.ros2.ros2 && args.files.len() > 1 {
         return refused(RunError::OneForRos2);
     }
+    say::hush_lost_states();
     let stop = stop::listen();
     let kept = cache::opened(&args.cache);
     let mut exit = Exit::Success;

@@ -6,8 +6,10 @@ use console::{Term, colors_enabled_stderr};
 use output::shown::{self, Look, PLAIN, printable};
 use rheotaxis::scenario::{Fault, ScenarioError};
 use std::io::{self, ErrorKind, Write};
+use std::panic::{set_hook, take_hook};
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Once, OnceLock};
+use world::frames::NOT_FINITE;
 
 /// Why a line could not be printed to standard output, the first time.
 static UNPRINTED: OnceLock<String> = OnceLock::new();
@@ -41,6 +43,21 @@ pub(super) fn columns() -> Option<usize> {
         told()
     };
     columns.filter(|n| *n > 0)
+}
+
+/// Keeps panics about a state that is no number off the screen. Lanes hand them on, and they are told as errors: where
+/// in the program they were noticed says nothing of the vehicle at fault.
+pub(super) fn hush_lost_states() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let shown = take_hook();
+        set_hook(Box::new(move |panic| {
+            let said = panic.payload_as_str();
+            if !said.is_some_and(|said| said.contains(NOT_FINITE)) {
+                shown(panic);
+            }
+        }));
+    });
 }
 
 /// Prints a line to standard output.

@@ -153,36 +153,48 @@ fn print(vehicle: &Described) {
     for line in capabilities(&able) {
         say::line(format_args!("  {line}"));
     }
-    let acting = vehicle.acting();
-    for (k, ((drive, link), (at, way))) in plant
-        .drives
-        .iter()
-        .zip(vehicle.drives())
-        .zip(acting)
-        .enumerate()
-    {
+    let drives = plant.drives.iter().zip(vehicle.drives());
+    for (k, ((drive, link), (_, way))) in drives.zip(vehicle.acting()).enumerate() {
         let [least, most] = drive.limits;
-        let does = match &drive.does {
+        let (does, acts) = match &drive.does {
             Does::Pushes(_, table) => {
                 let [astern, ahead] = table.thrusts_n();
-                format!("thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}")
+                (
+                    format!(
+                        "thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}"
+                    ),
+                    "pushes along",
+                )
             }
-            Does::Lifts(_) => format!(
-                "fin, {:.1} to {:.1} degrees",
-                least.to_degrees(),
-                most.to_degrees()
+            Does::Lifts(_) => (
+                format!(
+                    "fin, {:.1} to {:.1} degrees",
+                    least.to_degrees(),
+                    most.to_degrees()
+                ),
+                "a positive angle pushes along",
             ),
-            Does::Swells(_) => format!("buoyancy engine, {least} to {most} m3"),
-            Does::Shifts(_, kg) => format!("moving mass of {kg} kg, {least} to {most} m"),
+            Does::Swells(_) => (
+                format!("buoyancy engine, {least} to {most} m3"),
+                "a positive volume lifts along",
+            ),
+            Does::Shifts(_, kg) => (
+                format!("moving mass of {kg} kg, {least} to {most} m"),
+                "slides along",
+            ),
         };
         say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
-        // Without negative zeros.
-        let [at, way] = [at, way].map(|v| v.map(|x| (x * 1000.0).round() / 1000.0 + 0.0));
-        say::line(format_args!(
-            "           at ({:.3}, {:.3}, {:.3}) m, acts along ({:.3}, {:.3}, {:.3}): ahead, to port, up",
-            at.x, at.y, at.z, way.x, way.y, way.z
-        ));
+        let place = vehicle.mount(link).map_or(way, |pose| pose.p_WB);
+        let [at, way] = [place, way].map(triple);
+        say::line(format_args!("           at {at} m, {acts} {way}"));
     }
+    say::line("           (forward, left, up, from the origin of the first link)");
+}
+
+/// Three numbers, without -0.
+fn triple(v: nalgebra::Vector3<f64>) -> String {
+    let [x, y, z] = [v.x, v.y, v.z].map(|c| (1e3 * c).round() / 1e3 + 0.0);
+    format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
 fn period(righting: f64, inertia: f64) -> String {
@@ -233,6 +245,21 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
         "{name}: trials in water of 1025 kg/m3, steps of 0.02 s"
     ));
     let all = trials(&craft);
+    let is_lost = |trial: &&Trial| {
+        trial
+            .found
+            .iter()
+            .any(|f| f.value.is_some_and(|v| !v.is_finite()))
+    };
+    if let Some(trial) = all.iter().find(is_lost) {
+        return Err((
+            format!(
+                "{}: the state of {name} is not a number any more: a force on it is too great",
+                trial.name
+            ),
+            Some("look at masses, damping and drives in its folder".into()),
+        ));
+    }
     for trial in &all {
         say::line(trial.name);
         for found in &trial.found {

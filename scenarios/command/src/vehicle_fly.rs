@@ -52,15 +52,16 @@ pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
         every_s: args.every_s,
         lasts_s: args.lasts_s,
     };
+    let steady = vehicle.follows(flight.step_s, flight.velocity_m_s.norm());
+    let shorter = || Some("give a shorter --step-s, or mend the folder".to_string());
+    steady.map_err(|problem| (problem, shorter()))?;
     let rows = fly(&vehicle, &flight);
-    if let Some(row) = rows
-        .iter()
-        .find(|row| !row.truth.pose.p_WB.sum().is_finite())
-    {
-        return Err((
-            format!("after {} s its motion is no longer a number", row.t_s),
-            Some("see what `rheotaxis vehicle check` doubts: mass, added mass or damping cannot be right".into()),
-        ));
+    if let Some(lost) = rows.iter().find(|row| !row.truth.is_finite()) {
+        let problem = format!(
+            "the state at {} s is not a number: steps of {} s are too long for the forces on this hull",
+            lost.t_s, flight.step_s
+        );
+        return Err((problem, shorter()));
     }
     write_whole(&args.out, written(&rows, &links).as_bytes()).map_err(plainly)?;
     say::line(args.out.display());

@@ -17,7 +17,7 @@ use super::ground::{Bed, Fixed};
 use super::rapier_alone::Twin;
 use super::shape::Shape;
 use crate::area::Area;
-use crate::frames::{Pose, Truth};
+use crate::frames::{NOT_FINITE, Pose, Truth};
 use crate::obstacles::Obstacle;
 use crate::terrain::Terrain;
 use bevy_ecs::prelude::{Component, Resource};
@@ -322,7 +322,7 @@ impl Physics {
             }
             assert!(
                 body.free.as_ref().is_some_and(Truth::is_finite),
-                "body {}: state is no longer finite after {:?}; use a shorter time.step_s or weaker forces",
+                "body {}: state {NOT_FINITE} after {:?}; use a shorter time.step_s or weaker forces",
                 body.id,
                 body.truth
             );
@@ -355,7 +355,7 @@ impl Physics {
             body.truth = course.truth(&body.p_BG);
             assert!(
                 body.truth.is_finite(),
-                "body {}: state is no longer finite after a contact; use a shorter time.step_s",
+                "body {}: state {NOT_FINITE} after a contact; use a shorter time.step_s",
                 body.id
             );
             body.contact = course.contact;

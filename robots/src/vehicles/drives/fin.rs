@@ -29,7 +29,7 @@ pub(in crate::vehicles) struct Fin {
     pub(in crate::vehicles) r: Vector3<f64>,
     /// Chord at zero angle, forwards.
     pub(in crate::vehicles) chord: Vector3<f64>,
-    /// Direction in which it lifts (the link's z axis).
+    /// Direction in which it lifts: chord cross hinge.
     pub(in crate::vehicles) lift: Vector3<f64>,
     /// m².
     pub(in crate::vehicles) area_m2: f64,
@@ -46,7 +46,7 @@ pub(in crate::vehicles) struct Fin {
 }
 
 impl Fin {
-    /// Force of a deflection, rad, positive about the link's y axis: the leading edge goes down (against the lift).
+    /// Force of a deflection, rad, positive about its hinge: the leading edge goes down (against the lift).
     pub(super) fn force(&self, angle_rad: f64, at: &Relative) -> (Vector3<f64>, Vector3<f64>) {
         let local = at.v + at.w.cross(&self.r) - at.along * self.r.x;
         let (ahead, across) = (local.dot(&self.chord), local.dot(&self.lift));

@@ -11,8 +11,8 @@ use world::ranges::{Finite, NonNegative, Positive};
 pub enum DriveSpec {
     /// A propeller that pushes the hull along the axis of the link's joint, or the link's x axis if that is fixed.
     Thruster(ThrusterSpec),
-    /// A fin that turns about the axis of the link's joint, or the link's y axis if that is fixed or x. At zero its
-    /// chord is x without what of it lies along the axis, and its lift is along chord × axis: z for y.
+    /// A fin that turns about the axis of the link's joint, or the link's y axis if that is fixed. At zero its chord is
+    /// along x, or along the hull if it turns about x, and its lift along chord × axis: z for y.
     Fin(FinSpec),
     /// A pump that changes the volume of the hull at the link.
     BuoyancyEngine(BuoyancyEngineSpec),

@@ -243,19 +243,25 @@ impl Described {
         now
     }
 
-    /// Whether a step can be cut finely enough for its motion at its usual speeds.
-    #[must_use]
-    pub fn follows(&self, step_s: f64) -> bool {
-        step_s <= FASTEST * MOST_PARTS * self.shortest_s()
+    /// Whether a step can be cut finely enough for its motion at rest and up to a speed through the water, m/s.
+    ///
+    /// # Errors
+    /// Why not: whoever takes such steps gets numbers that are none.
+    pub fn follows(&self, step_s: f64, speed_m_s: f64) -> Result<(), String> {
+        let shortest_s = self.shortest_s(speed_m_s);
+        let most_s = FASTEST * MOST_PARTS * shortest_s;
+        if step_s <= most_s {
+            return Ok(());
+        }
+        Err(format!(
+            "steps of {step_s} s are too long for this hull, whose motion at {speed_m_s:.2} m/s decays within \
+             {shortest_s:.1e} s; the longest possible are of {most_s:.1e} s: look at its mass and damping"
+        ))
     }
 
-    /// Time in which its fastest motion decays or swings at its top speed, or at 1 m/s or 1 rad/s another way, s.
-    #[must_use]
-    pub fn shortest_s(&self) -> f64 {
-        let top_m_s = self.capabilities.top_speed_m_s.max(1.0);
-        1.0 / self
-            .rates
-            .at(&Vector6::new(top_m_s, 1.0, 1.0, 1.0, 1.0, 1.0))
+    /// Time in which its fastest motion decays or swings at a speed in every direction, m/s, and at 1 rad/s, s.
+    pub(super) fn shortest_s(&self, v: f64) -> f64 {
+        1.0 / self.rates.at(&Vector6::new(v, v, v, 1.0, 1.0, 1.0))
     }
 
     /// Into how many parts a step is cut.

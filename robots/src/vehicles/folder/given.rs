@@ -13,6 +13,8 @@ use crate::vehicles::dynamics::turned;
 use crate::vehicles::extensions::{self, SURFACE};
 use crate::vehicles::urdf_parts::UrdfText;
 use nalgebra::{Matrix6, Vector3};
+use std::collections::BTreeMap;
+use world::frames::Pose;
 
 /// A block in FRD.
 fn matrix(block: &Block, axes: Axes) -> Matrix6<f64> {
@@ -48,6 +50,7 @@ pub(super) fn given(
     spec: &HydrodynamicsSpec,
     urdf: &UrdfText,
     kg: f64,
+    links: &BTreeMap<String, Pose>,
     told: &mut Vec<String>,
 ) -> Result<Given, RobotError> {
     let block = |b: &Option<Block>| b.as_ref().map(|b| matrix(b, spec.axes));
@@ -85,6 +88,17 @@ pub(super) fn given(
             // A craft that floats is none under water.
             let afloat = |doubt: &String| spec.floats && doubt.ends_with(SURFACE);
             told.extend(found.doubts.into_iter().filter(|doubt| !afloat(doubt)));
+            // Names may begin with that of the vehicle, as in `lauv/base_link`.
+            let link = found.link.rsplit('/').next().unwrap_or_default();
+            let elsewhere = |pose: &&Pose| pose.p_WB.norm() > 1e-9 || pose.R_WB.angle() > 1e-9;
+            if let Some(pose) = links.get(link).filter(elsewhere) {
+                let p = pose.p_WB;
+                told.push(format!(
+                    "the hydrodynamics for {} hold about the origin of link \"{link}\", which lies at ({}, {}, {}) m \
+                     from that of the first link; they are used as if they held there: let both be in one place",
+                    found.source, p.x, p.y, p.z
+                ));
+            }
             let from_urdf = [found.linear, found.quadratic, found.forward];
             for (block, found) in damping.iter_mut().zip(from_urdf) {
                 block.get_or_insert_with(|| turned(&found));
@@ -143,7 +157,7 @@ mod tests {
                 floats,
             };
             let mut told = Vec::new();
-            given(&spec, &text, 50.0, &mut told).expect("legal");
+            given(&spec, &text, 50.0, &BTreeMap::new(), &mut told).expect("legal");
             told.into_iter()
                 .filter(|t| t.contains("metacentric"))
                 .count()

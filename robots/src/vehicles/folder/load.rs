@@ -45,9 +45,9 @@ impl Described {
         let shell = urdf::shell(&text)?;
         let mass = rigid(&shell).map_err(|problem| text.fault(problem))?;
         let mut told = Vec::new();
-        let given = given(&file.hydrodynamics, &text, mass.kg, &mut told)?;
+        let given = given(&file.hydrodynamics, &text, mass.kg, &shell.links, &mut told)?;
         let (body, mut damping) = hull(&given, &mass, &shell, &mut told).map_err(wrong)?;
-        let drives = drives(&file.drives, &shell).map_err(wrong)?;
+        let drives = drives(&file.drives, &shell, &mut told).map_err(wrong)?;
         let equation = Equation::new(body).ok_or_else(|| {
             wrong("hydrodynamics: mass and added mass are singular together".into())
         })?;
@@ -92,11 +92,11 @@ impl Described {
             plant,
             capabilities,
         };
-        let shortest_s = vehicle.shortest_s();
+        let shortest_s = vehicle.shortest_s(1.0);
         if shortest_s < QUICKEST_S {
             vehicle.told.push(format!(
-                "hydrodynamics: its motion decays within {shortest_s:.1e} s at its usual speeds, and no hull's does in \
-                 less than {QUICKEST_S} s: look at the units of damping and added mass"
+                "hydrodynamics: at 1 m/s its motion decays within {shortest_s:.1e} s, and no hull's does in less than \
+                 {QUICKEST_S} s: look at the units of damping, mass and inertia"
             ));
         }
         Ok(vehicle)

@@ -21,7 +21,7 @@ use robots::map::MapObservation;
 use robots::sense::{Around, Asked, SensorSuite};
 use robots::vehicles::Battery;
 use world::clock::Clock;
-use world::frames::Truth;
+use world::frames::{NOT_FINITE, Truth};
 use world::physics::Physics;
 
 pub(crate) fn read_instruments(
@@ -216,7 +216,7 @@ pub(crate) fn read_bodies(
         *truth = physics.truth(hull.body);
         assert!(
             truth.is_finite(),
-            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the \
+            "the state of robot {} {NOT_FINITE} after step {}: a force on it was not; check its parameters and the \
              water there",
             id.name,
             now.0.step

@@ -42,6 +42,7 @@ use crate::scenario::Loaded;
 use crate::trial::{Trial, Watch};
 use alike::Course;
 use bevy_ecs::prelude::World;
+use world::frames::NOT_FINITE;
 use world::seeds::Seed;
 
 /// Why a lane has no end of its own.
@@ -54,8 +55,17 @@ pub enum LaneError {
     #[error("runs in lanes must have the same ocean, but `{0}` differs")]
     Unlike(String),
     /// It panicked; so would the run alone.
-    #[error("panicked: {0}")]
+    #[error("{}{}", prefix(.0), .0)]
     Panicked(String),
+}
+
+/// What stands before the message of a panic: nothing if the message is about a vehicle and not about the program.
+fn prefix(said: &str) -> &'static str {
+    if said.contains(NOT_FINITE) {
+        ""
+    } else {
+        "panicked: "
+    }
 }
 
 /// Runs in the same ocean, each with an observer.

@@ -94,7 +94,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
                 .map_or(0.0, |w| w.velocity_without_eddies(&p_W, 0.0).norm());
             check_able::speeds(i, robot, vehicle, water_m_s, &mut found);
-            check_able::capabilities(i, robot, vehicle, step_s, &mut found);
+            check_able::capabilities(i, robot, vehicle, step_s, water_m_s, &mut found);
         }
         let setting = robot.setting(&area, &terrain, &obstacles);
         let path = format!("robots[{i}].chart");

@@ -104,21 +104,20 @@ pub(super) fn speeds(
     }
 }
 
-/// What a strategy asks of a vehicle that it cannot do.
+/// What a strategy asks of a vehicle that it cannot do. `water_m_s` is the speed of the water where it starts.
 pub(super) fn capabilities(
     i: usize,
     robot: &RobotSpec,
     vehicle: &Craft,
     step_s: f64,
+    water_m_s: f64,
     found: &mut Vec<Found>,
 ) {
     if let Craft::Described(hull) = vehicle {
-        if !hull.follows(step_s) {
-            let problem = format!(
-                "steps of {step_s} s are too long for this hull, whose motion decays within {:.1e} s: look at its mass \
-                 and damping",
-                hull.shortest_s()
-            );
+        // It starts with that speed over ground, and is never much faster than it can go.
+        let start_m_s = robot.start.speed_m_s.get() + water_m_s;
+        let fastest_m_s = start_m_s.max(hull.capabilities().top_speed_m_s);
+        if let Err(problem) = hull.follows(step_s, fastest_m_s) {
             found.push(Found::error(format!("robots[{i}].vehicle"), problem));
         }
         if robot.autopilot != AutopilotSpec::default() {
