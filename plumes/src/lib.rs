@@ -3,6 +3,7 @@
 pub mod error;
 pub mod filaments;
 pub mod flow;
+mod logarithm;
 mod marks;
 mod path;
 mod quad;

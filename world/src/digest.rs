@@ -1,4 +1,4 @@
-//! Digest of the state sequence: two runs with the same digest went through the same states, bit by bit. Beside it, the
+//! Digest of a run: two runs with the same digest went through the same states, bit by bit. Beside it, the
 //! fingerprint of bytes that nobody can find other bytes for.
 
 use bevy_ecs::prelude::Resource;

@@ -111,6 +111,11 @@ pub trait Flow: Send + Sync {
         0.0
     }
 
+    /// Roughness of the bed and the height at which the law of the wall ends, m, if the velocity falls by it.
+    fn log_layer(&self) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Vertical walls along both sides, if the water stands between walls.
     fn walls(&self) -> Option<SideWalls> {
         None

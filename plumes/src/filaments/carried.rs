@@ -17,7 +17,7 @@
 
 use super::fetch::highest;
 use super::kernel::{BLOCK, Block};
-use super::lookup::{Column, Lookup};
+use super::lookup::Lookup;
 use super::series::{current_time, expansion, logarithm, series};
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
@@ -238,7 +238,7 @@ impl Carrier {
         }
         for l in 0..BLOCK {
             let rise = (to[2][l] - part[2][l]) * self.ds[level[l] as usize];
-            let bed = lookup.bed(Column::inside(column[l], to[0][l], to[1][l]));
+            let bed = lookup.bed(b.x[l], b.y[l]);
             b.z[l] = b.z[l] * (bed / b.bed[l]) - bed * rise;
             b.bed[l] = bed;
         }
@@ -294,7 +294,7 @@ impl Carrier {
         b.y[l] += grid.along[1] * da + grid.across[1] * db;
         let k = end.cell[2];
         let s = f64::from(grid.levels[k]) + end.part[2] * f64::from(self.ds[k]);
-        let bed = lookup.bed(lookup.column(b.x[l], b.y[l]));
+        let bed = lookup.bed(b.x[l], b.y[l]);
         b.z[l] = (f64::from(bed) * (1.0 - s)) as f32;
         b.bed[l] = bed;
     }

@@ -78,6 +78,35 @@ impl Levels {
         v.per_m
     }
 
+    /// What the current in the lowest cell over a rough bed has more than linearly, as parts of its rise; `None` if no
+    /// filament is there.
+    #[inline(always)]
+    pub(super) fn extra<'a, const N: usize>(
+        &self,
+        cells: &Lookup,
+        bed: &[f32; BLOCK],
+        extra: &'a mut [f32; BLOCK],
+    ) -> Option<&'a [f32; BLOCK]> {
+        let law = cells.law?;
+        let any = |below: &[u32]| below.iter().fold(u32::MAX, |least, n| least.min(*n)) == 0;
+        if !any(&self.below[..N]) {
+            return None;
+        }
+        let first = cells.first_level();
+        // Most filaments are higher: eight at a time, only those eights that have one so low.
+        for from in (0..N).step_by(8) {
+            let eight = from..from + 8;
+            extra[eight.clone()].fill(0.0);
+            if any(&self.below[eight.clone()]) {
+                for l in eight {
+                    let more = law.extra(self.part[l], -bed[l] * first, -bed[l]);
+                    extra[l] = if self.below[l] == 0 { more } else { 0.0 };
+                }
+            }
+        }
+        Some(extra)
+    }
+
     /// Not zero if the stored level is another, in any bit, than this one.
     #[inline(always)]
     pub(super) fn differs(&self, l: usize, v: &Level) -> u32 {
@@ -85,11 +114,11 @@ impl Levels {
     }
 }
 
-/// u, v, w and K_z of a block.
+/// u, v, ω and K_z of a block.
 pub(super) type Fetched = [[f32; BLOCK]; 4];
 
-/// Fills in the water at the first `N` places of a block; `N` is a multiple of four. Multiplies `slope`, the reciprocal distance of the levels, by the
-/// difference of K_z between them.
+/// Fills in the water at the first `N` places of a block; `N` is a multiple of four. Multiplies `slope`, the reciprocal
+/// distance of the levels, by the difference of K_z between them.
 ///
 /// # Safety
 /// The machine must have the instructions of `P`.
@@ -100,6 +129,7 @@ pub(super) unsafe fn fetch<P: Pair, const N: usize>(
     column: &Columns,
     level: &Levels,
     water: &mut Fetched,
+    extra: Option<&[f32; BLOCK]>,
     mut slope: Option<&mut [f32; BLOCK]>,
 ) {
     let (up_j, up_i) = cells.strides();
@@ -122,10 +152,19 @@ pub(super) unsafe fn fetch<P: Pair, const N: usize>(
         for d in 0..4 {
             water[d][from..from + 4].copy_from_slice(&four[d]);
         }
+        if extra.is_none() && slope.is_none() {
+            continue;
+        }
+        let rise = Quad::columns([a.1, b.1, c.1, d.1]);
+        if let Some(extra) = extra {
+            for l in from..from + 4 {
+                water[0][l] += extra[l] * rise[0][l - from];
+                water[1][l] += extra[l] * rise[1][l - from];
+            }
+        }
         if let Some(slope) = slope.as_deref_mut() {
-            let rise = Quad::columns([a.1, b.1, c.1, d.1])[3];
             for l in 0..4 {
-                slope[from + l] *= rise[l];
+                slope[from + l] *= rise[3][l];
             }
         }
     }

@@ -28,8 +28,8 @@
 //!
 //! u is the mean of its values at z and z* (trapezium), so the stretching of a cloud by vertical shear is second order
 //! in dt. Horizontally the step is Euler's, because the flow's horizontal scales are long compared with a step. Where
-//! K_h varies, its gradient is added as drift (Itô form). The bed is that of the grid, bilinear in a cell; where the
-//! slope bends within a cell, it may lie some centimetres below the terrain's.
+//! K_h varies, its gradient is added as drift (Itô form). The bed is the terrain's: the water carries a filament at the
+//! same part of the depth, apart from ω of the grid, so that nothing is carried through a bed that bends within a cell.
 //!
 //! All arithmetic is f32 and written once. The compiler makes a version for each of `path` from it (no fused
 //! multiply-add in any), which give the same bits.
@@ -72,6 +72,7 @@ pub(super) struct Work {
     up: [f32; BLOCK],
     slope: [f32; BLOCK],
     kick: [f32; BLOCK],
+    extra: [f32; BLOCK],
     here: Fetched,
     there: Fetched,
 }
@@ -85,6 +86,7 @@ impl Work {
             up: [0.0; BLOCK],
             slope: [0.0; BLOCK],
             kick: [0.0; BLOCK],
+            extra: [0.0; BLOCK],
             here: [[0.0; BLOCK]; 4],
             there: [[0.0; BLOCK]; 4],
         }
@@ -177,6 +179,7 @@ unsafe fn body<P: Pair, const N: usize>(
         up,
         slope,
         kick,
+        extra,
         here,
         there,
     } = work;
@@ -189,8 +192,9 @@ unsafe fn body<P: Pair, const N: usize>(
         slope[l] = level.set(l, cells.level(b.z[l], up[l]));
     }
     column.weigh::<N>();
+    let more = level.extra::<N>(cells, &b.bed, extra);
     // SAFETY: the caller promises the instructions of the pair.
-    unsafe { fetch::<P, N>(cells, nodes, column, level, here, Some(slope)) };
+    unsafe { fetch::<P, N>(cells, nodes, column, level, here, more, Some(slope)) };
     // Where nothing mixes upwards, all that multiplies the two upward normals is zero.
     let calm = all_zero(&here[3][..N]) && all_zero(&slope[..N]);
     if calm {
@@ -216,8 +220,9 @@ unsafe fn body<P: Pair, const N: usize>(
     if calm && changed == 0 {
         there.clone_from(here);
     } else {
+        let more = level.extra::<N>(cells, &b.bed, extra);
         // SAFETY: as above.
-        unsafe { fetch::<P, N>(cells, nodes, column, level, there, None) };
+        unsafe { fetch::<P, N>(cells, nodes, column, level, there, more, None) };
     }
     if let Some(k_h) = cells.even_k_h {
         for l in 0..N {
@@ -241,9 +246,13 @@ unsafe fn body<P: Pair, const N: usize>(
         let secant = (there[3][l] - here[3][l]) / kick[l];
         let secant = if long { secant } else { slope[l] };
         let squares = noise[2][l] * noise[2][l] + noise[3][l] * noise[3][l];
+        // The water carries it at the same part of the depth, over a bed that rises and falls; kicks are level.
+        let before = cells.bed(b.x[l], b.y[l]);
         b.x[l] += half * (here[0][l] + there[0][l]);
         b.y[l] += half * (here[1][l] + there[1][l]);
-        b.z[l] += half * (here[2][l] + there[2][l])
+        b.bed[l] = cells.bed(b.x[l], b.y[l]);
+        b.z[l] += b.z[l] * ((b.bed[l] - before) / before)
+            + half * (here[2][l] + there[2][l])
             + kick[l]
             + half * b.kicked[l] * (0.5 * (slope[l] + secant)) * squares;
     }
@@ -252,9 +261,6 @@ unsafe fn body<P: Pair, const N: usize>(
         b.outside[l] = u32::from(c.outside);
         b.moved[l] = u32::from(c.at != column.at(l));
         column.set(l, c);
-    }
-    for l in 0..N {
-        b.bed[l] = cells.bed(column.get(l));
     }
     for l in 0..N {
         b.z[l] = folded(b.z[l], b.bed[l], -1.0 / b.bed[l]);

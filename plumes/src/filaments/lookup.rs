@@ -1,16 +1,16 @@
-//! The flow grid as the drift reads it: the cell of a point, the level of a height, and bed and horizontal diffusivity
-//! in a cell.
+//! The flow grid as the drift reads it: the cell of a point, the level of a height, the bed, and the horizontal
+//! diffusivity in a cell.
 //!
 //! *Source*: the layout and the vertical map are those of `flow::grid`. This file turns them into arithmetic without
 //! branches, for many filaments at once.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: bed and K_h are bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns
-//! all.
+//! *Deviations*: K_h is bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns all.
 
 use super::kernel::BLOCK;
-use crate::flow::grid::FlowGrid;
+use crate::flow::grid::{FlowGrid, LogLaw};
+use crate::flow::ground::NearGround;
 use crate::path::Path;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
@@ -26,7 +26,9 @@ pub(super) struct Lookup {
     last: [f32; 2],
     dims: [i32; 3],
     stretch: f32,
-    bed: Vec<Bilinear>,
+    pub(super) ground: NearGround,
+    /// How the current falls to the bed below the lowest level, if not linearly.
+    pub(super) law: Option<LogLaw>,
     k_h: Vec<Bilinear>,
     /// The horizontal diffusivity, if it is the same everywhere.
     pub(super) even_k_h: Option<f32>,
@@ -77,7 +79,8 @@ impl Lookup {
             last: [(nx - 1) as f32, (ny - 1) as f32],
             dims: [nx as i32, ny as i32, nz as i32],
             stretch: grid.stretch,
-            bed: bilinear(&grid.bed, nx, ny),
+            ground: grid.near,
+            law: grid.law,
             k_h: bilinear(&grid.k_h, nx, ny),
             even_k_h: None,
         }
@@ -87,6 +90,7 @@ impl Lookup {
     /// the same in all columns that are used.
     pub(super) fn refresh(&mut self, grid: &FlowGrid, even_k_h: Option<f32>) {
         self.even_k_h = even_k_h;
+        self.law = grid.law;
         if self.even_k_h.is_none() {
             self.k_h = bilinear(&grid.k_h, grid.dims[0], grid.dims[1]);
         }
@@ -140,10 +144,17 @@ impl Lookup {
         }
     }
 
+    /// Height of the lowest level above the bed's, as a part of the depth.
+    #[inline(always)]
+    pub(super) fn first_level(&self) -> f32 {
+        let h = 1.0 / (self.dims[2] - 1) as f32;
+        h * (1.0 - self.stretch + self.stretch * h)
+    }
+
     /// Height of the bed, m (negative).
     #[inline(always)]
-    pub(super) fn bed(&self, c: Column) -> f32 {
-        value(&self.bed[c.at as usize], c)
+    pub(super) fn bed(&self, x: f32, y: f32) -> f32 {
+        self.ground.z(x, y)
     }
 
     /// Horizontal diffusivity (m²/s) and its gradient east and north (m/s).

@@ -63,6 +63,8 @@ mod tests_mean;
 #[cfg(test)]
 mod tests_mixed;
 #[cfg(test)]
+mod tests_one_water;
+#[cfg(test)]
 mod tests_round;
 #[cfg(test)]
 mod tests_water;

@@ -4,7 +4,7 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: the bed rises evenly between those under both ends of the way.
+//! *Deviations*: none of its own. The way is straight, so where it would cut a bend of the bed, it follows the bed.
 
 use super::bands::{Moment, Span};
 use super::leaf::{LANES, LEAF, Leaf, eights};
@@ -12,27 +12,30 @@ use super::lookup::Lookup;
 use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
+use crate::flow::ground::NearGround;
 use crate::path::Path;
 
 /// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]
 pub(super) struct Moving {
-    /// East, north, up, and the bed.
-    start: [[f32; LEAF]; 4],
-    end: [[f32; LEAF]; 4],
+    /// East, north, up.
+    start: [[f32; LEAF]; 3],
+    end: [[f32; LEAF]; 3],
     born_s: [f64; LEAF],
     /// Variance by which each is wider for its own entrainment, m², of a buoyant release.
     grown_m2: Option<[f32; LEAF]>,
+    ground: NearGround,
     count: usize,
 }
 
 impl Default for Moving {
     fn default() -> Self {
         Self {
-            start: [[0.0; LEAF]; 4],
-            end: [[0.0; LEAF]; 4],
+            start: [[0.0; LEAF]; 3],
+            end: [[0.0; LEAF]; 3],
             born_s: [f64::NEG_INFINITY; LEAF],
             grown_m2: None,
+            ground: NearGround::default(),
             count: 0,
         }
     }
@@ -43,7 +46,7 @@ impl Moving {
     pub(super) fn take(&mut self, s: &Store, lookup: &Lookup, from: usize, members: &[u16]) {
         self.count = members.len();
         let at = |m: &u16| from + usize::from(*m);
-        let ends = [&s.x, &s.y, &s.z, &s.bed];
+        let ends = [&s.x, &s.y, &s.z];
         for (to, of) in self.start.iter_mut().zip(&s.start) {
             gather(to, of, members.iter().map(at));
         }
@@ -55,10 +58,7 @@ impl Moving {
             let grown = self.grown_m2.get_or_insert([0.0; LEAF]);
             gather(grown, &rise.grown_m2, members.iter().map(at));
         }
-        let [x, y, _, bed] = &mut self.start;
-        for ((bed, x), y) in bed.iter_mut().zip(x).zip(y).take(members.len()) {
-            *bed = lookup.bed(lookup.column(*x, *y));
-        }
+        self.ground = lookup.ground;
     }
 
     /// The part of its way that each has gone at a moment, and how many are released.
@@ -150,11 +150,14 @@ fn fill(way: &Way, leaf: &mut Leaf) {
         now_s,
     } = way;
     for from in eights(leaf.count) {
-        let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z, &mut leaf.bed];
+        let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z];
         for (d, to) in places.into_iter().enumerate() {
             for l in from..from + LANES {
                 to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
             }
+        }
+        for l in from..from + LANES {
+            leaf.bed[l] = m.ground.z(leaf.x[l], leaf.y[l]);
         }
         for l in from..from + LANES {
             let (z, bed) = (leaf.z[l], leaf.bed[l]);
@@ -177,21 +180,20 @@ fn fill(way: &Way, leaf: &mut Leaf) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flow::ground::Ground;
     use crate::release::ReleaseSpec;
+    use nalgebra::Vector2;
+    use world::terrain::Terrain;
 
     /// A leaf on its way from one place to another, the last filaments released within the step.
     fn moving() -> Moving {
         let mut new = Moving {
-            start: [[0.0; LEAF]; 4],
-            end: [[0.0; LEAF]; 4],
-            born_s: [f64::NEG_INFINITY; LEAF],
-            grown_m2: None,
+            ground: Ground::new(&Terrain::Level { depth_m: 5.0 }).near(Vector2::zeros()),
             count: 30,
+            ..Moving::default()
         };
         for l in 0..30 {
             let a = l as f32;
-            // Above the bed.
-            (new.start[3][l], new.end[3][l]) = (-5.0, -5.0);
             new.start = add(new.start, l, [400.0 + 0.3 * a, -200.0 - 0.2 * a, -3.0]);
             new.end = add(new.end, l, [403.0 + 0.25 * a, -202.0, -3.5]);
             new.born_s[l] = if l < 27 {
@@ -203,7 +205,7 @@ mod tests {
         new
     }
 
-    fn add(mut to: [[f32; LEAF]; 4], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 4] {
+    fn add(mut to: [[f32; LEAF]; 3], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 3] {
         for (axis, v) in to.iter_mut().zip(p) {
             axis[l] = v;
         }

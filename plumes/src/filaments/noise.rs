@@ -12,7 +12,8 @@
 //! 5.9. Over 10⁷ values per axis, variance and kurtosis agree with 1 and 3 within five standard errors (0.0023, 0.016;
 //! tests below).
 
-use std::f32::consts::{LN_2, TAU};
+use crate::logarithm::ln;
+use std::f32::consts::TAU;
 
 /// Key of one step. Both halves differ between all steps, sources and seeds.
 pub(super) fn step_key(source_key: u64, step: u64) -> [u32; 2] {
@@ -67,15 +68,7 @@ fn mix(mut x: u32) -> u32 {
 #[inline(always)]
 fn radius(bits: u32) -> f32 {
     let u = bits as i32 as f32 + 0.5;
-    // u = m·2^e with m in [√½, √2); ln m = 2 artanh((m − 1)/(m + 1)), |argument| < 0.172.
-    let raw = u.to_bits() as i32;
-    let e = (raw - 0x3f35_04f3) >> 23;
-    let m = f32::from_bits((raw - (e << 23)) as u32);
-    let t = (m - 1.0) / (m + 1.0);
-    let q = t * t;
-    let ln_m = 2.0 * t * (1.0 + q * (1.0 / 3.0 + q * (0.2 + q * (1.0 / 7.0))));
-    let ln_u = (e - 24) as f32 * LN_2 + ln_m;
-    (-2.0 * ln_u).max(0.0).sqrt()
+    (-2.0 * ln(u, 24)).max(0.0).sqrt()
 }
 
 /// Sine and cosine of an angle that is uniform over the circle: 23 bits of half a turn, and one bit for the other half.

@@ -169,7 +169,7 @@ impl Plume {
     pub fn with_buoyancy(mut self, flow: &dyn Flow) -> Result<Self, PlumeError> {
         for (n, (store, source)) in self.stores.iter_mut().zip(&self.sources).enumerate() {
             let [x, y, _] = self.grid.local(&source.p_W);
-            let bed_m = f64::from(self.cells.bed(self.cells.column(x, y)));
+            let bed_m = f64::from(self.cells.bed(x, y));
             store.rise = Rise::new(flow, n, source, bed_m)?;
         }
         Ok(self)

@@ -60,7 +60,7 @@ pub(super) struct Room {
     // For each column of the grid: the number of columns to the nearest one that is not open from bed to surface and to
     // its neighbours.
     clear: Arc<Vec<u8>>,
-    /// Steepest slope of the bed between two columns.
+    /// Steepest slope of the bed.
     pub(super) steepest: f64,
 }
 
@@ -68,29 +68,17 @@ impl Room {
     pub(super) fn new(grid: &FlowGrid) -> Self {
         let axis = |a: [f32; 2]| Vector2::new(f64::from(a[0]), f64::from(a[1]));
         let spacing = grid.spacing.map(f64::from);
-        let [nx, ny, _] = grid.dims;
-        let mut steepest = 0.0_f64;
-        for i in 0..nx {
-            for j in 0..ny {
-                let at = i * ny + j;
-                let rise =
-                    |to: usize, d: usize| f64::from(grid.bed[to] - grid.bed[at]).abs() / spacing[d];
-                let along = if i + 1 < nx { rise(at + ny, 0) } else { 0.0 };
-                let across = if j + 1 < ny { rise(at + 1, 1) } else { 0.0 };
-                steepest = steepest.max((along * along + across * across).sqrt());
-            }
-        }
         Self {
             datum: grid.datum,
             origin: axis(grid.origin),
             axes: [axis(grid.along), axis(grid.across)],
             spacing,
-            across: ny,
+            across: grid.dims[1],
             solids: Solids::default(),
             cells: None,
             sides: None,
             clear: Arc::default(),
-            steepest,
+            steepest: grid.ground.steepest(),
         }
     }
 
@@ -121,7 +109,7 @@ impl Room {
         if c.outside {
             return None;
         }
-        let bed = lookup.bed(c);
+        let bed = lookup.bed(p[0], p[1]);
         let level = lookup.level(p[2], -1.0 / bed);
         let at = c.at as usize;
         let cell = [at / self.across, at % self.across, level.below as usize];
@@ -161,7 +149,7 @@ impl Room {
             .map_or([usize::MAX; 2], |c| [c.n[0] - 1, c.n[1] - 1]);
         Some(Place {
             q,
-            bed: f64::from(lookup.bed(c)),
+            bed: f64::from(lookup.bed(xy.x as f32, xy.y as f32)),
             cell: [cell[0].min(last[0]), cell[1].min(last[1]), p.cell[2]],
         })
     }
@@ -169,7 +157,7 @@ impl Room {
     /// Height of the bed, m, at coordinates along and across.
     pub(super) fn bed(&self, lookup: &Lookup, q: [f64; 3]) -> f64 {
         let xy = self.horizontal(q);
-        f64::from(lookup.bed(lookup.column(xy.x as f32, xy.y as f32)))
+        f64::from(lookup.bed(xy.x as f32, xy.y as f32))
     }
 
     /// Components of an offset (east, north) along and across.
@@ -239,7 +227,7 @@ impl Room {
         if a.outside || b.outside {
             return false;
         }
-        let beds = [lookup.bed(a), lookup.bed(b)];
+        let beds = [from, to].map(|p| lookup.bed(p[0], p[1]));
         let level = |z: f32, bed: f32| lookup.level(z, -1.0 / bed).below as usize;
         let (below, above) = (level(from[2], beds[0]), level(to[2], beds[0]));
         let [i, j] = [a.at as usize / self.across, a.at as usize % self.across];

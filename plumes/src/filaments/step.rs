@@ -16,6 +16,7 @@ use super::plume::Plume;
 use super::store::Store;
 use super::sweep::{Sweep, hold};
 use super::walls::{carry, fold, keep_between};
+use crate::flow::grid::LogLaw;
 use std::ops::Range;
 use std::sync::Arc;
 use world::fields::{Flow, SideWalls};
@@ -288,6 +289,7 @@ impl Plume {
         if self.carrier.is_some() || flow.walls().is_some() {
             self.sampled.everywhere(true);
         }
+        self.grid.law = flow.log_layer().map(LogLaw::new);
         self.sampled.renew(&mut self.grid, t0_s + ahead_s);
         for store in &self.stores {
             let mut at = [0; BLOCK];
@@ -327,6 +329,6 @@ fn places_of(store: &Store, range: &Range<usize>) -> [Vec<f32>; 3] {
 
 /// Where a source at a point from the datum releases filaments, and the height of the bed there, m.
 fn released(cells: &Lookup, [x, y, z]: [f32; 3]) -> ([f32; 3], f32) {
-    let bed = cells.bed(cells.column(x, y));
+    let bed = cells.bed(x, y);
     ([x, y, folded(z, bed, -1.0 / bed)], bed)
 }

@@ -236,7 +236,7 @@ impl Sweep<'_> {
             let to = room.turn_back(cells, self.grid, start, end, Some(kick));
             turned += u64::from(to.met);
             [b.x[l], b.y[l], b.z[l]] = to.p;
-            b.bed[l] = cells.bed(cells.column(to.p[0], to.p[1]));
+            b.bed[l] = cells.bed(to.p[0], to.p[1]);
             (b.outside[l], b.moved[l]) = (u32::from(to.left), 1);
         }
         turned
@@ -262,7 +262,7 @@ pub(super) fn hold(
             if !to.left {
                 turned += u64::from(to.met);
                 [store.x[n], store.y[n], store.z[n]] = to.p;
-                store.bed[n] = cells.bed(cells.column(to.p[0], to.p[1]));
+                store.bed[n] = cells.bed(to.p[0], to.p[1]);
             }
         }
     }

@@ -89,6 +89,11 @@ impl BoundaryLayer {
         top.greatest(N::from(3.0 * self.z0))
     }
 
+    /// Roughness and height of the law, m.
+    pub(super) fn scales_m(&self) -> [f64; 2] {
+        [self.z0, self.delta]
+    }
+
     /// Part of the free current that is left at a height above the bed.
     #[must_use]
     pub fn factor<N: Number>(&self, height_m: N, depth_m: N) -> N {

@@ -52,6 +52,36 @@ pub trait PlaneCurrent: std::fmt::Debug + Send + Sync {
     }
 }
 
+/// The shortest lengths and times over which a current changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurrentScales {
+    /// Length of the shortest wave that turns it, m; infinite without waves.
+    pub shortest_m: f64,
+    /// Shortest period of these waves, s; infinite without waves.
+    pub shortest_s: f64,
+    /// The interfaces between layers.
+    pub interfaces: Vec<InterfaceScale>,
+}
+
+/// Where an interface is, and over which height the current changes in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InterfaceScale {
+    /// Mean depth, m.
+    pub depth_m: f64,
+    /// Thickness, m.
+    pub thickness_m: f64,
+}
+
+impl Default for CurrentScales {
+    fn default() -> Self {
+        Self {
+            shortest_m: f64::INFINITY,
+            shortest_s: f64::INFINITY,
+            interfaces: Vec::new(),
+        }
+    }
+}
+
 /// Parameters of a current, and what they say of it before it is made. The current must follow from them and from its
 /// [`Place`] alone, because runs with the same parameters, place and seed share spin-ups, also from the disk.
 pub trait CurrentParams: Spec {
@@ -94,9 +124,9 @@ pub trait CurrentParams: Spec {
         Vector2::zeros()
     }
 
-    /// Mean depths of the interfaces between layers that it brings, m.
-    fn interfaces_m(&self) -> Vec<f64> {
-        Vec::new()
+    /// The shortest lengths and times over which it changes: so finely the plume sees it.
+    fn scales(&self) -> CurrentScales {
+        CurrentScales::default()
     }
 
     /// What it takes, where it is asked for up to `ahead_s` beyond the usual; paths begin with its own fields.

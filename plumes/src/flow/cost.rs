@@ -28,7 +28,7 @@ impl WaterSpec {
         }
         let waves = self.waves();
         let steady = self.currents.iter().all(|c| c.is_steady());
-        let shape = self.grid_shape(area);
+        let shape = self.grid_shape(area, depth_m);
         if let Some(spec) = &self.blockage {
             cost.add(spec.cost(area, steady, times).under("water.blockage"));
         }

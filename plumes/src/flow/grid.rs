@@ -8,74 +8,28 @@
 //! `stretch` (0 even, towards 1 denser at the bed), `margin_m` beyond the area (m).
 //!
 //! *Layout*: axes along (i) and across (j, to the right of) the area's axis, k from bed to surface; node (i, j, k) is
-//! `data[(i·ny + j)·nz + k] = [u_east, u_north, w_up, K_z]`, f32. The height above the bed as a part of the depth, s =
+//! `data[(i·ny + j)·nz + k] = [u_east, u_north, ω, K_z]`, f32. The height above the bed as a part of the depth, s =
 //! (z − b)/(−b), is s(ξ) = (1 − a)ξ + aξ² with ξ = k/(nz − 1); its inverse is a square root, so no search is needed.
+//! ω = w − u·∇b z/b is the vertical velocity through the surfaces of constant s (m/s). The bed is not that of the
+//! nodes: it is the terrain's at every place, so what flows along it stays on it where its slope changes within a cell.
 //! Within a cell everything is linear in s, that is in z, and K_z is piecewise linear with the gradient that the
-//! well-mixed drift needs.
+//! well-mixed drift needs. Only the current over a rough bed is logarithmic in the lowest cell, as the law of the wall
+//! has it ([`LogLaw`]).
 //!
 //! *Deviations*: outside the grid, the value at the nearest edge applies. The values are constant between two
 //! refreshes: call [`FlowGrid::refresh`] at fixed times, for the middle of the coming span.
 
 mod columns;
+mod log_law;
+mod shape;
 
+pub(crate) use log_law::LogLaw;
+pub use shape::GridShape;
+
+use crate::flow::ground::{Ground, NearGround};
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::terrain::Terrain;
-
-/// Resolution and extent of the grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GridShape {
-    /// Wanted horizontal spacing, m; reduced to fit the extent, never enlarged.
-    pub cell_m: f64,
-    /// Nodes from bed to surface, at least 2.
-    pub levels: usize,
-    /// 0 spaces the levels evenly; 0.9 puts ten times as many near the bed.
-    pub stretch: f64,
-    /// Reach beyond the operating area on every side, m.
-    pub margin_m: f64,
-}
-
-impl Default for GridShape {
-    fn default() -> Self {
-        Self {
-            cell_m: 20.0,
-            levels: 24,
-            stretch: 0.8,
-            margin_m: 50.0,
-        }
-    }
-}
-
-impl GridShape {
-    /// The default grid. In water less than 100 m wide it is scaled: cells of a sixth of the width, a margin of an
-    /// eighth.
-    #[must_use]
-    pub fn fitting(area: &Area) -> Self {
-        let usual = Self::default();
-        if area.width_m >= 2.0 * usual.margin_m {
-            return usual;
-        }
-        Self {
-            cell_m: area.width_m / 6.0,
-            margin_m: area.width_m / 8.0,
-            ..usual
-        }
-    }
-
-    /// Number of nodes along, across and upwards. These are `f64`, so that a number that is too large can be reported.
-    #[must_use]
-    pub fn nodes(&self, area: &Area) -> [f64; 3] {
-        let [along, across] = [area.length_m, area.width_m]
-            .map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
-        [along, across, self.levels as f64]
-    }
-
-    /// Height of level `k` above the bed, as a part of the depth.
-    pub(crate) fn level(&self, k: usize) -> f64 {
-        let xi = k as f64 / (self.levels - 1) as f64;
-        (1.0 - self.stretch) * xi + self.stretch * xi * xi
-    }
-}
 
 /// Flow and diffusivities at the grid's nodes at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,10 +51,15 @@ pub struct FlowGrid {
     pub stretch: f32,
     /// s of each level, 0 at the bed to 1 at the surface.
     pub levels: Vec<f32>,
-    /// `[east, north, up velocity (m/s), K_z (m²/s)]` at node (i·ny + j)·nz + k.
+    /// `[east, north, ω (m/s), K_z (m²/s)]` at node (i·ny + j)·nz + k.
     pub data: Vec<[f32; 4]>,
     /// Bed height (m, negative) at column i·ny + j.
     pub bed: Vec<f32>,
+    /// The bed at any place, in the world and from the datum.
+    pub(crate) ground: Ground,
+    pub(crate) near: NearGround,
+    /// How the current falls to the bed in the lowest cell, if not linearly.
+    pub(crate) law: Option<LogLaw>,
     /// Horizontal diffusivity (m²/s) at column i·ny + j, taken at mid-depth.
     pub k_h: Vec<f32>,
     /// Time for which the values hold, s.
@@ -141,13 +100,11 @@ impl FlowGrid {
         let at = |i: usize, j: usize| {
             area.world(corner + Vector2::new(i as f64 * spacing[0], j as f64 * spacing[1]))
         };
-        let mut bed = Vec::with_capacity(n[0] * n[1]);
-        for i in 0..n[0] {
-            for j in 0..n[1] {
-                let p = at(i, j);
-                bed.push(terrain.bed_z(p.x, p.y) as f32);
-            }
-        }
+        let ground = Ground::new(terrain);
+        let columns = (0..n[0]).flat_map(|i| (0..n[1]).map(move |j| (i, j)));
+        let bed: Vec<f32> = columns
+            .map(|(i, j)| ground.floor(at(i, j)).z as f32)
+            .collect();
         let a = area.axis.unit();
         let r = area.axis.turned(std::f64::consts::FRAC_PI_2).unit();
         let o = at(0, 0) - area.centre;
@@ -165,6 +122,9 @@ impl FlowGrid {
             data: vec![[0.0; 4]; n[0] * n[1] * nz],
             k_h: vec![0.0; bed.len()],
             bed,
+            ground,
+            near: ground.near(area.centre),
+            law: None,
             t_s: 0.0,
         }
     }
@@ -222,11 +182,8 @@ impl FlowGrid {
             fi * fj,
         ];
         let of = [column, column + 1, column + ny, column + ny + 1];
-        let (mut bed, mut k_h) = (0.0, 0.0);
-        for c in 0..4 {
-            bed += weights[c] * self.bed[of[c]];
-            k_h += weights[c] * self.k_h[of[c]];
-        }
+        let k_h = (0..4).map(|c| weights[c] * self.k_h[of[c]]).sum();
+        let bed = self.near.z(x, y);
         let s = (1.0 - z / bed).clamp(0.0, 1.0);
         let (k, _) = split(self.level_of(s) * (nz - 1) as f32, nz);
         let (s0, s1) = (self.levels[k], self.levels[k + 1]);
@@ -245,6 +202,15 @@ impl FlowGrid {
         for d in 0..4 {
             v[d] = low[d] + f * (high[d] - low[d]);
         }
+        if k == 0
+            && let Some(law) = &self.law
+        {
+            let extra = law.extra(f, (s1 - s0) * -bed, -bed);
+            v[0] += extra * (high[0] - low[0]);
+            v[1] += extra * (high[1] - low[1]);
+        }
+        let slope = self.ground.floor(self.world([x, y, z]).xy()).slope;
+        v[2] += (v[0] * slope.x as f32 + v[1] * slope.y as f32) * (1.0 - s);
         GridSample {
             velocity: [v[0], v[1], v[2]],
             k_z: v[3],
@@ -335,7 +301,8 @@ mod tests {
     #[test]
     fn columns_at_once_give_the_same_numbers() {
         let water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-        let heights = [-4.9, -4.0, -2.0, -1.0, -0.3, 0.0];
+        // Closer than the interface is thick.
+        let heights = [-2.9, -2.3, -2.0, -1.5, -1.0, -0.3];
         for place in places(50) {
             let mut out = [(Vector3::zeros(), Mixing::default()); 6];
             Flow::column(&water, place, &heights, 2.0, &mut out);

@@ -1,7 +1,6 @@
 //! The bed for the water: height and slope under a place, without trigonometry in each question.
 //!
-//! *Source*: the terrain's own definition; the slope by central differences over 1 m where no closed form is known
-//! here.
+//! *Source*: the terrain's own definition.
 //!
 //! *Parameters*: none.
 //!
@@ -22,66 +21,90 @@ pub struct Floor<N = f64> {
     pub slope: Vector2<N>,
 }
 
-/// A terrain prepared for fast evaluation.
-#[derive(Clone, Debug)]
-pub(crate) enum Ground {
-    Level(f64),
-    Plane {
-        // Position along the slope at the datum, as a part of its run, and its gradient.
-        part: f64,
-        gradient: Vector2<f64>,
-        z: [f64; 2],
-    },
-    Other(Terrain),
+/// A terrain prepared for fast evaluation: a plane that is level beyond its two ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Ground {
+    /// Position along the slope at the datum, as a part of its run, and its gradient, 1/m.
+    part: f64,
+    gradient: Vector2<f64>,
+    /// Heights at both ends, m.
+    z: [f64; 2],
 }
 
 impl Ground {
     pub(crate) fn new(terrain: &Terrain) -> Self {
-        if let Terrain::Level { depth_m } = *terrain {
-            Self::Level(-depth_m)
-        } else if let Terrain::Slope {
-            middle,
-            shoreward,
-            shallow_m,
-            deep_m,
-            run_m,
-        } = *terrain
-        {
-            let gradient = shoreward / run_m;
-            Self::Plane {
-                part: 0.5 - middle.dot(&gradient),
-                gradient,
-                z: [-deep_m, -shallow_m],
+        match *terrain {
+            Terrain::Level { depth_m } => Self {
+                part: 0.0,
+                gradient: Vector2::zeros(),
+                z: [-depth_m; 2],
+            },
+            Terrain::Slope {
+                middle,
+                shoreward,
+                shallow_m,
+                deep_m,
+                run_m,
+            } => {
+                let gradient = shoreward / run_m;
+                Self {
+                    part: 0.5 - middle.dot(&gradient),
+                    gradient,
+                    z: [-deep_m, -shallow_m],
+                }
             }
-        } else {
-            Self::Other(terrain.clone())
         }
     }
 
     pub(crate) fn floor<N: Number>(&self, p: Vector2<N>) -> Floor<N> {
-        let (z, slope) = match self {
-            Self::Level(z) => (N::from(*z), still(Vector2::zeros())),
-            Self::Plane { part, gradient, z } => {
-                let s = along(*gradient, p) + *part;
-                let rise = z[1] - z[0];
-                let on_slope = s.value() > 0.0 && s.value() < 1.0;
-                let on_slope = if on_slope { rise } else { 0.0 };
-                (
-                    s.within(N::from(0.0), N::from(1.0)) * rise + z[0],
-                    still(gradient * on_slope),
-                )
-            }
-            Self::Other(terrain) => {
-                let (x, y) = (p.x.value(), p.y.value());
-                let n = terrain.normal(x, y);
-                let slope = Vector2::new(-n.x / n.z, -n.y / n.z);
-                let z = N::known(terrain.bed_z(x, y), [p.x, p.y], || slope.into());
-                (z, still(slope))
-            }
-        };
+        let s = along(self.gradient, p) + self.part;
+        let rise = self.z[1] - self.z[0];
+        let on_slope = s.value() > 0.0 && s.value() < 1.0;
+        let on_slope = if on_slope { rise } else { 0.0 };
+        let z = s.within(N::from(0.0), N::from(1.0)) * rise + self.z[0];
         Floor {
             z: z.least(N::from(-SHALLOWEST_M)),
-            slope,
+            slope: still(self.gradient * on_slope),
+        }
+    }
+
+    /// Steepest slope.
+    pub(crate) fn steepest(&self) -> f64 {
+        self.gradient.norm() * (self.z[1] - self.z[0])
+    }
+
+    /// The same bed in single precision, from another datum.
+    pub(crate) fn near(&self, datum: Vector2<f64>) -> NearGround {
+        NearGround {
+            part: (self.part + self.gradient.dot(&datum)) as f32,
+            gradient: [self.gradient.x as f32, self.gradient.y as f32],
+            deep: self.z[0] as f32,
+            rise: (self.z[1] - self.z[0]) as f32,
+        }
+    }
+}
+
+/// The bed about a datum in single precision, for many filaments at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct NearGround {
+    part: f32,
+    gradient: [f32; 2],
+    deep: f32,
+    rise: f32,
+}
+
+impl NearGround {
+    /// Height of the bed at (east, north) from the datum, m (negative).
+    #[inline(always)]
+    pub(crate) fn z(&self, x: f32, y: f32) -> f32 {
+        let s = self.part + self.gradient[0] * x + self.gradient[1] * y;
+        let s = if s > 0.0 { s } else { 0.0 };
+        let s = if s < 1.0 { s } else { 1.0 };
+        let z = self.deep + self.rise * s;
+        if z < -(SHALLOWEST_M as f32) {
+            z
+        } else {
+            -(SHALLOWEST_M as f32)
         }
     }
 }
@@ -100,12 +123,17 @@ mod tests {
             deep_m: 8.0,
             run_m: 100.0,
         };
-        let (quick, plain) = (Ground::new(&terrain), Ground::Other(terrain.clone()));
+        let ground = Ground::new(&terrain);
+        let datum = Vector2::new(-20.0, 30.0);
+        let near = ground.near(datum);
         for (x, y) in [(0.0, 0.0), (30.0, -60.0), (-200.0, 5.0), (300.0, 0.0)] {
-            let p = Vector2::new(x, y);
-            let (a, b) = (quick.floor(p), plain.floor(p));
-            assert!((a.z - b.z).abs() < 1e-12 && (a.z - terrain.bed_z(x, y)).abs() < 1e-12);
-            assert!((a.slope - b.slope).norm() < 1e-12);
+            let floor = ground.floor(Vector2::new(x, y));
+            assert!((floor.z - terrain.bed_z(x, y)).abs() < 1e-12);
+            let normal = terrain.normal(x, y);
+            let slope = Vector2::new(-normal.x / normal.z, -normal.y / normal.z);
+            assert!((floor.slope - slope).norm() < 1e-12);
+            let z = near.z((x - datum.x) as f32, (y - datum.y) as f32);
+            assert!((f64::from(z) - floor.z).abs() < 2e-6);
         }
     }
 }

@@ -30,7 +30,7 @@ pub(crate) fn duck_bed() -> Terrain {
     Terrain::sloping_over(&duck_area(), Heading::from_deg(250.0), 4.0, 8.0)
 }
 
-pub(super) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
+pub(crate) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
     LayerSpec {
         speed_m_s: NonNegative::new(speed),
         heading_deg: HeadingDeg::new(heading),
@@ -38,7 +38,7 @@ pub(super) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
     }
 }
 
-pub(super) fn wave(
+pub(crate) fn wave(
     amplitude: f64,
     length: f64,
     period: f64,

@@ -120,12 +120,17 @@ impl WaterSpec {
         self.currents.iter().any(|c| c.is_walled())
     }
 
-    /// The grid on which the plume sees the water: the default one or, round obstacles, the corners of the water's
-    /// cells.
+    /// The grid on which the plume sees the water, at most `depth_m` deep: one that shows the waves and interfaces of
+    /// its currents or, round obstacles, the corners of the water's cells.
     #[must_use]
-    pub fn grid_shape(&self, area: &Area) -> GridShape {
-        let blockage = self.blockage.as_ref();
-        blockage.map_or_else(|| GridShape::fitting(area), BlockageSpec::grid_shape)
+    pub fn grid_shape(&self, area: &Area, depth_m: f64) -> GridShape {
+        let blockage = self.blockage.as_ref().map(BlockageSpec::grid_shape);
+        blockage.unwrap_or_else(|| {
+            let scales = self.currents.iter().map(|c| c.scales());
+            scales.fold(GridShape::fitting(area), |shape, s| {
+                shape.resolving(&s, area, depth_m)
+            })
+        })
     }
 
     /// The water round obstacles, if [`Self::blockage`] asks for it; otherwise as [`Self::build`] returns it.

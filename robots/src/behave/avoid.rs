@@ -5,16 +5,18 @@
 //!
 //! *Parameters*: distance from which an obstacle counts, `heed_m`, 35 m; distance from which the whole turn is taken,
 //! `near_m`, 18 m (1.5 turning radii); half width of the way that must be free, `clear_m`, 8 m; how long an echo is
-//! remembered, `memory_s`, 15 s; after turning away for `give_up_s`, 60 s, the destination is given up. The paper
-//! prints none of these.
+//! remembered, `memory_s`, 15 s; after turning away at one place for `give_up_s`, 60 s in all, the destination is given
+//! up. The paper prints none of these.
 //!
 //! *Deviations*: only the idea is the paper's. An echo counts if it lies ahead on the way that the lower layer asks
 //! for, within `clear_m` to either side and at most `near_m` beyond the destination. The commanded course is then
 //! turned by the smallest turn that leads past all remembered echoes, times (heed - distance) / (heed - near) of the
 //! nearest one. The vehicle keeps the side that it has taken unless the other side needs 30° less. If the short turn
 //! to the new course would sweep over an echo within `near_m` and the long turn would not, the vehicle takes the long
-//! turn. The avoidance is soft: it plans nothing, and a bay holds the vehicle until it gives up. Echoes within 1 m of
-//! the charted bed count as the bed. A navigation fix moves the remembered echoes with the vehicle.
+//! turn. The avoidance is soft: it plans nothing, and a bay holds the vehicle until it gives up. The time for which it
+//! turned away is counted through pauses with a free way, until the vehicle has moved on by `near_m` or the way has
+//! been free for `give_up_s`; otherwise turning away and the destination could take turns for ever. Echoes within 1 m
+//! of the charted bed count as the bed. A navigation fix moves the remembered echoes with the vehicle.
 
 use crate::error::RobotError;
 use crate::handoff::{Manoeuvre, Observation, Side};
@@ -49,7 +51,7 @@ pub struct Params {
     pub clear_m: Positive,
     /// How long an echo is remembered, s.
     pub memory_s: Positive,
-    /// After the vehicle has turned away for this long, the destination counts as reached, s.
+    /// After the vehicle has turned away at one place for this long in all, the destination counts as reached, s.
     pub give_up_s: Positive,
 }
 
@@ -65,6 +67,18 @@ impl Default for Params {
     }
 }
 
+/// Turning away at one place.
+#[derive(Clone, Copy, Debug)]
+struct Turning {
+    /// Where it began (east, north; m).
+    from: Vector2<f64>,
+    /// For how long it turned away, pauses not counted, s.
+    lasted_s: f64,
+    /// When it was last seen, and when it last turned away, s.
+    seen_s: f64,
+    turned_s: f64,
+}
+
 /// State of the behaviour.
 #[derive(Clone, Debug)]
 pub struct SoftAvoid {
@@ -74,8 +88,7 @@ pub struct SoftAvoid {
     echoes: VecDeque<(f64, Vector2<f64>)>,
     /// The side to which the vehicle turns away.
     side: Option<Side>,
-    /// Time since which it turns away, s.
-    since_s: Option<f64>,
+    turning: Option<Turning>,
 }
 
 impl SoftAvoid {
@@ -96,13 +109,44 @@ impl SoftAvoid {
             bed,
             echoes: VecDeque::new(),
             side: None,
-            since_s: None,
+            turning: None,
         })
     }
 
     /// The manoeuvre to do instead of `asked`; `None` as long as the way is free.
     pub fn step(&mut self, seen: &Observation, asked: &Manoeuvre) -> Option<Manoeuvre> {
         self.listen(seen);
+        let instead = self.instead_of(seen, asked);
+        self.count(seen, instead.is_some());
+        instead
+    }
+
+    /// Counts how long it turns away at one place.
+    fn count(&mut self, seen: &Observation, turns: bool) {
+        let (t_s, at) = (seen.t_s, seen.estimate.position);
+        if let Some(turning) = &mut self.turning {
+            turning.from += seen.estimate.fix_jump;
+            if turns {
+                turning.lasted_s += t_s - turning.seen_s;
+                turning.turned_s = t_s;
+            }
+            turning.seen_s = t_s;
+            let away = (at - turning.from).norm() > self.params.near_m.get();
+            let over = away || t_s - turning.turned_s > self.params.give_up_s.get();
+            if !turns && over {
+                self.turning = None;
+            }
+        } else if turns {
+            self.turning = Some(Turning {
+                from: at,
+                lasted_s: 0.0,
+                seen_s: t_s,
+                turned_s: t_s,
+            });
+        }
+    }
+
+    fn instead_of(&mut self, seen: &Observation, asked: &Manoeuvre) -> Option<Manoeuvre> {
         let at = seen.estimate.position;
         let (wanted, reach_m) = leads_to(asked, seen)?;
         let (near_m, heed_m) = (self.params.near_m.get(), self.params.heed_m.get());
@@ -111,13 +155,8 @@ impl SoftAvoid {
         let Some(nearest_m) = self.nearest_m(at, wanted, most_m) else {
             self.side = None;
             let turned = self.round_the_free_way(at, nose, wanted);
-            match turned {
-                Some(_) => _ = self.since_s.get_or_insert(seen.t_s),
-                None => self.since_s = None,
-            }
             return turned.map(|course| Manoeuvre::Course { course });
         };
-        self.since_s.get_or_insert(seen.t_s);
         let [left, right] = [Side::Left, Side::Right].map(|s| self.free_turn_deg(at, wanted, s));
         let favour = match self.side {
             Some(Side::Left) => -TURNS_DEG.1,
@@ -160,11 +199,12 @@ impl SoftAvoid {
     }
 
     /// Whether it has turned away for too long, so that the destination counts as reached. True only once.
-    pub fn gives_up(&mut self, t_s: f64) -> bool {
-        let long = |since_s| t_s - since_s > self.params.give_up_s.get();
-        let gives_up = self.since_s.is_some_and(long);
+    pub fn gives_up(&mut self) -> bool {
+        let give_up_s = self.params.give_up_s.get();
+        let long = |turning: &Turning| turning.lasted_s > give_up_s;
+        let gives_up = self.turning.as_ref().is_some_and(long);
         if gives_up {
-            self.since_s = Some(t_s);
+            self.turning = None;
         }
         gives_up
     }
@@ -241,159 +281,5 @@ fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::handoff::testing::seen;
-    use crate::handoff::{Beam, RangeScan};
-    use nalgebra::Vector3;
-
-    const BED: Terrain = Terrain::Level { depth_m: 8.0 };
-
-    fn avoid(params: Params) -> SoftAvoid {
-        SoftAvoid::new(&params, BED).expect("legal")
-    }
-
-    /// A ping at the origin, heading north, 3 m deep, with one beam for each bearing (right positive, °) and range
-    /// (m).
-    fn ping(t_s: f64, echoes: &[(f64, f64)]) -> Observation {
-        let mut o = seen(t_s, Vector2::zeros(), 0.0, None);
-        let beam = |(bearing, range): &(f64, f64)| {
-            let d = Heading::from_deg(-*bearing).unit();
-            Beam {
-                // FLU: forward is the unit vector's north, left is its east with the sign changed.
-                dir_B: Vector3::new(d.y, d.x, 0.0),
-                echo_m: Some(*range),
-            }
-        };
-        o.ranging = Some(RangeScan {
-            p_BS: Vector3::zeros(),
-            max_m: 40.0,
-            beams: echoes.iter().map(beam).collect(),
-        });
-        o
-    }
-
-    fn north() -> Manoeuvre {
-        Manoeuvre::Course {
-            course: Heading::from_deg(0.0),
-        }
-    }
-
-    fn turn_deg(m: Option<Manoeuvre>) -> f64 {
-        match m {
-            Some(Manoeuvre::Course { course }) => {
-                Heading::from_deg(0.0).turn_to(course).to_degrees()
-            }
-            other => panic!("wanted a course, got {other:?}"),
-        }
-    }
-
-    #[test]
-    fn turns_in_proportion_and_to_the_freer_side() {
-        // Ahead, slightly to the right: 8 m off it at asin(8 / 20) = 23.6 degrees; to the left 20.6, so 25.
-        let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(3.0, 20.0)]), &north()));
-        let whole_at_18 = (35.0 - 20.0) / 17.0;
-        assert!((t + 25.0 * whole_at_18).abs() < 1e-9, "{t}");
-        let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(-3.0, 26.5)]), &north()));
-        // asin(8 / 26.5) = 17.6: 14.6 to the right, so 15, half of it.
-        assert!((t - 7.5).abs() < 1e-9, "{t}");
-        // Nearer than near_m: the whole turn.
-        let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(3.0, 16.0)]), &north()));
-        assert!((t + 30.0).abs() < 1e-9, "{t}");
-        // A wall that goes on to the left: to the right, though most of it is straight ahead or left.
-        let wall: Vec<_> = (-12..3).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
-        assert!(turn_deg(avoid(Params::default()).step(&ping(0.0, &wall), &north())) > 0.0);
-        // Echoes all round: turn back.
-        let ring: Vec<_> = (0..72).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
-        let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &ring), &north()));
-        assert!((t.abs() - 180.0).abs() < 1e-9, "{t}");
-    }
-
-    #[test]
-    fn what_is_not_in_the_way_does_not_count() {
-        // Too far; beside the way (30 sin 20° = 10.3 m); behind.
-        for echo in [(0.0, 36.0), (20.0, 30.0), (179.0, 5.0)] {
-            let o = ping(0.0, &[echo]);
-            assert_eq!(
-                avoid(Params::default()).step(&o, &north()),
-                None,
-                "{echo:?}"
-            );
-        }
-        // The same echo counts if the destination lies there, and does not if the destination is much nearer.
-        let o = ping(0.0, &[(20.0, 30.0)]);
-        for (far_m, counts) in [(80.0, true), (13.0, true), (11.0, false)] {
-            let there = Manoeuvre::GoToPoint {
-                point: Heading::from_deg(20.0).unit() * far_m,
-                radius_m: None,
-            };
-            let turned = avoid(Params::default()).step(&o, &there);
-            assert_eq!(turned.is_some(), counts, "{far_m}");
-        }
-    }
-
-    #[test]
-    fn the_bed_is_no_obstacle() {
-        let mut o = ping(0.0, &[(0.0, 20.0)]);
-        // Nose down by 13 degrees: 4.5 m lower, 0.5 m over the bed.
-        o.estimate.attitude.pitch_rad = -0.2269;
-        assert_eq!(avoid(Params::default()).step(&o, &north()), None);
-        o.estimate.depth_m = 2.0;
-        assert!(avoid(Params::default()).step(&o, &north()).is_some());
-    }
-
-    #[test]
-    fn remembers_for_a_while_keeps_its_side_and_moves_with_fixes() {
-        let mut a = avoid(Params::default());
-        let first = turn_deg(a.step(&ping(0.0, &[(2.0, 20.0)]), &north()));
-        assert!(first < 0.0);
-        // Now there is more of it on the left; the side stays left.
-        let o = ping(1.0, &[(-3.0, 20.0), (-5.0, 20.0)]);
-        assert!(turn_deg(a.step(&o, &north())) < 0.0);
-        let quiet = |t_s| seen(t_s, Vector2::zeros(), 0.0, None);
-        assert!(a.step(&quiet(15.9), &north()).is_some());
-        assert_eq!(a.step(&quiet(16.1), &north()), None);
-        let mut b = avoid(Params::default());
-        b.step(&ping(0.0, &[(0.0, 20.0)]), &north());
-        let mut jumped = quiet(1.0);
-        jumped.estimate.fix_jump = Vector2::new(6.0, 0.0);
-        jumped.estimate.position = Vector2::new(6.0, 0.0);
-        let (before, after) = (b.clone().echoes[0].1, turn_deg(b.step(&jumped, &north())));
-        assert!((b.echoes[0].1 - before - Vector2::new(6.0, 0.0)).norm() < 1e-12);
-        assert!(after.abs() > 0.0);
-    }
-
-    #[test]
-    fn turns_about_on_the_free_side() {
-        // Nose north, a wall ahead to the right, the commanded way leads back: turn to the left.
-        let mut a = avoid(Params::default());
-        let wall: Vec<_> = (4..13).map(|k| (f64::from(k) * 10.0, 15.0)).collect();
-        let back = Manoeuvre::Course {
-            course: Heading::from_deg(170.0),
-        };
-        assert!((turn_deg(a.step(&ping(0.0, &wall), &back)) + 90.0).abs() < 1e-9);
-        assert_eq!(avoid(Params::default()).step(&ping(0.0, &[]), &back), None);
-    }
-
-    #[test]
-    fn gives_up_once_in_a_while() {
-        let mut a = avoid(Params::default());
-        for k in 0..600 {
-            let t_s = 0.1 * f64::from(k);
-            assert!(a.step(&ping(t_s, &[(0.0, 20.0)]), &north()).is_some());
-            assert!(!a.gives_up(t_s));
-        }
-        assert!(a.gives_up(60.1) && !a.gives_up(60.2) && a.gives_up(120.3));
-        a.step(&seen(200.0, Vector2::zeros(), 0.0, None), &north());
-        assert!(!a.gives_up(999.0));
-    }
-
-    #[test]
-    fn contradictions_are_refused() {
-        let far = Params {
-            near_m: Positive::new(40.0),
-            ..Params::default()
-        };
-        assert!(SoftAvoid::new(&far, BED).is_err());
-    }
-}
+#[path = "avoid_tests.rs"]
+mod tests;

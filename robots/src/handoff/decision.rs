@@ -5,6 +5,7 @@ use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
 use std::sync::Arc;
+use world::digest::Digest;
 use world::seeds;
 
 /// What the vehicle is doing, in the terms of the field.
@@ -233,6 +234,19 @@ impl Declaration {
         self.rule == UP_FLOW_EDGE
     }
 
+    /// Adds what it says, and what became of it, to a digest; the readings that it rests on are in the states.
+    pub fn digest_into(&self, digest: &mut Digest) {
+        let (x, y) = (self.position.x, self.position.y);
+        digest.f64s(&[f64::from(self.number), self.t_s, x, y]);
+        let absent = f64::NAN;
+        digest.f64s(&[
+            self.z_m.unwrap_or(absent),
+            self.region.map_or(absent, f64::from),
+        ]);
+        digest.text(self.rule);
+        digest.text(self.verdict.name());
+    }
+
     /// Adds it to the earlier ones; it replaces one of the same number.
     pub fn join(self, earlier: &mut Vec<Declaration>) {
         match earlier.iter_mut().find(|d| d.number == self.number) {
@@ -313,6 +327,41 @@ mod tests {
         second.join(&mut list);
         looked_at.join(&mut list);
         assert_eq!(list, [looked_at, second]);
+    }
+
+    #[test]
+    fn digests_hold_all_that_a_declaration_says() {
+        let plain = Declaration::first(1.0, Vector2::new(2.0, 3.0), "a");
+        let others = [
+            Declaration { number: 1, ..plain },
+            Declaration { t_s: 1.5, ..plain },
+            Declaration {
+                position: Vector2::new(3.0, 2.0),
+                ..plain
+            },
+            Declaration {
+                z_m: Some(-4.0),
+                ..plain
+            },
+            Declaration { rule: "b", ..plain },
+            Declaration {
+                region: Some(0),
+                ..plain
+            },
+            Declaration {
+                verdict: Verdict::Verified,
+                ..plain
+            },
+        ];
+        let digest = |declaration: &Declaration| {
+            let mut digest = Digest::default();
+            declaration.digest_into(&mut digest);
+            digest.hex()
+        };
+        let mut all: Vec<String> = others.iter().chain([&plain]).map(digest).collect();
+        all.sort();
+        all.dedup();
+        assert_eq!(all.len(), others.len() + 1);
     }
 
     #[test]

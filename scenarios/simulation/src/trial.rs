@@ -41,7 +41,7 @@ use world::seeds::Seed;
 pub struct Ended {
     /// How it ended.
     pub outcome: RunOutcome,
-    /// Digest of the whole state sequence.
+    /// Digest of all states of the run, of what was declared in it and of its outcome.
     pub digest: String,
     /// Ticks of the mission.
     pub steps: u64,
@@ -209,12 +209,13 @@ impl Trial {
     pub(crate) fn heed(&mut self, watch: &mut dyn Watch) -> bool {
         self.show(watch);
         let t_s = self.simulation.t_s();
-        if !watch.go_on(t_s) {
-            self.progress.phase = RunPhase::Stopped;
-        } else if self.all_over()
-            || t_s - self.progress.began_s >= self.scenario.time.limit_s.get() - 1e-9
-        {
+        let goes_on = watch.go_on(t_s);
+        // A run that is over ended by itself, whoever would stop it then.
+        let limit_s = self.scenario.time.limit_s.get();
+        if self.all_over() || t_s - self.progress.began_s >= limit_s - 1e-9 {
             self.progress.phase = RunPhase::Ended;
+        } else if !goes_on {
+            self.progress.phase = RunPhase::Stopped;
         }
         self.going()
     }
@@ -224,22 +225,36 @@ impl Trial {
     pub fn ended(&self) -> Ended {
         let world = &self.simulation.world;
         let samples = f64::from(self.progress.flow_samples.max(1));
+        let outcome = match self.progress.phase {
+            RunPhase::Stopped => RunOutcome::Interrupted,
+            _ => self.outcome(),
+        };
         Ended {
-            outcome: match self.progress.phase {
-                RunPhase::Stopped => RunOutcome::Interrupted,
-                _ => self.outcome(),
-            },
+            outcome,
             flow_at_sources: self
                 .progress
                 .flow_sums
                 .iter()
                 .map(|sum| sum / samples)
                 .collect(),
-            digest: world.resource::<Digest>().hex(),
+            digest: self.digest(outcome),
             steps: world.resource::<Clock>().step,
             t_s: self.simulation.t_s(),
             declarations: self.declarations(),
         }
+    }
+
+    /// The digest of the states, with the run's answers: a declaration need not move anything.
+    fn digest(&self, outcome: RunOutcome) -> String {
+        let mut digest = self.simulation.world.resource::<Digest>().clone();
+        for searcher in &self.score().searchers {
+            digest.text(&searcher.id);
+            for declaration in &searcher.declarations {
+                declaration.digest_into(&mut digest);
+            }
+        }
+        digest.text(outcome.words());
+        digest.hex()
     }
 
     /// Makes the run to its end without an observer.

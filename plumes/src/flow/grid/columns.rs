@@ -63,8 +63,10 @@ impl FlowGrid {
         }
         let place = self.node(column / ny, column % ny, 0).xy();
         flow.column(place, &work.heights, self.t_s, &mut work.out);
-        for (node, (u, m)) in work.nodes.iter_mut().zip(&work.out) {
-            *node = [u.x as f32, u.y as f32, u.z as f32, m.k_z_m2_s as f32];
+        let slope = self.ground.floor(place).slope;
+        for ((node, (u, m)), level) in work.nodes.iter_mut().zip(&work.out).zip(&self.levels) {
+            let through = u.z - u.xy().dot(&slope) * (1.0 - f64::from(*level));
+            *node = [u.x as f32, u.y as f32, through as f32, m.k_z_m2_s as f32];
         }
         work.out[nz / 2].1.k_h_m2_s as f32
     }

@@ -76,6 +76,15 @@ impl LayeredColumn<'_> {
         lowest.map(|i| self.faces[i].z)
     }
 
+    /// Heights and thicknesses of the interfaces across which the density changes, m, top first.
+    pub(crate) fn stops(&self) -> impl Iterator<Item = (f64, f64)> {
+        let rho = self.of.density.windows(2);
+        let faces = self.faces().iter().zip(&self.of.faces).zip(rho);
+        faces
+            .filter(|(_, rho)| rho[0] < rho[1])
+            .map(|((sheet, face), _)| (sheet.z, face.thickness))
+    }
+
     /// Velocity, density and gradients at a height, m.
     #[must_use]
     pub fn profile(&self, z: f64) -> Profile {

@@ -6,7 +6,7 @@ use world::registry::Listed;
 
 use super::LayeredSpec;
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentScales, InterfaceScale, Place};
 use crate::flow::water::Water;
 
 impl Listed for LayeredSpec {
@@ -41,7 +41,26 @@ impl CurrentParams for LayeredSpec {
             .unwrap_or_default()
     }
 
-    fn interfaces_m(&self) -> Vec<f64> {
-        self.interfaces.iter().map(|i| i.depth_m.get()).collect()
+    fn scales(&self) -> CurrentScales {
+        let waves = || {
+            self.interfaces
+                .iter()
+                .flat_map(|i| &i.waves)
+                .filter(|w| w.amplitude_m.get() > 0.0)
+        };
+        CurrentScales {
+            shortest_m: waves()
+                .map(|w| w.length_m.get())
+                .fold(f64::INFINITY, f64::min),
+            shortest_s: waves()
+                .map(|w| w.period_s.get())
+                .fold(f64::INFINITY, f64::min),
+            interfaces: (self.interfaces.iter())
+                .map(|i| InterfaceScale {
+                    depth_m: i.depth_m.get(),
+                    thickness_m: i.thickness_m.get(),
+                })
+                .collect(),
+        }
     }
 }

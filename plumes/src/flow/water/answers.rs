@@ -46,6 +46,10 @@ impl Flow for Water {
         blocked.inspect(|b| b.rates(t_s, cells)).is_some()
     }
 
+    fn log_layer(&self) -> Option<[f64; 2]> {
+        self.bed.map(|bed| bed.scales_m())
+    }
+
     fn walls(&self) -> Option<SideWalls> {
         self.flume.as_ref().map(|f| f.walls)
     }
@@ -83,7 +87,7 @@ impl Flow for Water {
     ) {
         let column = Water::column(self, place, t_s);
         let u_star = column.friction_velocity();
-        for (z, node) in heights_m.iter().zip(out) {
+        for (z, node) in heights_m.iter().zip(&mut *out) {
             *node = column.both(*z, u_star);
             if let Some(blocked) = &self.blocked {
                 let p = Vector3::new(place.x, place.y, *z);
@@ -94,6 +98,7 @@ impl Flow for Water {
                 node.0 += Vector3::new(drift.x, drift.y, 0.0);
             }
         }
+        column.keep_apart(u_star, heights_m, out);
     }
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {

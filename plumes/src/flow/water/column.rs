@@ -113,6 +113,32 @@ impl Column<'_> {
         )
     }
 
+    /// Lets through interfaces that are thinner than the way between two heights no more than they do: between two heights
+    /// with an interface between them, the diffusivity is that of both layers and the interface in series.
+    pub(super) fn keep_apart(
+        &self,
+        u_star_m_s: f64,
+        heights_m: &[f64],
+        out: &mut [(Vector3<f64>, Mixing)],
+    ) {
+        for (z, thickness_m) in self.layers.iter().flat_map(LayeredColumn::stops) {
+            let above = heights_m.partition_point(|h| *h < z);
+            if above == 0 || above == heights_m.len() {
+                continue;
+            }
+            let way_m = heights_m[above] - heights_m[above - 1];
+            if way_m <= thickness_m {
+                continue;
+            }
+            let inside = self.mixing(z, u_star_m_s).k_z_m2_s;
+            for (_, mixing) in &mut out[above - 1..=above] {
+                let k_z = &mut mixing.k_z_m2_s;
+                let resistance = thickness_m / inside + (way_m - thickness_m) / *k_z;
+                *k_z = k_z.min(way_m / resistance);
+            }
+        }
+    }
+
     fn mixing_in(&self, z: f64, u_star_m_s: f64, profile: Option<&Profile>) -> Mixing {
         let (height, depth) = (z - self.floor.z, -self.floor.z);
         let reach = self.layers.as_ref().and_then(LayeredColumn::lid);

@@ -296,7 +296,7 @@ impl Subsumption {
         let reached = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
         let mut arrived = self.holder.filter(|_| reached);
         if let (Some(Kind::Avoid), Some(avoid)) = (self.holder, &mut self.layers.avoid)
-            && avoid.gives_up(seen.t_s)
+            && avoid.gives_up()
         {
             arrived = self.under_avoid;
         }

@@ -79,7 +79,8 @@ impl Gathered {
             summary: gathered.builder.finish(&end, &sources),
             sources,
             interfaces: (scenario.water.currents.iter())
-                .flat_map(|c| c.interfaces_m())
+                .flat_map(|c| c.scales().interfaces)
+                .map(|i| i.depth_m)
                 .map(|depth_m| -depth_m)
                 .collect(),
             obstacles: outlines(trial.simulation.ocean(), &scenario.permeable),

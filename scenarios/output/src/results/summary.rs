@@ -317,7 +317,7 @@ pub struct Summary {
     pub key: Option<String>,
     /// The versions that made the run.
     pub versions: Versions,
-    /// Digest of the whole state sequence; the same run has the same digest.
+    /// Digest of all states, declarations and the outcome; the same run has the same digest.
     pub digest: String,
     /// How it ended.
     pub outcome: RunOutcome,

@@ -26,7 +26,7 @@ pub struct RunEnd {
     pub outcome: RunOutcome,
     /// The error that ended it.
     pub error: Option<String>,
-    /// Digest of the state sequence.
+    /// Digest of states, declarations and outcome.
     pub digest: String,
     /// The score: what each searcher did, and what went wrong.
     pub score: Score,

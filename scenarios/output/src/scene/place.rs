@@ -87,7 +87,8 @@ impl Scene {
             Machine::of_gantry(block, &terrain, &files).map_err(failed(block.id.as_str()))
         });
         let mut layers: Vec<f64> = (scenario.water.currents.iter())
-            .flat_map(|c| c.interfaces_m())
+            .flat_map(|c| c.scales().interfaces)
+            .map(|i| i.depth_m)
             .map(|depth_m| -depth_m)
             .collect();
         layers.sort_by(|a, b| b.total_cmp(a));

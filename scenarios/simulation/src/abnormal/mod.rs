@@ -6,8 +6,10 @@
 //! add a line to [`Abnormality`] and to the system `watch` of the searcher. The faults that a scenario injects are told
 //! beside them, from their list.
 
+mod dither;
 mod faults;
 
+pub(crate) use dither::Switches;
 pub(crate) use faults::FaultLog;
 
 use bevy_ecs::prelude::Component;
@@ -48,13 +50,15 @@ pub enum Abnormality {
     ThrustersSaturated,
     /// Its battery was empty.
     BatteryEmpty,
+    /// Its behaviours took turns on one spot.
+    Dithering,
     /// A fault of the scenario began.
     Fault,
 }
 
 impl Abnormality {
     /// Those that are watched for; faults are known beforehand.
-    pub const WATCHED: [Self; 8] = [
+    pub const WATCHED: [Self; 9] = [
         Self::LeftArea,
         Self::NoBottomLock,
         Self::NoAltitude,
@@ -63,6 +67,7 @@ impl Abnormality {
         Self::TouchedVehicle,
         Self::ThrustersSaturated,
         Self::BatteryEmpty,
+        Self::Dithering,
     ];
 
     /// In words, for people.
@@ -77,6 +82,7 @@ impl Abnormality {
             Self::TouchedVehicle => "touched another vehicle",
             Self::ThrustersSaturated => "thrusters saturated",
             Self::BatteryEmpty => "battery empty",
+            Self::Dithering => "behaviours alternated without progress",
             Self::Fault => "fault",
         }
     }
@@ -88,6 +94,7 @@ impl Abnormality {
             | Self::Touched
             | Self::TouchedVehicle
             | Self::BatteryEmpty
+            | Self::Dithering
             | Self::Fault => 0.0,
             Self::ThrustersSaturated => STRAINED_S,
             Self::NoBottomLock | Self::NoAltitude | Self::NoFlow => BLIND_S,
@@ -165,7 +172,10 @@ struct Episode {
 
 /// The present events of a robot. In one place, because runs that share a world exchange it.
 #[derive(Component, Clone, Debug, Default)]
-pub struct Lookout(Box<[Episode; Abnormality::WATCHED.len()]>);
+pub struct Lookout {
+    episodes: Box<[Episode; Abnormality::WATCHED.len()]>,
+    pub(crate) switches: Switches,
+}
 
 impl Lookout {
     /// Notes whether something is wrong now; `None` if this tick has no reading.
@@ -178,7 +188,7 @@ impl Lookout {
         p_W: Vector3<f64>,
         events: &mut Vec<Abnormal>,
     ) {
-        let episode = &mut self.0[what as usize];
+        let episode = &mut self.episodes[what as usize];
         // As a rule nothing is wrong, and nothing was.
         if wrong != Some(true) && episode.began.is_none() {
             return;

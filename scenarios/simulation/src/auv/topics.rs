@@ -80,7 +80,7 @@ pub const TOPICS: &[Topic] = &[
         Field::sometimes("region", FieldKind::Count, "Subregion it searches, from 0; absent in transits and where the area is one."),
         Field::sometimes("region_name", FieldKind::Text, "Its name on maps and in tables: a letter, in the order of search."),
         Field::sometimes("region_m", FieldKind::Points, "The corners of that subregion (east, north), m."),
-        Field::sometimes("abnormal", FieldKind::Words, "What is wrong now: left the area, no bottom lock, no altitude, no flow, touched the bed or an obstacle, touched another vehicle, thrusters saturated, battery empty, fault: and what fails; absent where nothing is."),
+        Field::sometimes("abnormal", FieldKind::Words, "What is wrong now: left the area, no bottom lock, no altitude, no flow, touched the bed or an obstacle, touched another vehicle, thrusters saturated, battery empty, behaviours alternated without progress, fault: and what fails; absent where nothing is."),
     ]),
     Topic::json("ranging", "auv/<id>/ranging", STATE_RATE, "Newest ping of the forward ranging; absent before the first.", &[
         T,

@@ -1,8 +1,10 @@
 use super::*;
 use crate::ocean::Ocean;
+use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, load_text, template};
 use crate::trial::{Ended, Trial, Unwatched, Watch};
-use robots::handoff::{GantryLayout, MoveOrder, Order};
+use nalgebra::Vector2;
+use robots::handoff::{Declaration, GantryLayout, MoveOrder, Order};
 use robots::strategy::Strategy;
 use robots::track::GantryStrategy;
 use robots::vehicles::Gantry;
@@ -97,6 +99,32 @@ fn a_strategy_of_this_program_gives_the_same_digest_from_outside() {
     });
     let (again, _) = run(&outside, Replay::new(read));
     assert_eq!(again.digest, inside.digest);
+}
+
+/// A declaration moves nothing, and the run answers for it: its digest is another.
+#[test]
+fn runs_that_differ_only_in_what_is_declared_have_different_digests() {
+    let [plain, outside] = channels();
+    let declaring = |east_m: Option<f64>| {
+        let mut steers = controller(&plain);
+        let (ended, _) = run(&outside, move |question: &Question| {
+            let mut heard = steers.answer(question);
+            if let (200, Heard::Answer(answer), Some(east_m)) =
+                (question.number, &mut heard, east_m)
+            {
+                let place = Vector2::new(east_m, 0.0);
+                answer.declared = Some(Declaration::first(question.t_s, place, "outside"));
+            }
+            heard
+        });
+        assert_eq!(ended.outcome == RunOutcome::NotFound, east_m.is_some());
+        (ended.steps, ended.digest)
+    };
+    let ends = [Some(-40.0), Some(-41.0), None, Some(-40.0)].map(declaring);
+    assert!(ends.iter().all(|end| end.0 == ends[0].0));
+    assert_eq!(ends[0], ends[3]);
+    let differ = |a: usize, b: usize| ends[a].1 != ends[b].1;
+    assert!(differ(0, 1) && differ(0, 2) && differ(1, 2), "{ends:?}");
 }
 
 #[test]

@@ -157,7 +157,15 @@ fn an_observer_ends_its_own_lane_alone() {
     assert!((stopped(1).t_s - 3.0).abs() < 1e-9);
     let mut same = Trial::assemble(&all[1], 7).expect("legal");
     same.until(3.0);
-    assert_eq!(stopped(1).digest, same.ended().digest);
+    // The same but for the outcome, which is in the digest.
+    assert_ne!(stopped(1).digest, same.ended().digest);
+    let alone_too = Trial::assemble(&all[1], 7)
+        .expect("legal")
+        .run(&mut Capricious {
+            stop_s: Some(3.0),
+            ..Capricious::default()
+        });
+    assert_eq!(stopped(1).digest, alone_too.digest);
     assert_eq!(ends[2], Err("panicked: the disk is full".to_string()));
     assert_eq!(ends[3], Ok(alone(&all[3])));
     // If all stop in the spin-up, it ends.

@@ -270,6 +270,9 @@ impl Flow for Ocean {
     fn rates(&self, t_s: f64, cells: &mut Vec<[f32; 6]>) -> bool {
         self.water.rates(t_s + self.spin_up_s, cells)
     }
+    fn log_layer(&self) -> Option<[f64; 2]> {
+        self.water.log_layer()
+    }
     fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Option<Vector3<f64>> {
         self.water.displacement(p, t_s + self.spin_up_s)
     }

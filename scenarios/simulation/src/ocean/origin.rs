@@ -86,7 +86,7 @@ impl Origin {
         let water = (self.water).build_round(&area, &terrain, &solids, self.seed)?;
         let settings = PlumeSettings {
             refresh_s: self.flow_period_s.get(),
-            grid: self.water.grid_shape(&area),
+            grid: self.water.grid_shape(&area, terrain.deepest_m()),
         };
         let plume = Plume::new(&self.sources, &area, &terrain, self.seed, settings)?
             .with_obstacles(solids)?

@@ -6,7 +6,7 @@ use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
     check_able, check_berth, check_faults, check_fitted, check_limits, check_noise,
-    check_obstacles, check_sources, check_steps, check_times, check_view, cost,
+    check_obstacles, check_resolved, check_sources, check_steps, check_times, check_view, cost,
 };
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -129,6 +129,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     {
         cost::patience(&cost, &mut found);
         check_steps::steps(scenario, water, &area, &terrain, &mut found);
+        check_resolved::resolved(scenario, &area, &terrain, &mut found);
     }
     found
 }

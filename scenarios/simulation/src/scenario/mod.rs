@@ -12,6 +12,7 @@ mod check_gantry;
 mod check_limits;
 mod check_noise;
 mod check_obstacles;
+mod check_resolved;
 mod check_sources;
 mod check_steps;
 mod check_times;

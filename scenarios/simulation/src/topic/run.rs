@@ -107,7 +107,7 @@ pub const RUN: &[Topic] = &[
         Field::always("program", FieldKind::Text, "The program."),
         Field::always("version", FieldKind::Text, "Its version."),
     ]),
-    Topic::json("digest", "meta/digest", "once, at the end", "Digest over the whole state sequence: equal digests, equal runs.", &[
+    Topic::json("digest", "meta/digest", "once, at the end", "Digest of all states, declarations and the outcome: equal digests, equal runs.", &[
         Field::always("digest", FieldKind::Text, "The digest."),
     ]),
     Topic {

@@ -24,7 +24,7 @@ record! {
     success: Truth "",
     /// What went wrong in a failed or panicked run.
     error: MaybeText "",
-    /// Digest of the state sequence; empty in a failed run.
+    /// Digest of states, declarations and outcome; empty in a failed run.
     digest: Text "",
     /// Length of the mission.
     mission_s: Real "s",

@@ -99,7 +99,7 @@ pub(super) fn score(
 
 /// Watches for what is abnormal.
 pub(super) fn watch(
-    (id, truth, _, readings, _, _, hull, pilot, battery): &Reported,
+    (id, truth, _, readings, decision, _, hull, pilot, battery): &Reported,
     clock: &Clock,
     ocean: &Ocean,
     physics: &Physics,
@@ -114,6 +114,7 @@ pub(super) fn watch(
     let strained = pilot
         .saturated()
         .map(|_| saturated(pilot, *battery) == Some(true));
+    let dithers = (lookout.switches).alternate(decision.behaviour, clock.t_s(), &p);
     let mut see = |what, wrong| lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
     see(Abnormality::LeftArea, Some(outside_m > OUTSIDE_M));
     see(
@@ -129,6 +130,7 @@ pub(super) fn watch(
     see(Abnormality::TouchedVehicle, Some(vehicle));
     see(Abnormality::ThrustersSaturated, strained);
     see(Abnormality::BatteryEmpty, battery.map(Battery::is_empty));
+    see(Abnormality::Dithering, Some(dithers));
 }
 
 /// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
