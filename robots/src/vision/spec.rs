@@ -132,6 +132,14 @@ pub struct VerifierSpec {
     /// Least difference between the dye's mean share of red in the light (R, G, B sum to 1) and that of the rest of
     /// the picture.
     pub least_redness: Positive,
+    /// Least mean share of red in the dye's light as it was recorded. Grey has a third, and water takes red first.
+    pub least_red: Fraction,
+    /// By how much the dye's share of green less its share of blue may be greater than the background's: rhodamine
+    /// takes green out of the light.
+    pub most_yellow: Fraction,
+    /// Greatest part of the dye's redness that may come within a hundredth of the picture's diagonal at its edge: dye
+    /// thins out, things end. Does not count in pictures with a diagonal of less than 400 pixels.
+    pub most_edge: Fraction,
     /// Least share of the picture that the source's patch must fill.
     pub least_source: Positive,
     /// Least contrast by which the patch must be darker than its surroundings: 1 is black.
@@ -151,6 +159,9 @@ impl Default for VerifierSpec {
             colours: ColourSpec::for_haze(),
             least_dye: Positive::new(0.0022),
             least_redness: Positive::new(0.022),
+            least_red: Fraction::new(0.36),
+            most_yellow: Fraction::new(0.005),
+            most_edge: Fraction::new(0.5),
             least_source: Positive::new(0.0022),
             least_contrast: Positive::new(0.0825),
             most_dye: Fraction::new(0.7),

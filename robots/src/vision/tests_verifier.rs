@@ -2,6 +2,7 @@
 
 use super::*;
 use image::{Rgb, RgbImage};
+use world::ranges::Fraction;
 
 const WATER: [u8; 3] = [110, 170, 175];
 const DYE: [u8; 3] = [230, 90, 100];
@@ -69,9 +70,66 @@ fn size_does_not_matter() {
             give_back: true,
             ..Default::default()
         },
+        // What is painted has sharp edges, which show only in the larger one.
+        most_edge: Fraction::new(1.0),
         ..VerifierSpec::default()
     });
     let (a, b) = (verifier.judge(&small), verifier.judge(&large));
     assert!((a.score - b.score).abs() < 1e-9);
     assert_eq!((a.dye_share, a.patch_share), (b.dye_share, b.patch_share));
+}
+
+/// A thing on a bed: discs (middle, radius, colour) in water over sand, 320 × 240, with the grain of a camera.
+fn drawn(discs: &[([f64; 2], f64, [u8; 3])]) -> RgbImage {
+    RgbImage::from_fn(320, 240, |x, y| {
+        let at = |[cx, cy]: [f64; 2]| (f64::from(x) - cx).hypot((f64::from(y) - cy) * 1.3);
+        let disc = discs.iter().rev().find(|(c, r, _)| at(*c) < *r);
+        let bed = if y < 110 {
+            [44, 124, 140]
+        } else {
+            [113, 138, 124]
+        };
+        let grain =
+            (x.wrapping_mul(7919) ^ y.wrapping_mul(104_729)).wrapping_mul(2_654_435_761) >> 29;
+        let light = f64::from(y) / 12.0 - 10.0 + f64::from(grain);
+        Rgb(disc
+            .map_or(bed, |(_, _, c)| *c)
+            .map(|v| (f64::from(v) + light) as u8))
+    })
+}
+
+/// What was taken for a source before hue and edge counted.
+#[test]
+fn corals_turtles_and_stones_are_no_source() {
+    let (pink, dark) = ([146, 93, 124], [66, 70, 82]);
+    let coral = drawn(&[
+        ([120.0, 150.0], 50.0, pink),
+        ([150.0, 140.0], 34.0, dark),
+        ([170.0, 175.0], 34.0, pink),
+        ([130.0, 195.0], 28.0, dark),
+        ([220.0, 165.0], 36.0, pink),
+        ([205.0, 190.0], 26.0, dark),
+    ]);
+    let turtle = drawn(&[
+        ([160.0, 150.0], 62.0, [98, 84, 52]),
+        ([160.0, 145.0], 40.0, [52, 50, 40]),
+        ([235.0, 150.0], 22.0, [128, 108, 70]),
+    ]);
+    let stone = drawn(&[
+        ([160.0, 160.0], 66.0, [87, 93, 92]),
+        ([150.0, 145.0], 36.0, [107, 112, 110]),
+    ]);
+    let any_red = VerifierSpec {
+        least_red: Fraction::new(0.0),
+        most_yellow: Fraction::new(1.0),
+        most_edge: Fraction::new(1.0),
+        ..VerifierSpec::default()
+    };
+    let mut taken = 0;
+    for (name, picture) in [("coral", coral), ("turtle", turtle), ("stone", stone)] {
+        let got = Verifier::new(&VerifierSpec::default()).judge(&picture);
+        assert!(!got.verified, "{name}: {got:?}");
+        taken += usize::from(Verifier::new(&any_red).judge(&picture).verified);
+    }
+    assert!(taken > 0, "without hue and edge none of them is taken");
 }

@@ -4,7 +4,9 @@
 //! verifies a declaration is ours, because a nearest colour can be found in any picture and the paper names no test.
 //!
 //! *Parameters*: those of the extractor, `colours`. The dye must fill `least_dye` of the picture, at most `most_dye`,
-//! and be redder than the rest by `least_redness`. The source is a connected patch of its colours that fills from
+//! and be redder than the rest by `least_redness`. It must look like dye (`dye_look.rs`): its light has a share of red
+//! of `least_red`, it is yellower than the background by at most `most_yellow`, and at most `most_edge` of its redness
+//! comes at its edge. The source is a connected patch of its colours that fills from
 //! `least_source` to `most_source`, is darker than its surroundings by `least_contrast` and has dye within `reach` of
 //! the picture's diagonal. Of several patches the best counts.
 //!
@@ -16,6 +18,7 @@
 //! 120`), where all but one picture without a source have scores below 0.94 of it.
 
 use super::blobs::{Blob, blobs};
+use super::dye_look::DyeLook;
 use super::level::levelled;
 use super::passes::{Pass, Segmentation, Target, segment};
 use super::spec::VerifierSpec;
@@ -35,6 +38,8 @@ pub struct Sighting {
     pub dye_share: f64,
     /// How much redder the dye is than the rest: difference of the mean shares of red.
     pub redness: f64,
+    /// How the dye looks.
+    pub look: DyeLook,
     /// Share of the picture that has the source's colours.
     pub source_share: f64,
     /// The patch taken for the source.
@@ -57,6 +62,10 @@ pub enum Lack {
     Dye,
     /// They are no redder than the rest, or are everywhere.
     Redness,
+    /// They have another light or hue than dye.
+    Hue,
+    /// They end as sharply as things do.
+    Edge,
     /// No patch of the source's colours that is large enough.
     Source,
     /// It is no darker than its surroundings, or is everywhere.
@@ -73,6 +82,8 @@ impl Sighting {
             None => "a source giving off dye",
             Some(Lack::Dye) => "no source: too little dye",
             Some(Lack::Redness) => "no source: no dye that stands out",
+            Some(Lack::Hue) => "no source: what is red has another hue than dye",
+            Some(Lack::Edge) => "no source: what is red ends sharply, as dye does not",
             Some(Lack::Source) => "no source: no body large enough",
             Some(Lack::Contrast) => "no source: no body that stands out",
             Some(Lack::Contact) => "no source: no dye at the body",
@@ -112,28 +123,40 @@ impl Verifier {
     /// The verdict on a picture whose dye and dark bodies are known, however they were found.
     #[must_use]
     pub fn weigh(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
+        let look = DyeLook::new(picture, dye);
         if self.spec.colours.dehaze {
-            self.graded(&levelled(picture), dye, body)
+            self.graded(&levelled(picture), dye, body, look)
         } else {
-            self.graded(picture, dye, body)
+            self.graded(picture, dye, body, look)
         }
     }
 
-    fn graded(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
+    fn graded(
+        &self,
+        picture: &RgbImage,
+        dye: &GrayImage,
+        body: &GrayImage,
+        look: DyeLook,
+    ) -> Sighting {
         let spec = &self.spec;
         let (w, h) = picture.dimensions();
         let all = (f64::from(w) * f64::from(h)).max(1.0);
-        let share = |mask: &GrayImage| mask.pixels().filter(|m| m.0[0] > 0).count() as f64 / all;
-        let dye_share = share(dye);
+        let share_of = |mask: &GrayImage| mask.pixels().filter(|m| m.0[0] > 0).count() as f64 / all;
+        let dye_share = share_of(dye);
         let redness = redness(picture, dye);
         let within = |share: f64, most: f64| if share > most { 0.0 } else { f64::INFINITY };
         let stands_out = redness / spec.least_redness.get();
+        let hue = look.red >= spec.least_red.get() && look.yellow <= spec.most_yellow.get();
+        let soft = look.edge.is_none_or(|e| e <= spec.most_edge.get());
+        let unless = |fine: bool| if fine { f64::INFINITY } else { 0.0 };
         let of_dye = [
             (Lack::Dye, dye_share / spec.least_dye.get()),
             (
                 Lack::Redness,
                 stands_out.min(within(dye_share, spec.most_dye.get())),
             ),
+            (Lack::Hue, unless(hue)),
+            (Lack::Edge, unless(soft)),
         ];
         let diagonal = (f64::from(w) * f64::from(w) + f64::from(h) * f64::from(h)).sqrt();
         let patch = |b: Blob| Patch {
@@ -151,7 +174,7 @@ impl Verifier {
                     Lack::Contrast,
                     stands_out.min(within(p.share, spec.most_source.get())),
                 ),
-                (Lack::Contact, if near { f64::INFINITY } else { 0.0 }),
+                (Lack::Contact, unless(near)),
             ]
         };
         let best = (blobs(body).into_iter().take(MOST_PATCHES))
@@ -164,7 +187,7 @@ impl Verifier {
         let of_body = best
             .as_ref()
             .map_or((Lack::Source, 0.0), |(grade, _)| *grade);
-        let (lack, score) = least(&[of_dye[0], of_dye[1], of_body]);
+        let (lack, score) = least(&[&of_dye[..], &[of_body]].concat());
         let verified = score >= 1.0;
         let patch = best.map(|(_, p)| p);
         Sighting {
@@ -173,7 +196,8 @@ impl Verifier {
             lacks: (!verified).then_some(lack),
             dye_share,
             redness,
-            source_share: share(body),
+            look,
+            source_share: share_of(body),
             source: patch.as_ref().map(|p| p.blob),
             patch_share: patch.as_ref().map_or(0.0, |p| p.share),
             contrast: patch.as_ref().map_or(0.0, |p| p.contrast),

@@ -8,10 +8,10 @@ use world::ranges::{NonNegative, Positive};
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(after_help = SEGMENT_AFTER)]
 pub struct SegmentArgs {
-    /// Picture to examine.
-    #[arg(value_name = "IMAGE")]
-    pub image: PathBuf,
-    /// Folder for the results [default: runs/IMAGE-segmented].
+    /// Picture to examine; of several, only the verdicts are printed, with their rate.
+    #[arg(value_name = "IMAGE", required = true)]
+    pub images: Vec<PathBuf>,
+    /// Folder for the results of one picture [default: runs/IMAGE-segmented].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How colours are told apart.
@@ -24,6 +24,7 @@ Examples:
   rheotaxis segment dive.jpg
   rheotaxis segment dive.jpg --out seen --epsilon 60
   rheotaxis segment hazy.jpg --dehaze --give-back   # as the simulated vehicle does
+  rheotaxis segment dives/*.jpg --dehaze --give-back   # how often your pictures raise a false alarm
 
 Exit codes: 0 done, whatever the picture shows; 1 error; 2 wrong usage.";
 

@@ -1,13 +1,15 @@
-//! `rheotaxis segment`: finds dye and source in a picture.
+//! `rheotaxis segment`: finds dye and source in a picture, or says in how many pictures it finds them.
 
 use super::args_vision::SegmentArgs;
 use super::exit::Exit;
 use super::say;
 use output::files::begin_folder;
-use std::path::PathBuf;
+use robots::vision::{Verifier, VerifierSpec};
+use std::path::{Path, PathBuf};
+use studies::campaign::stats::wilson;
 use studies::segment::{Segmented, read_picture, table, write};
 
-/// Reads the picture, segments it, prints the result and writes the folder.
+/// Segments one picture or judges several.
 pub(super) fn segment(args: &SegmentArgs) -> Exit {
     let spec = match args.colours.spec() {
         Ok(spec) => spec,
@@ -16,7 +18,49 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
             return Exit::Error;
         }
     };
-    let picture = match read_picture(&args.image) {
+    match &args.images[..] {
+        [image] => one(image, args.out.as_ref(), spec),
+        _ if args.out.is_some() => {
+            say::error(
+                "--out: of several pictures only the verdicts are printed",
+                None,
+            );
+            Exit::Error
+        }
+        images => several(images, &spec),
+    }
+}
+
+/// Prints the verdict on each picture, and how many show a source.
+fn several(images: &[PathBuf], spec: &VerifierSpec) -> Exit {
+    let verifier = Verifier::new(spec);
+    let (mut read, mut verified) = (0, 0);
+    for image in images {
+        match read_picture(image) {
+            Ok(picture) => {
+                let sighting = verifier.judge(&picture);
+                read += 1;
+                verified += u64::from(sighting.verified);
+                say::line(format_args!("{}: {}", image.display(), sighting.words()));
+            }
+            Err(error) => say::error(&error, error.help()),
+        }
+    }
+    let share = wilson(verified, read);
+    say::line(format_args!(
+        "\na source giving off dye in {verified} of {read} pictures ({:.0}–{:.0} %)",
+        100.0 * share.low,
+        100.0 * share.high
+    ));
+    if read < images.len() as u64 {
+        return Exit::Error;
+    }
+    Exit::Success
+}
+
+/// Segments a picture, prints the result and writes the folder.
+fn one(image: &Path, out: Option<&PathBuf>, spec: VerifierSpec) -> Exit {
+    let picture = match read_picture(image) {
         Ok(picture) => picture,
         Err(error) => {
             say::error(&error, error.help());
@@ -26,10 +70,10 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
     let part = |p: Option<&std::ffi::OsStr>| {
         p.map_or("picture".to_string(), |s| s.to_string_lossy().into_owned())
     };
-    let segmented = Segmented::new(part(args.image.file_name()), picture, spec);
+    let segmented = Segmented::new(part(image.file_name()), picture, spec);
     say::line(table(&segmented));
-    let folder = args.out.clone().unwrap_or_else(|| {
-        PathBuf::from("runs").join(format!("{}-segmented", part(args.image.file_stem())))
+    let folder = out.cloned().unwrap_or_else(|| {
+        PathBuf::from("runs").join(format!("{}-segmented", part(image.file_stem())))
     });
     let written = begin_folder(&folder, "segment").and_then(|out| {
         if let Some(removed) = say::removed(&folder, out.removed()) {
