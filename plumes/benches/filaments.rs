@@ -48,8 +48,29 @@ impl Flow for TwoLayers {
     }
 }
 
+/// The same over a bed of a millimetre's roughness: the current falls by the law of the wall to its foot.
+struct OverRoughBed;
+
+impl Flow for OverRoughBed {
+    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        TwoLayers.velocity(p, t_s)
+    }
+
+    fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
+        TwoLayers.mixing(p, t_s)
+    }
+
+    fn log_layer(&self) -> Option<[f64; 2]> {
+        Some([0.001, 2.0])
+    }
+}
+
 /// A plume 2000 s old with about `n` filaments, and the area it is in.
 fn plume(n: usize) -> Plume {
+    plume_in(&TwoLayers, n)
+}
+
+fn plume_in(flow: &dyn Flow, n: usize) -> Plume {
     let area = Area {
         centre: Vector2::zeros(),
         length_m: 1094.0,
@@ -76,7 +97,7 @@ fn plume(n: usize) -> Plume {
     };
     let mut plume = Plume::new(&[source], &area, &terrain, 1, settings).expect("a legal source");
     for t in 0..2000 {
-        plume.drift(&TwoLayers, f64::from(t), f64::from(t + 1));
+        plume.drift(flow, f64::from(t), f64::from(t + 1));
     }
     plume
 }
@@ -84,12 +105,22 @@ fn plume(n: usize) -> Plume {
 /// Drift of half a second, one after the other; items are filaments (those released meanwhile not counted).
 #[divan::bench(args = [1_000, 10_000, 50_000])]
 fn drift(bencher: Bencher, n: usize) {
-    let mut plume = plume(n);
+    drift_in(&TwoLayers, bencher, n);
+}
+
+/// The same over a rough bed, with the law of the wall in the lowest cell.
+#[divan::bench(args = [1_000, 10_000, 50_000])]
+fn drift_over_a_rough_bed(bencher: Bencher, n: usize) {
+    drift_in(&OverRoughBed, bencher, n);
+}
+
+fn drift_in(flow: &dyn Flow, bencher: Bencher, n: usize) {
+    let mut plume = plume_in(flow, n);
     bencher
         .counter(ItemsCount::new(plume.len()))
         .bench_local(|| {
             let t = plume.now_s();
-            plume.drift(&TwoLayers, t, t + 0.5);
+            plume.drift(flow, t, t + 0.5);
         });
 }
 

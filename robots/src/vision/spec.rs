@@ -134,7 +134,7 @@ pub struct VerifierSpec {
     pub least_redness: Positive,
     /// Least mean share of red in the dye's light as it was recorded. Grey has a third, and water takes red first.
     pub least_red: Fraction,
-    /// By how much the dye's share of green less its share of blue may be greater than the background's: rhodamine
+    /// By how much the share of green less that of blue may be greater in the dye than in the background: rhodamine
     /// takes green out of the light.
     pub most_yellow: Fraction,
     /// Greatest part of the dye's redness that may come within a hundredth of the picture's diagonal at its edge: dye
@@ -159,7 +159,7 @@ impl Default for VerifierSpec {
             colours: ColourSpec::for_haze(),
             least_dye: Positive::new(0.0022),
             least_redness: Positive::new(0.022),
-            least_red: Fraction::new(0.36),
+            least_red: Fraction::new(0.35),
             most_yellow: Fraction::new(0.005),
             most_edge: Fraction::new(0.5),
             least_source: Positive::new(0.0022),
