@@ -140,6 +140,9 @@ pub struct VerifierSpec {
     /// Greatest part of the dye's redness that may come within a hundredth of the picture's diagonal at its edge: dye
     /// thins out, things end. Does not count in pictures with a diagonal of less than 400 pixels.
     pub most_edge: Fraction,
+    /// With at most this part of its redness at its edge, dye may have any red hue: so soft are no things, and much dye
+    /// in front of something dark glows orange.
+    pub soft_edge: Fraction,
     /// Least share of the picture that the source's patch must fill.
     pub least_source: Positive,
     /// Least contrast by which the patch must be darker than its surroundings: 1 is black.
@@ -162,6 +165,7 @@ impl Default for VerifierSpec {
             least_red: Fraction::new(0.35),
             most_yellow: Fraction::new(0.005),
             most_edge: Fraction::new(0.5),
+            soft_edge: Fraction::new(0.15),
             least_source: Positive::new(0.0022),
             least_contrast: Positive::new(0.0825),
             most_dye: Fraction::new(0.7),

@@ -5,8 +5,8 @@
 //!
 //! *Parameters*: those of the extractor, `colours`. The dye must fill `least_dye` of the picture, at most `most_dye`,
 //! and be redder than the rest by `least_redness`. It must look like dye (`dye_look.rs`): its light has a share of red
-//! of `least_red`, it is yellower than the background by at most `most_yellow`, and at most `most_edge` of its redness
-//! comes at its edge. The source is a connected patch of its colours that fills from
+//! of `least_red`, it is yellower than the background by at most `most_yellow` unless its edge is as soft as
+//! `soft_edge`, and at most `most_edge` of its redness comes at its edge. The source is a connected patch of its colours that fills from
 //! `least_source` to `most_source`, is darker than its surroundings by `least_contrast` and has dye within `reach` of
 //! the picture's diagonal. Of several patches the best counts.
 //!
@@ -146,7 +146,9 @@ impl Verifier {
         let redness = redness(picture, dye);
         let within = |share: f64, most: f64| if share > most { 0.0 } else { f64::INFINITY };
         let stands_out = redness / spec.least_redness.get();
-        let hue = look.red >= spec.least_red.get() && look.yellow <= spec.most_yellow.get();
+        let softest = look.edge.is_some_and(|e| e <= spec.soft_edge.get());
+        let hue =
+            look.red >= spec.least_red.get() && (softest || look.yellow <= spec.most_yellow.get());
         let soft = look.edge.is_none_or(|e| e <= spec.most_edge.get());
         let unless = |fine: bool| if fine { f64::INFINITY } else { 0.0 };
         let of_dye = [

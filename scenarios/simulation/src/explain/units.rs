@@ -204,6 +204,7 @@ mod tests {
         "scale_error",
         "share",
         "silence",
+        "soft_edge",
         "spreading",
         "stern_per_pitch",
         "strengths",
