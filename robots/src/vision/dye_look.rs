@@ -12,6 +12,7 @@
 
 use super::level::levelled;
 use image::{GrayImage, RgbImage};
+use nalgebra::Vector2;
 use serde::Serialize;
 
 /// Lengths in a picture's diagonal: one is a pixel in a picture of 320 × 240.
@@ -104,7 +105,7 @@ impl DyeLook {
         let level = |p: &RgbImage, at: usize, k: usize| f64::from(p.as_raw()[3 * at + k]);
         let recorded = |at: usize| shares([0, 1, 2].map(|k| level(picture, at, k)));
         let count = Sums::new(w, h, |at| f64::from(u8::from(inside[at])));
-        let length = (w as f64).hypot(h as f64) / LENGTHS;
+        let length = Vector2::new(w as f64, h as f64).norm() / LENGTHS;
         let reach = |lengths: f64| ((lengths * length).round() as usize).max(1);
         let far = |at: usize| count.mean(at, reach(FAR)) == 0.0;
         let yellow = |at: usize| recorded(at)[1] - recorded(at)[2];
@@ -153,7 +154,7 @@ mod tests {
     fn disc(colour: [f64; 3], soft_px: f64) -> (RgbImage, GrayImage) {
         let water = [90.0, 140.0, 135.0];
         let share = |x: u32, y: u32| {
-            let r = (f64::from(x) - 160.0).hypot(f64::from(y) - 120.0);
+            let r = Vector2::new(f64::from(x) - 160.0, f64::from(y) - 120.0).norm();
             ((40.0 - r) / soft_px + 0.5).clamp(0.0, 1.0)
         };
         let picture = RgbImage::from_fn(320, 240, |x, y| {

@@ -2,6 +2,7 @@
 
 use super::*;
 use image::{Rgb, RgbImage};
+use nalgebra::Vector2;
 use world::ranges::Fraction;
 
 const WATER: [u8; 3] = [110, 170, 175];
@@ -82,7 +83,8 @@ fn size_does_not_matter() {
 /// A thing on a bed: discs (middle, radius, colour) in water over sand, 320 × 240, with the grain of a camera.
 fn drawn(discs: &[([f64; 2], f64, [u8; 3])]) -> RgbImage {
     RgbImage::from_fn(320, 240, |x, y| {
-        let at = |[cx, cy]: [f64; 2]| (f64::from(x) - cx).hypot((f64::from(y) - cy) * 1.3);
+        let at =
+            |[cx, cy]: [f64; 2]| Vector2::new(f64::from(x) - cx, (f64::from(y) - cy) * 1.3).norm();
         let disc = discs.iter().rev().find(|(c, r, _)| at(*c) < *r);
         let bed = if y < 110 {
             [44, 124, 140]
