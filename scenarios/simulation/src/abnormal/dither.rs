@@ -41,7 +41,7 @@ mod tests {
     fn told_s(speed_m_s: f64, every_s: f64) -> Option<f64> {
         let mut switches = Switches::default();
         (0..1000).map(|k| 0.1 * f64::from(k)).find(|t_s| {
-            let avoids = (t_s / every_s) as u32 % 2 == 0;
+            let avoids = ((t_s / every_s) as u32).is_multiple_of(2);
             let behaviour = if avoids {
                 Behaviour::Avoid
             } else {

@@ -3,13 +3,15 @@
 use super::fault::Found;
 use super::schema::Scenario;
 use plumes::flow::GridShape;
+use std::f64::consts::LN_10;
 use world::area::Area;
 use world::limits::shown;
+use world::math;
 use world::terrain::Terrain;
 
 /// A number to two digits, rounded as told.
 fn digits(v: f64, round: impl Fn(f64) -> f64) -> String {
-    let scale = 10_f64.powi(1 - v.log10().floor() as i32);
+    let scale = 10_f64.powi(1 - (math::ln(v) / LN_10).floor() as i32);
     shown(round(v * scale) / scale)
 }
 
