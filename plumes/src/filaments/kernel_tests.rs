@@ -79,7 +79,6 @@ fn block(cells: &Lookup) -> Block {
 }
 
 #[test]
-#[expect(clippy::needless_range_loop, reason = "one index into two arrays")]
 fn cells_read_the_grid_as_the_grid_reads_itself() {
     for stretch in [0.0, 0.8] {
         let (grid, cells) = scene(GridShape {
