@@ -14,7 +14,7 @@
 //! nodes: it is the terrain's at every place, so what flows along it stays on it where its slope changes within a cell.
 //! Within a cell everything is linear in s, that is in z, and K_z is piecewise linear with the gradient that the
 //! well-mixed drift needs. Only the current over a rough bed is logarithmic in the lowest cell, as the law of the wall
-//! has it ([`LogLaw`]).
+//! has it (`log_law.rs`).
 //!
 //! *Deviations*: outside the grid, the value at the nearest edge applies. The values are constant between two
 //! refreshes: call [`FlowGrid::refresh`] at fixed times, for the middle of the coming span.
