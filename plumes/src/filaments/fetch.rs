@@ -92,7 +92,7 @@ impl Levels {
         if !any(&self.below[..N]) {
             return None;
         }
-        let first = cells.first_level();
+        let first = cells.first_level;
         // Most filaments are higher: eight at a time, only those eights that have one so low.
         for from in (0..N).step_by(8) {
             let eight = from..from + 8;

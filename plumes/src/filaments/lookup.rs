@@ -26,6 +26,8 @@ pub(super) struct Lookup {
     last: [f32; 2],
     dims: [i32; 3],
     stretch: f32,
+    /// Height of the lowest level above the bed's, as a part of the depth.
+    pub(super) first_level: f32,
     pub(super) ground: NearGround,
     /// How the current falls to the bed below the lowest level, if not linearly.
     pub(super) law: Option<LogLaw>,
@@ -79,6 +81,7 @@ impl Lookup {
             last: [(nx - 1) as f32, (ny - 1) as f32],
             dims: [nx as i32, ny as i32, nz as i32],
             stretch: grid.stretch,
+            first_level: grid.levels[1],
             ground: grid.near,
             law: grid.law,
             k_h: bilinear(&grid.k_h, nx, ny),
@@ -142,13 +145,6 @@ impl Lookup {
             part: clamped((s - s0) * per, 1.0),
             per_m: per * up,
         }
-    }
-
-    /// Height of the lowest level above the bed's, as a part of the depth.
-    #[inline(always)]
-    pub(super) fn first_level(&self) -> f32 {
-        let h = 1.0 / (self.dims[2] - 1) as f32;
-        h * (1.0 - self.stretch + self.stretch * h)
     }
 
     /// Height of the bed, m (negative).

@@ -70,7 +70,7 @@ impl Ground {
 
     /// Steepest slope.
     pub(crate) fn steepest(&self) -> f64 {
-        self.gradient.norm() * (self.z[1] - self.z[0])
+        self.gradient.norm() * (self.z[1] - self.z[0]).abs()
     }
 
     /// The same bed in single precision, from another datum.

@@ -10,7 +10,6 @@
 //! are four-hundredths of the picture's diagonal. The edge is not measured in a picture whose pixels are longer than
 //! that, for there dye ends within a pixel, too.
 
-use super::level::levelled;
 use image::{GrayImage, RgbImage};
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -72,8 +71,8 @@ impl Sums {
     }
 }
 
-/// Shares of red, green and blue; a third each for black.
-fn shares(rgb: [f64; 3]) -> [f64; 3] {
+/// Shares of red, green and blue in a pixel's light; a third each for black.
+pub(super) fn shares(rgb: [f64; 3]) -> [f64; 3] {
     let all: f64 = rgb.iter().sum::<f64>() + 3.0;
     rgb.map(|level| (level + 1.0) / all)
 }
@@ -96,9 +95,10 @@ fn median(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f6
 }
 
 impl DyeLook {
-    /// How the pixels of `mask` look in a picture of the same size; all zero if it has none, or all.
+    /// How the pixels of `mask` look in a picture and in the same, levelled; all three are of one size. All zero if it has
+    /// none, or all.
     #[must_use]
-    pub fn new(picture: &RgbImage, mask: &GrayImage) -> Self {
+    pub fn new(picture: &RgbImage, even: &RgbImage, mask: &GrayImage) -> Self {
         let (w, h) = (picture.width() as usize, picture.height() as usize);
         let n = w * h;
         let inside: Vec<bool> = mask.pixels().map(|m| m.0[0] > 0).collect();
@@ -122,8 +122,7 @@ impl DyeLook {
             red,
             yellow: own - around,
             edge: (length >= 1.0 - 1e-9).then(|| {
-                let even = levelled(picture);
-                let smooth = [0, 1, 2].map(|k| Sums::new(w, h, |at| level(&even, at, k)));
+                let smooth = [0, 1, 2].map(|k| Sums::new(w, h, |at| level(even, at, k)));
                 let redness =
                     |at: usize| shares([0, 1, 2].map(|k| smooth[k].mean(at, reach(1.0))))[0];
                 let strip = |at: usize, inner: bool| {
@@ -147,6 +146,7 @@ impl DyeLook {
 
 #[cfg(test)]
 mod tests {
+    use super::super::level::levelled;
     use super::*;
     use image::{Luma, Rgb};
 
@@ -169,7 +169,7 @@ mod tests {
     fn dye_is_red_lacks_green_and_thins_out() {
         let look = |colour, soft_px| {
             let (picture, mask) = disc(colour, soft_px);
-            DyeLook::new(&picture, &mask)
+            DyeLook::new(&picture, &levelled(&picture), &mask)
         };
         let dye = look([190.0, 70.0, 100.0], 30.0);
         assert!(dye.red > 0.4 && dye.yellow < -0.02, "{dye:?}");
@@ -191,7 +191,7 @@ mod tests {
                 image::imageops::resize(&picture, w, h, by),
                 image::imageops::resize(&mask, w, h, by),
             );
-            DyeLook::new(&p, &m)
+            DyeLook::new(&p, &levelled(&p), &m)
         };
         let (one, two) = (twice(320, 240), twice(640, 480));
         assert!((one.edge.unwrap() - two.edge.unwrap()).abs() < 0.03);
@@ -204,9 +204,10 @@ mod tests {
         let (picture, mask) = disc([190.0, 70.0, 100.0], 20.0);
         for level in [0, 255] {
             let even = GrayImage::from_pixel(mask.width(), mask.height(), Luma([level]));
-            assert_eq!(DyeLook::new(&picture, &even), DyeLook::default());
+            assert_eq!(DyeLook::new(&picture, &picture, &even), DyeLook::default());
         }
-        let empty = DyeLook::new(&RgbImage::new(0, 0), &GrayImage::new(0, 0));
+        let none = RgbImage::new(0, 0);
+        let empty = DyeLook::new(&none, &none, &GrayImage::new(0, 0));
         assert_eq!(empty, DyeLook::default());
     }
 }

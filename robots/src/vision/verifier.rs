@@ -18,7 +18,7 @@
 //! 120`), where all but one picture without a source have scores below 0.94 of it.
 
 use super::blobs::{Blob, blobs};
-use super::dye_look::DyeLook;
+use super::dye_look::{DyeLook, shares};
 use super::level::levelled;
 use super::passes::{Pass, Segmentation, Target, segment};
 use super::spec::VerifierSpec;
@@ -123,12 +123,14 @@ impl Verifier {
     /// The verdict on a picture whose dye and dark bodies are known, however they were found.
     #[must_use]
     pub fn weigh(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
-        let look = DyeLook::new(picture, dye);
-        if self.spec.colours.dehaze {
-            self.graded(&levelled(picture), dye, body, look)
+        let even = levelled(picture);
+        let look = DyeLook::new(picture, &even, dye);
+        let seen = if self.spec.colours.dehaze {
+            &even
         } else {
-            self.graded(picture, dye, body, look)
-        }
+            picture
+        };
+        self.graded(seen, dye, body, look)
     }
 
     fn graded(
@@ -146,7 +148,10 @@ impl Verifier {
         let redness = redness(picture, dye);
         let within = |share: f64, most: f64| if share > most { 0.0 } else { f64::INFINITY };
         let stands_out = redness / spec.least_redness.get();
-        let softest = look.edge.is_some_and(|e| e <= spec.soft_edge.get());
+        // Where redness grows outwards, that is no edge of dye.
+        let softest = look
+            .edge
+            .is_some_and(|e| (0.0..=spec.soft_edge.get()).contains(&e));
         let hue =
             look.red >= spec.least_red.get() && (softest || look.yellow <= spec.most_yellow.get());
         let soft = look.edge.is_none_or(|e| e <= spec.most_edge.get());
@@ -229,8 +234,7 @@ fn least(grades: &[(Lack, f64)]) -> (Lack, f64) {
 
 /// Share of red in a pixel's recorded light; a third for black.
 fn red(p: [u8; 3]) -> f64 {
-    let [r, g, b] = p.map(f64::from);
-    (r + 1.0) / (r + g + b + 3.0)
+    shares(p.map(f64::from))[0]
 }
 
 fn brightness(p: [u8; 3]) -> f64 {
