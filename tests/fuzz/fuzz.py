@@ -110,8 +110,9 @@ class Fuzz:
                 shutil.copy(path, to / path.name)
         if kind in ("mesh", "urdf", "scenario") and (at / "meshes").is_dir():
             shutil.copytree(at / "meshes", to / "meshes", dirs_exist_ok=True)
-        if kind in ("block", "manifest") and (at / "out").is_dir():
-            shutil.copytree(at / "out", to / "out", dirs_exist_ok=True)
+        folders = {"block": "out", "manifest": "out", "kept": "kept", "vehicle": "v"}
+        if kind in folders and (at / folders[kind]).is_dir():
+            shutil.copytree(at / folders[kind], to / folders[kind], dirs_exist_ok=True)
         words = " ".join(command.args)
         with open(to / "finding.txt", "a", encoding="utf-8") as file:
             file.write(f"{fault}\n  rheotaxis {words}\n  exit code {end.code}; limits: {self.limits}\n"
