@@ -29,10 +29,7 @@ struct TwoLayers;
 impl Flow for TwoLayers {
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let upper = 0.5 * (1.0 + math::tanh((p.z + 1.8) / 0.5));
-        let (u, v) = (
-            -0.04 * upper + 0.045 * (1.0 - upper),
-            0.21 * upper - 0.11 * (1.0 - upper),
-        );
+        let (u, v) = (-0.04 * upper + 0.045 * (1.0 - upper), 0.21 * upper - 0.11 * (1.0 - upper));
         let (sx, cx) = math::sin_cos(p.x / 25.0 + 0.02 * t_s);
         let (sy, cy) = math::sin_cos(p.y / 25.0 - 0.01 * t_s);
         let bed = 1.0 - math::exp(-(p.z + 6.0).max(0.0) / 0.5);
@@ -41,10 +38,7 @@ impl Flow for TwoLayers {
 
     fn mixing(&self, p: &Vector3<f64>, _: f64) -> Mixing {
         let d = (p.z + 1.8) / 0.5;
-        Mixing {
-            k_h_m2_s: 0.01,
-            k_z_m2_s: 1e-5 + 1e-3 * (1.0 - math::exp(-d * d)),
-        }
+        Mixing { k_h_m2_s: 0.01, k_z_m2_s: 1e-5 + 1e-3 * (1.0 - math::exp(-d * d)) }
     }
 }
 
@@ -71,12 +65,7 @@ fn plume(n: usize) -> Plume {
 }
 
 fn plume_in(flow: &dyn Flow, n: usize) -> Plume {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 1094.0,
-        width_m: 367.0,
-        axis: Heading::from_deg(340.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
     let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
     let source = SourceSpec {
         id: "s1".into(),
@@ -91,10 +80,7 @@ fn plume_in(flow: &dyn Flow, n: usize) -> Plume {
             ..ReleaseSpec::default()
         },
     };
-    let settings = PlumeSettings {
-        refresh_s: 1e9,
-        ..PlumeSettings::default()
-    };
+    let settings = PlumeSettings { refresh_s: 1e9, ..PlumeSettings::default() };
     let mut plume = Plume::new(&[source], &area, &terrain, 1, settings).expect("a legal source");
     for t in 0..2000 {
         plume.drift(flow, f64::from(t), f64::from(t + 1));
@@ -116,12 +102,10 @@ fn drift_over_a_rough_bed(bencher: Bencher, n: usize) {
 
 fn drift_in(flow: &dyn Flow, bencher: Bencher, n: usize) {
     let mut plume = plume_in(flow, n);
-    bencher
-        .counter(ItemsCount::new(plume.len()))
-        .bench_local(|| {
-            let t = plume.now_s();
-            plume.drift(flow, t, t + 0.5);
-        });
+    bencher.counter(ItemsCount::new(plume.len())).bench_local(|| {
+        let t = plume.now_s();
+        plume.drift(flow, t, t + 0.5);
+    });
 }
 
 /// The yardstick: the same walk without any of the above. Each filament evaluates the water where it is, with the
@@ -129,10 +113,7 @@ fn drift_in(flow: &dyn Flow, bencher: Bencher, n: usize) {
 #[divan::bench(args = [10_000])]
 fn plain_loop(bencher: Bencher, n: usize) {
     let (dt_s, h, bed) = (0.5, 1e-3, -6.0);
-    let mut all: Vec<Vector3<f64>> = plume(n)
-        .iter()
-        .map(|f| Vector3::new(f[0], f[1], f[2]).map(f64::from))
-        .collect();
+    let mut all: Vec<Vector3<f64>> = plume(n).iter().map(|f| Vector3::new(f[0], f[1], f[2]).map(f64::from)).collect();
     let mut r = Stream::new(1, "bench", "plain");
     let mut t_s = 2000.0;
     bencher.counter(ItemsCount::new(all.len())).bench_local(|| {
@@ -155,26 +136,12 @@ fn plain_loop(bencher: Bencher, n: usize) {
 /// A stream round a block and ten piles, in cells of 2 m, with about `n` filaments among them; in it the plume follows the cells, or, as
 /// if nothing stood there, the grid.
 fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 160.0,
-        width_m: 80.0,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 160.0, width_m: 80.0, axis: Heading::from_deg(90.0) };
     let terrain = Terrain::Level { depth_m: 10.0 };
     let m = Positive::new;
-    let mut solids = vec![(
-        ShapeSpec::Box(BoxShape {
-            size_m: (m(7.5), m(20.0), m(10.0)),
-        }),
-        -20.0,
-        2.0,
-    )];
+    let mut solids = vec![(ShapeSpec::Box(BoxShape { size_m: (m(7.5), m(20.0), m(10.0)) }), -20.0, 2.0)];
     for k in 0..10 {
-        let pile = CylinderShape {
-            radius_m: m(1.5),
-            height_m: m(12.0),
-        };
+        let pile = CylinderShape { radius_m: m(1.5), height_m: m(12.0) };
         solids.push((ShapeSpec::Cylinder(pile), 10.0, -31.0 + 7.0 * f64::from(k)));
     }
     let solids = solids.into_iter().map(|(shape, east, north)| {
@@ -190,10 +157,7 @@ fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
         Obstacle::build(&spec, &terrain, Path::new("")).expect("a block or a pile")
     });
     let solids = Obstacles(solids.collect());
-    let blockage = BlockageSpec {
-        cell_m: m(2.0),
-        ..BlockageSpec::default()
-    };
+    let blockage = BlockageSpec { cell_m: m(2.0), ..BlockageSpec::default() };
     let mut spec = WaterSpec {
         currents: vec![CurrentSpec::new(UniformSpec {
             speed_m_s: NonNegative::new(0.2),
@@ -204,9 +168,7 @@ fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
     };
     spec.mixing.horizontal_m2_s = NonNegative::new(0.02);
     spec.mixing.background_vertical_m2_s = NonNegative::new(1e-3);
-    let water = spec
-        .build_round(&area, &terrain, &solids, 1)
-        .expect("water round obstacles");
+    let water = spec.build_round(&area, &terrain, &solids, 1).expect("water round obstacles");
     let sources: Vec<SourceSpec> = (0..8)
         .map(|k| SourceSpec {
             id: format!("s{k}"),
@@ -215,22 +177,13 @@ fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
             height_m: Some(Finite::new(5.0)),
             depth_m: None,
             rate_g_s: Positive::new(0.025),
-            release: ReleaseSpec {
-                rate_hz: Positive::new(n as f64 / 8.0 / 700.0),
-                ..ReleaseSpec::default()
-            },
+            release: ReleaseSpec { rate_hz: Positive::new(n as f64 / 8.0 / 700.0), ..ReleaseSpec::default() },
         })
         .collect();
-    let settings = PlumeSettings {
-        refresh_s: 1e9,
-        grid: blockage.grid_shape(),
-    };
+    let settings = PlumeSettings { refresh_s: 1e9, grid: blockage.grid_shape() };
     let mut plume = Plume::new(&sources, &area, &terrain, 1, settings).expect("legal sources");
     if led {
-        plume = plume
-            .with_obstacles(solids)
-            .and_then(|p| p.led_round(water.blocked()))
-            .expect("sources in open water");
+        plume = plume.with_obstacles(solids).and_then(|p| p.led_round(water.blocked())).expect("sources in open water");
     }
     for t in 0..700 {
         plume.drift(&water, f64::from(t), f64::from(t + 1));
@@ -242,12 +195,10 @@ fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
 #[divan::bench(args = [(10_000, true), (10_000, false)])]
 fn drift_round(bencher: Bencher, (n, led): (usize, bool)) {
     let (water, mut plume) = round(n, led);
-    bencher
-        .counter(ItemsCount::new(plume.len()))
-        .bench_local(|| {
-            let t = plume.now_s();
-            plume.drift(&water, t, t + 0.5);
-        });
+    bencher.counter(ItemsCount::new(plume.len())).bench_local(|| {
+        let t = plume.now_s();
+        plume.drift(&water, t, t + 0.5);
+    });
 }
 
 /// Points where a filament is within a metre or two: a track through the plume.
@@ -257,11 +208,7 @@ fn near(plume: &Plume) -> Vec<Vector3<f64>> {
     (0..4096)
         .map(|_| {
             let f = all[(r.uniform() * all.len() as f64) as usize];
-            let p = Vector3::new(
-                f[0] + r.normal(),
-                f[1] + r.normal(),
-                f[2] + 0.3 * r.normal(),
-            );
+            let p = Vector3::new(f[0] + r.normal(), f[1] + r.normal(), f[2] + 0.3 * r.normal());
             Vector3::new(p.x, p.y, p.z.clamp(-6.0, 0.0))
         })
         .collect()
@@ -277,9 +224,7 @@ fn in_box(plume: &Plume) -> Vec<Vector3<f64>> {
             hi[d] = hi[d].max(f[d]);
         }
     }
-    (0..4096)
-        .map(|_| Vector3::from_fn(|d, _| lo[d] + r.uniform() * (hi[d] - lo[d])))
-        .collect()
+    (0..4096).map(|_| Vector3::from_fn(|d, _| lo[d] + r.uniform() * (hi[d] - lo[d]))).collect()
 }
 
 /// Points along straight tracks at 2 m/s and 10 Hz, 40 m long, across the plume at random places.
@@ -304,9 +249,7 @@ fn ask(bencher: Bencher, n: usize, points: fn(&Plume) -> Vec<Vector3<f64>>) {
     for p in &points {
         black_box(plume.at(p));
     }
-    bencher
-        .counter(ItemsCount::new(points.len()))
-        .bench_local(|| points.iter().map(|p| plume.at(p)).sum::<f64>());
+    bencher.counter(ItemsCount::new(points.len())).bench_local(|| points.iter().map(|p| plume.at(p)).sum::<f64>());
 }
 
 /// Queries close to filaments; items are points.

@@ -20,12 +20,7 @@ fn main() {
 }
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 1094.0,
-        width_m: 367.0,
-        axis: Heading::from_deg(340.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) }
 }
 
 fn bed() -> Terrain {
@@ -55,10 +50,7 @@ fn water_spec() -> WaterSpec {
         interfaces: vec![InterfaceSpec {
             depth_m: Positive::new(1.8),
             thickness_m: Positive::new(0.8),
-            waves: vec![
-                wave(0.3, 420.0, 1900.0, 250.0),
-                wave(0.15, 260.0, 1180.0, 310.0),
-            ],
+            waves: vec![wave(0.3, 420.0, 1900.0, 250.0), wave(0.15, 260.0, 1180.0, 310.0)],
         }],
     };
     let meander = MeanderSpec {
@@ -70,10 +62,7 @@ fn water_spec() -> WaterSpec {
     };
     WaterSpec {
         currents: vec![CurrentSpec::new(layers), CurrentSpec::new(meander)],
-        bed: Some(BedSpec {
-            roughness_m: Positive::new(0.001),
-            thickness_m: Positive::new(2.0),
-        }),
+        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) }),
         ..WaterSpec::default()
     }
 }
@@ -135,12 +124,7 @@ fn sea() -> plumes::flow::waves::Waves {
         spreading: NonNegative::new(10.0),
         components: 32,
     };
-    let spec = WavesSpec {
-        trains: vec![],
-        spectrum: Some(spectrum),
-        stokes: true,
-        mixing: NonNegative::new(0.028),
-    };
+    let spec = WavesSpec { trains: vec![], spectrum: Some(spectrum), stokes: true, mixing: NonNegative::new(0.028) };
     spec.build("waves", 10.0, 1).expect("legal waves")
 }
 
@@ -166,15 +150,8 @@ fn solids() -> Obstacles {
         };
         Obstacle::build(&spec, &bed(), Path::new("")).expect("a block or a pile")
     };
-    let block = ShapeSpec::Box(BoxShape {
-        size_m: (m(60.0), m(30.0), m(5.0)),
-    });
-    let pile = || {
-        ShapeSpec::Cylinder(CylinderShape {
-            radius_m: m(5.0),
-            height_m: m(9.0),
-        })
-    };
+    let block = ShapeSpec::Box(BoxShape { size_m: (m(60.0), m(30.0), m(5.0)) });
+    let pile = || ShapeSpec::Cylinder(CylinderShape { radius_m: m(5.0), height_m: m(9.0) });
     let piles = (0..10).map(|k| build(pile(), 60.0, -200.0 + 30.0 * f64::from(k)));
     Obstacles(piles.chain([build(block, -20.0, 50.0)]).collect())
 }
@@ -188,13 +165,8 @@ fn round(cell_m: f64, steady: bool) -> Water {
             layered.interfaces[0].waves.clear();
         }
     }
-    spec.blockage = Some(BlockageSpec {
-        cell_m: Positive::new(cell_m),
-        levels: 12,
-        ..BlockageSpec::default()
-    });
-    spec.build_round(&area(), &bed(), &solids(), 1)
-        .expect("water round obstacles")
+    spec.blockage = Some(BlockageSpec { cell_m: Positive::new(cell_m), levels: 12, ..BlockageSpec::default() });
+    spec.build_round(&area(), &bed(), &solids(), 1).expect("water round obstacles")
 }
 
 /// Cells, solid or open, and one solution from nothing.

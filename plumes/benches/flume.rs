@@ -19,12 +19,7 @@ fn main() {
 
 /// The flume of Webster et al. 2012.
 fn flume() -> (Water, Plume) {
-    let area = Area {
-        centre: Vector2::new(0.85, 0.0),
-        length_m: 2.5,
-        width_m: 1.07,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::new(0.85, 0.0), length_m: 2.5, width_m: 1.07, axis: Heading::from_deg(90.0) };
     let bed = Terrain::Level { depth_m: 0.2 };
     let water = WaterSpec {
         currents: vec![CurrentSpec::new(OpenChannelSpec {
@@ -45,17 +40,11 @@ fn flume() -> (Water, Plume) {
         rate_g_s: Positive::new(0.032557),
         release: ReleaseSpec {
             eddy_size_m: Some(Positive::new(0.008)),
-            nozzle: Some(NozzleSpec {
-                diameter_m: Positive::new(0.0042),
-                speed_m_s: Positive::new(0.05),
-            }),
+            nozzle: Some(NozzleSpec { diameter_m: Positive::new(0.0042), speed_m_s: Positive::new(0.05) }),
             ..ReleaseSpec::default()
         },
     };
-    let settings = PlumeSettings {
-        grid: GridShape::fitting(&area),
-        refresh_s: 1e6,
-    };
+    let settings = PlumeSettings { grid: GridShape::fitting(&area), refresh_s: 1e6 };
     let water = water.build(&area, &bed, 1).expect("legal water");
     let plume = Plume::new(&[source], &area, &bed, 1, settings).expect("a legal source");
     (water, plume)
@@ -79,17 +68,15 @@ fn spin_up(bencher: Bencher) {
 /// 75 s at 20 Hz with three probes.
 #[divan::bench(sample_count = 10)]
 fn mission(bencher: Bencher) {
-    bencher
-        .with_inputs(spun_up)
-        .bench_values(|(water, mut plume)| {
-            let mut sum = 0.0;
-            for n in 0..1500 {
-                let t = 60.0 + 0.05 * f64::from(n);
-                plume.drift(&water, t, t + 0.05);
-                for (y, z) in [(-0.0625, -0.125), (0.0625, -0.125), (0.0, -0.075)] {
-                    sum += plume.at(&Vector3::new(1.0, y, z));
-                }
+    bencher.with_inputs(spun_up).bench_values(|(water, mut plume)| {
+        let mut sum = 0.0;
+        for n in 0..1500 {
+            let t = 60.0 + 0.05 * f64::from(n);
+            plume.drift(&water, t, t + 0.05);
+            for (y, z) in [(-0.0625, -0.125), (0.0625, -0.125), (0.0, -0.075)] {
+                sum += plume.at(&Vector3::new(1.0, y, z));
             }
-            black_box(sum)
-        });
+        }
+        black_box(sum)
+    });
 }

@@ -50,8 +50,7 @@ impl Movemask for Avx2 {
         let mut all = 0;
         for (n, eight) in marks.as_chunks::<8>().0.iter().enumerate() {
             // SAFETY: reads eight words at any alignment; the caller promises AVX2.
-            let bits =
-                unsafe { x86::_mm256_movemask_ps(x86::_mm256_loadu_ps(eight.as_ptr().cast())) };
+            let bits = unsafe { x86::_mm256_movemask_ps(x86::_mm256_loadu_ps(eight.as_ptr().cast())) };
             all |= bits.cast_unsigned() << (8 * n);
         }
         all

@@ -227,12 +227,7 @@ impl Pair for Avx {
     #[inline(always)]
     fn apart(self) -> [Quad; 2] {
         // SAFETY: as above.
-        unsafe {
-            [
-                Quad(x86::_mm256_castps256_ps128(self.0)),
-                Quad(x86::_mm256_extractf128_ps::<1>(self.0)),
-            ]
-        }
+        unsafe { [Quad(x86::_mm256_castps256_ps128(self.0)), Quad(x86::_mm256_extractf128_ps::<1>(self.0))] }
     }
 }
 
@@ -245,10 +240,7 @@ mod tests {
         let a = Quad::new(&[1.0, 2.0, 3.0, 4.0]);
         let b = Quad::new(&[0.5, -1.0, 8.0, 0.25]);
         let got = Quad::columns([a.add(b), a.sub(b), a.times(3.0), b]);
-        for (d, (x, y)) in [(1.0, 0.5), (2.0, -1.0), (3.0, 8.0), (4.0, 0.25)]
-            .into_iter()
-            .enumerate()
-        {
+        for (d, (x, y)) in [(1.0, 0.5), (2.0, -1.0), (3.0, 8.0), (4.0, 0.25)].into_iter().enumerate() {
             assert_eq!(got[d], [x + y, x - y, x * 3.0, y]);
         }
         assert_eq!(b.array(), [0.5, -1.0, 8.0, 0.25]);

@@ -4,9 +4,7 @@
 
 use divan::Bencher;
 use nalgebra::Vector3;
-use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, Optics, OpticsSpec, Scene, looking, render,
-};
+use robots::sense::camera::{CameraModel, CameraSpec, ClaritySpec, Optics, OpticsSpec, Scene, looking, render};
 use std::path::Path;
 use world::fields::{Clean, Concentration};
 use world::math;
@@ -43,11 +41,7 @@ impl Puffs {
             })
             .collect();
         let reach = 4.0 * puffs.last().expect("there are some").1;
-        Self {
-            puffs,
-            kg: 5e-6,
-            reach,
-        }
+        Self { puffs, kg: 5e-6, reach }
     }
 }
 
@@ -69,9 +63,7 @@ fn picture(bencher: Bencher, (water, visibility_m): (&str, f64)) {
     let m = Positive::new;
     let block = ObstacleSpec {
         id: "source".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(0.5), m(1.0), m(0.5)),
-        }),
+        shape: ShapeSpec::Box(BoxShape { size_m: (m(0.5), m(1.0), m(0.5)) }),
         east_m: Finite::new(4.0),
         north_m: Finite::new(0.0),
         base: Base::default(),
@@ -80,10 +72,7 @@ fn picture(bencher: Bencher, (water, visibility_m): (&str, f64)) {
     };
     let block = Obstacle::build(&block, &terrain, Path::new(".")).expect("a block");
     let optics = Optics::new(&OpticsSpec {
-        clarity: ClaritySpec {
-            visibility_m: m(visibility_m),
-            ..ClaritySpec::default()
-        },
+        clarity: ClaritySpec { visibility_m: m(visibility_m), ..ClaritySpec::default() },
         ..OpticsSpec::default()
     })
     .expect("water");

@@ -5,8 +5,8 @@
 use divan::Bencher;
 use nalgebra::{Vector2, Vector3};
 use robots::map::{
-    BayesianSpec, CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper,
-    ParticleFilterSpec, PomdpSpec, TrajectorySpec,
+    BayesianSpec, CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper, ParticleFilterSpec, PomdpSpec,
+    TrajectorySpec,
 };
 use world::area::Area;
 use world::math;
@@ -22,22 +22,11 @@ const PLANE: [u32; 3] = [40, 25, 1];
 const SPACE: [u32; 3] = [100, 100, 20];
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::new(50.0, 50.0),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::new(50.0, 50.0), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(90.0) }
 }
 
 fn grid([along, across, vertical]: [u32; 3]) -> GridSpec {
-    GridSpec {
-        along,
-        across,
-        vertical,
-        bottom_depth_m: Some(Positive::new(10.0)),
-        ..GridSpec::default()
-    }
+    GridSpec { along, across, vertical, bottom_depth_m: Some(Positive::new(10.0)), ..GridSpec::default() }
 }
 
 /// A vehicle that goes to and fro near the down-flow end, and smells something every 50 s.
@@ -50,15 +39,8 @@ struct Cruise {
 
 impl Cruise {
     fn new(spec: &MapSpec, flow: [f64; 2], step_s: f64) -> Self {
-        let mapper = spec
-            .build(&area(), Stream::new(1, "auv0", "map"))
-            .expect("mapper");
-        let mut new = Self {
-            mapper,
-            flow: Vector2::new(flow[0], flow[1]),
-            t_s: 0.0,
-            step_s,
-        };
+        let mapper = spec.build(&area(), Stream::new(1, "auv0", "map")).expect("mapper");
+        let mut new = Self { mapper, flow: Vector2::new(flow[0], flow[1]), t_s: 0.0, step_s };
         // Fills the look-back with flow alone.
         while new.t_s < 700.0 {
             new.go(None);
@@ -84,18 +66,11 @@ impl Cruise {
 }
 
 fn trajectory(merge: f64) -> TrajectorySpec {
-    TrajectorySpec {
-        merge: Fraction::new(merge),
-        ..TrajectorySpec::default()
-    }
+    TrajectorySpec { merge: Fraction::new(merge), ..TrajectorySpec::default() }
 }
 
 fn pomdp(n: [u32; 3], merge: f64) -> MapSpec {
-    MapSpec::new(PomdpSpec(CellsSpec {
-        grid: grid(n),
-        trajectory: trajectory(merge),
-        ..CellsSpec::default()
-    }))
+    MapSpec::new(PomdpSpec(CellsSpec { grid: grid(n), trajectory: trajectory(merge), ..CellsSpec::default() }))
 }
 
 const ALONG: [f64; 2] = [0.17, 0.0];
@@ -120,19 +95,12 @@ fn pomdp_plane_unmerged(bencher: Bencher) {
 
 #[divan::bench]
 fn bayesian_plane(bencher: Bencher) {
-    let spec = CellsSpec {
-        grid: grid(PLANE),
-        ..CellsSpec::default()
-    };
+    let spec = CellsSpec { grid: grid(PLANE), ..CellsSpec::default() };
     run(bencher, &MapSpec::new(BayesianSpec(spec)), ALONG, 1.0);
 }
 
 fn hmm(n: [u32; 3], step_s: f64) -> MapSpec {
-    MapSpec::new(HmmSpec {
-        grid: grid(n),
-        step_s: Positive::new(step_s),
-        ..HmmSpec::default()
-    })
+    MapSpec::new(HmmSpec { grid: grid(n), step_s: Positive::new(step_s), ..HmmSpec::default() })
 }
 
 #[divan::bench(args = [1.0, 5.0])]
@@ -142,10 +110,7 @@ fn hmm_plane(bencher: Bencher, step_s: f64) {
 
 #[divan::bench]
 fn particles_plane(bencher: Bencher) {
-    let spec = ParticleFilterSpec {
-        grid: grid(PLANE),
-        ..ParticleFilterSpec::default()
-    };
+    let spec = ParticleFilterSpec { grid: grid(PLANE), ..ParticleFilterSpec::default() };
     run(bencher, &MapSpec::new(spec), ALONG, 1.0);
 }
 

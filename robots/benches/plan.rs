@@ -42,12 +42,8 @@ fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> Room {
             Obstacle::build(&spec, &bed, Path::new(".")).expect("a legal block")
         })
         .collect();
-    let lattice = BeliefGrid {
-        corner: Vector3::new(0.0, 0.0, -size[2]),
-        axes: [Vector2::x(), Vector2::y()],
-        cell_m,
-        n,
-    };
+    let lattice =
+        BeliefGrid { corner: Vector3::new(0.0, 0.0, -size[2]), axes: [Vector2::x(), Vector2::y()], cell_m, n };
     let mut room = Room::new(lattice, 0.5, 4.0);
     room.chart(&Obstacles(solids), &bed, &|_, _| -size[2] / 2.0);
     room
@@ -60,11 +56,7 @@ fn plan(bencher: divan::Bencher, room: &Room, params: &AStarParams, to: [f64; 3]
         let at = [0, 1, 2].map(|a| part[a] * n[a] as f64 * c[a]);
         room.lattice().corner + Vector3::new(at[0], at[1], at[2])
     };
-    let start = From {
-        p_W: place([0.02, 0.03, 0.5]),
-        heading: Heading::from_deg(45.0),
-        turning_radius_m: 12.0,
-    };
+    let start = From { p_W: place([0.02, 0.03, 0.5]), heading: Heading::from_deg(45.0), turning_radius_m: 12.0 };
     let goal = place(to);
     let mut planner = AStar::new(params).expect("legal");
     planner.plan(room, &start, &goal).expect("a path");
@@ -96,10 +88,7 @@ fn hectare(bencher: divan::Bencher) {
 #[divan::bench(sample_count = 50, sample_size = 1)]
 fn paper(bencher: divan::Bencher) {
     let room = room([40, 25, 1], [2.5, 4.0, 10.0], 3);
-    let params = AStarParams {
-        cost: Cost::Paper,
-        ..AStarParams::default()
-    };
+    let params = AStarParams { cost: Cost::Paper, ..AStarParams::default() };
     plan(bencher, &room, &params, [0.9, 0.9, 0.5]);
 }
 
@@ -113,13 +102,7 @@ fn million_voxels_between_walls(bencher: divan::Bencher, north: f64) {
         let spec = ObstacleSpec {
             surface: Default::default(),
             id: format!("w{k}"),
-            shape: ShapeSpec::Box(BoxShape {
-                size_m: (
-                    Positive::new(1.0),
-                    Positive::new(180.0),
-                    Positive::new(25.0),
-                ),
-            }),
+            shape: ShapeSpec::Box(BoxShape { size_m: (Positive::new(1.0), Positive::new(180.0), Positive::new(25.0)) }),
             east_m: Finite::new(20.0 * f64::from(k)),
             north_m: Finite::new(if k % 2 == 0 { 90.0 } else { 110.0 }),
             base: Base::default(),

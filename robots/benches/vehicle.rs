@@ -30,38 +30,26 @@ fn water() -> WaterSample {
 }
 
 fn start() -> Truth {
-    Truth::at_rest(Pose::level(
-        Vector3::new(0.0, 0.0, -4.0),
-        Heading::from_deg(70.0),
-    ))
+    Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -4.0), Heading::from_deg(70.0)))
 }
 
 fn auv(parameters: ParameterSet) -> Vehicle {
-    let spec = RemusSpec {
-        parameters,
-        ..RemusSpec::default()
-    };
+    let spec = RemusSpec { parameters, ..RemusSpec::default() };
     Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
-const TURN: ActuatorCommand = ActuatorCommand {
-    rudder_rad: 0.1,
-    stern_rad: 0.0,
-    rpm: 1200.0,
-};
+const TURN: ActuatorCommand = ActuatorCommand { rudder_rad: 0.1, stern_rad: 0.0, rpm: 1200.0 };
 
 /// 1000 steps of the equation of motion only.
 #[divan::bench(args = [ParameterSet::Remus100, ParameterSet::Reference])]
 fn equation_only(bencher: Bencher, set: ParameterSet) {
     let mut vehicle = auv(set);
     let mut truth = start();
-    bencher
-        .counter(divan::counter::ItemsCount::new(STEPS))
-        .bench_local(|| {
-            for _ in 0..STEPS {
-                truth = vehicle.step(&truth, &water(), &TURN, STEP_S);
-            }
-        });
+    bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
+        for _ in 0..STEPS {
+            truth = vehicle.step(&truth, &water(), &TURN, STEP_S);
+        }
+    });
 }
 
 /// 1000 steps over the bed at Duck, 2 m above it.
@@ -69,29 +57,20 @@ fn equation_only(bencher: Bencher, set: ParameterSet) {
 fn with_physics(bencher: Bencher, solver: Solver) {
     let mut vehicle = auv(ParameterSet::Remus100);
     let mut physics = Physics::new(STEP_S).with_solver(solver);
-    let area = Area {
-        centre: nalgebra::Vector2::zeros(),
-        length_m: 1094.0,
-        width_m: 367.0,
-        axis: Heading::from_deg(340.0),
-    };
+    let area =
+        Area { centre: nalgebra::Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
     let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
     physics.add_terrain(&bed, &area);
     let id = physics.add_body(vehicle.body_spec("auv", start()));
-    let level = WaterSample {
-        velocity: Vector3::zeros(),
-        ..water()
-    };
-    bencher
-        .counter(divan::counter::ItemsCount::new(STEPS))
-        .bench_local(|| {
-            physics.set_truth(id, start());
-            for _ in 0..STEPS {
-                let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
-                physics.push(id, free);
-                physics.step();
-            }
-        });
+    let level = WaterSample { velocity: Vector3::zeros(), ..water() };
+    bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
+        physics.set_truth(id, start());
+        for _ in 0..STEPS {
+            let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
+            physics.push(id, free);
+            physics.step();
+        }
+    });
 }
 
 /// 1000 steps of the gantry, drives and joints, in sight of the bed; diagonal steps to and fro.
@@ -99,12 +78,7 @@ fn with_physics(bencher: Bencher, solver: Solver) {
 fn gantry(bencher: Bencher) {
     let mut gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     let mut physics = Physics::new(STEP_S);
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 24.0,
-        width_m: 1.07,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 24.0, width_m: 1.07, axis: Heading::from_deg(90.0) };
     let bed = Terrain::sloping_over(&area, Heading::from_deg(0.0), 0.2, 0.2);
     physics.add_terrain(&bed, &area);
     let base = Pose::level(Vector3::new(0.0, 0.0, -0.2), Heading::from_deg(270.0));
@@ -119,24 +93,18 @@ fn gantry(bencher: Bencher) {
         working: TrackerState::default(),
         stopped: None,
     };
-    bencher
-        .counter(divan::counter::ItemsCount::new(STEPS))
-        .bench_local(|| {
-            for i in 0..STEPS {
-                if i % 100 == 0 {
-                    decision.id += 1;
-                    let side = if decision.id.is_multiple_of(2) {
-                        1.0
-                    } else {
-                        -1.0
-                    };
-                    decision.target_m = Vector2::new(1.0 + 0.05 * side, 0.025 * side);
-                }
-                let joints = physics.joints(id);
-                let drives = gantry.drive(&decision, &joints, STEP_S, &mut rng);
-                physics.drive(id, drives);
-                physics.step();
-                divan::black_box(gantry.readings(&physics.joints(id)));
+    bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
+        for i in 0..STEPS {
+            if i % 100 == 0 {
+                decision.id += 1;
+                let side = if decision.id.is_multiple_of(2) { 1.0 } else { -1.0 };
+                decision.target_m = Vector2::new(1.0 + 0.05 * side, 0.025 * side);
             }
-        });
+            let joints = physics.joints(id);
+            let drives = gantry.drive(&decision, &joints, STEP_S, &mut rng);
+            physics.drive(id, drives);
+            physics.step();
+            divan::black_box(gantry.readings(&physics.joints(id)));
+        }
+    });
 }

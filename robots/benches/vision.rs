@@ -28,11 +28,7 @@ fn picture() -> RgbImage {
 #[divan::bench]
 fn one_pass(bencher: divan::Bencher) {
     let picture = picture();
-    let spec = ColourSpec {
-        plume_passes: 1,
-        source_passes: 0,
-        ..ColourSpec::default()
-    };
+    let spec = ColourSpec { plume_passes: 1, source_passes: 0, ..ColourSpec::default() };
     bencher.bench(|| segment(&picture, &spec).passes.len());
 }
 

@@ -17,10 +17,7 @@ pub const MARGIN_M: f64 = 10.0;
 #[must_use]
 pub fn inside(area: &Area, p: Vector2<f64>, margin_m: f64) -> Vector2<f64> {
     let q = area.local(p);
-    let (l, w) = (
-        (area.length_m / 2.0 - margin_m).max(0.0),
-        (area.width_m / 2.0 - margin_m).max(0.0),
-    );
+    let (l, w) = ((area.length_m / 2.0 - margin_m).max(0.0), (area.width_m / 2.0 - margin_m).max(0.0));
     if q.x.abs() <= l && q.y.abs() <= w {
         return p;
     }

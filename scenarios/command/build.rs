@@ -3,10 +3,7 @@
 #![allow(clippy::print_stdout, reason = "a build script speaks to cargo")]
 
 fn main() {
-    for (name, from) in [
-        ("RHEOTAXIS_TARGET", "TARGET"),
-        ("RHEOTAXIS_PROFILE", "PROFILE"),
-    ] {
+    for (name, from) in [("RHEOTAXIS_TARGET", "TARGET"), ("RHEOTAXIS_PROFILE", "PROFILE")] {
         let value = std::env::var(from).unwrap_or_else(|_| "unknown".to_string());
         println!("cargo::rustc-env={name}={value}");
     }

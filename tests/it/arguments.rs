@@ -2,9 +2,7 @@
 
 use super::common::rheotaxis;
 use clap::{CommandFactory, Parser};
-use command::{
-    Args, CacheCommandArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed,
-};
+use command::{Args, CacheCommandArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed};
 use rheotaxis::registry::{Group, Registry, sections};
 use robots::vehicles::SHIPPED;
 use robots::vision::{ColourSpec, Edges, VerifierSpec};
@@ -61,11 +59,7 @@ fn so_many_numbers_and_no_others_are_read() {
     assert_eq!("1, -2.5,3e1".parse(), Ok(Numbers([1.0, -2.5, 30.0])));
     for wrong in ["", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1,,3"] {
         let said = wrong.parse::<Numbers<3>>();
-        assert_eq!(
-            said,
-            Err("must be 3 numbers separated by commas".into()),
-            "{wrong}"
-        );
+        assert_eq!(said, Err("must be 3 numbers separated by commas".into()), "{wrong}");
     }
 }
 
@@ -83,15 +77,7 @@ fn widths_are_shares_below_a_half() {
 
 #[test]
 fn wall_times_read_as_hours_minutes_and_seconds() {
-    let seconds = |text: &str| match parsed(&[
-        "campaign",
-        "run",
-        "c.ron",
-        "--out",
-        "o",
-        "--max-wall",
-        text,
-    ]) {
+    let seconds = |text: &str| match parsed(&["campaign", "run", "c.ron", "--out", "o", "--max-wall", text]) {
         Some(Command::Campaign(args)) => match args.command {
             CampaignCommand::Run(args) => args.max_wall.map(|d| d.as_secs()),
             _ => None,
@@ -121,10 +107,7 @@ fn the_cache_is_by_default_that_of_the_library_and_its_help_teaches() {
         assert!(help.contains(word), "{word} in {help}");
     }
     for wrong in ["-1", "nan", "soon"] {
-        assert!(
-            parsed(&["cache", "--cache-from", wrong]).is_none(),
-            "{wrong}"
-        );
+        assert!(parsed(&["cache", "--cache-from", wrong]).is_none(), "{wrong}");
     }
 }
 
@@ -142,13 +125,8 @@ fn segments_defaults_are_the_papers_and_flags_go_through() {
     assert_eq!(spec(&[]).unwrap().colours, ColourSpec::default());
     let haze = spec(&["--give-back", "--dehaze"]).unwrap();
     assert_eq!(haze, VerifierSpec::default());
-    let got = spec(&["--epsilon", "60", "--give-back", "--edges", "reference"])
-        .unwrap()
-        .colours;
-    assert_eq!(
-        (got.epsilon.get(), got.give_back, got.edges),
-        (60.0, true, Edges::Reference)
-    );
+    let got = spec(&["--epsilon", "60", "--give-back", "--edges", "reference"]).unwrap().colours;
+    assert_eq!((got.epsilon.get(), got.give_back, got.edges), (60.0, true, Edges::Reference));
     let said = spec(&["--alpha1", "210"]).unwrap_err();
     assert_eq!(said, "--alpha1 must be below alpha2 (200), got 210");
     for bad in ["0", "-3", "nan", "x"] {
@@ -166,24 +144,16 @@ fn a_broken_assumption_is_an_error_to_the_shell() {
 #[test]
 fn the_version_tells_two_builds_apart() {
     let short = Args::command().render_version();
-    assert_eq!(
-        short,
-        concat!("rheotaxis ", env!("CARGO_PKG_VERSION"), "\n")
-    );
+    assert_eq!(short, concat!("rheotaxis ", env!("CARGO_PKG_VERSION"), "\n"));
     let said = Args::command().render_long_version();
     let lines: Vec<&str> = said.trim_end().lines().collect();
     assert_eq!(lines[0], short.trim_end());
     let value = |name: &str| {
         let found = lines.iter().find_map(|l| l.strip_prefix(name));
-        found
-            .unwrap_or_else(|| panic!("no {name} in\n{said}"))
-            .trim()
+        found.unwrap_or_else(|| panic!("no {name} in\n{said}")).trim()
     };
     assert!(value("features:").starts_with("live "), "{said}");
-    assert!(
-        value("target:").starts_with(std::env::consts::ARCH),
-        "{said}"
-    );
+    assert!(value("target:").starts_with(std::env::consts::ARCH), "{said}");
     assert!(["debug", "release"].contains(&value("profile:")), "{said}");
     #[cfg(target_arch = "x86_64")]
     {
@@ -220,19 +190,12 @@ fn every_name_that_list_vehicles_prints_is_known() {
         if end.status.success() {
             free.push(name);
         } else {
-            assert!(
-                !said.contains("no such") && said.contains("help:"),
-                "{said}"
-            );
+            assert!(!said.contains("no such") && said.contains("help:"), "{said}");
         }
     }
     let listed = ["Remus100", "Kinematic"].into_iter();
     let all: Vec<&str> = listed.chain(SHIPPED.iter().map(|s| s.folder)).collect();
     assert_eq!(free, all);
     let unknown = rheotaxis(&["vehicle", "check", "submarine"]);
-    assert!(
-        String::from_utf8(unknown.stderr)
-            .unwrap()
-            .contains("no such folder")
-    );
+    assert!(String::from_utf8(unknown.stderr).unwrap().contains("no such folder"));
 }

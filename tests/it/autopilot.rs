@@ -26,32 +26,16 @@ struct Run {
 
 impl Run {
     fn new(heading_deg: f64, depth_m: f64, current: Vector3<f64>) -> Self {
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m: 1094.0,
-            width_m: 367.0,
-            axis: Heading::from_deg(340.0),
-        };
+        let area = Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
         let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
-        let pose = Pose::level(
-            Vector3::new(0.0, 0.0, -depth_m),
-            Heading::from_deg(heading_deg),
-        );
+        let pose = Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(heading_deg));
         let mut truth = Truth::at_rest(pose);
         truth.v_WB_B = Vector3::new(2.0, 0.0, 0.0) + pose.R_WB.inverse() * current;
         let id = physics.add_body(vehicle.body_spec("auv", truth));
-        Self {
-            physics,
-            id,
-            vehicle,
-            pilot: Autopilot::new(&AutopilotSpec::default()),
-            bed,
-            current,
-            steps: 0,
-        }
+        Self { physics, id, vehicle, pilot: Autopilot::new(&AutopilotSpec::default()), bed, current, steps: 0 }
     }
 
     fn estimate(&self) -> Estimate {
@@ -70,10 +54,7 @@ impl Run {
                 rates_rad_s: truth.w_WB_B,
             },
             v_ground_body: truth.v_WB_B,
-            flow: Some(FlowEstimate {
-                velocity: self.current.xy(),
-                age_s: 0.0,
-            }),
+            flow: Some(FlowEstimate { velocity: self.current.xy(), age_s: 0.0 }),
             fix_jump: Vector2::zeros(),
         }
     }
@@ -84,13 +65,7 @@ impl Run {
     }
 
     /// Estimates, one a step, while the heading asked for turns steadily.
-    fn turn(
-        &mut self,
-        seconds: f64,
-        from_deg: f64,
-        rate_deg_s: f64,
-        vertical: Vertical,
-    ) -> Vec<Estimate> {
+    fn turn(&mut self, seconds: f64, from_deg: f64, rate_deg_s: f64, vertical: Vertical) -> Vec<Estimate> {
         let water = WaterSample {
             velocity: self.current,
             gradient: Matrix3::zeros(),
@@ -100,11 +75,8 @@ impl Run {
         let mut seen = Vec::new();
         for step in 0..(seconds / STEP_S) as u64 {
             let heading_deg = from_deg + rate_deg_s * step as f64 * STEP_S;
-            let command = Command::Steer(Setpoint {
-                heading: Heading::from_deg(heading_deg),
-                water_speed_m_s: 2.0,
-                vertical,
-            });
+            let command =
+                Command::Steer(Setpoint { heading: Heading::from_deg(heading_deg), water_speed_m_s: 2.0, vertical });
             let set = self.pilot.step(&command, &self.estimate(), STEP_S);
             let truth = self.physics.truth(self.id);
             let free = self.vehicle.step(&truth, &water, &set, STEP_S);
@@ -130,22 +102,13 @@ fn a_quarter_turn_settles() {
     for to_deg in [70.0, 250.0] {
         let mut run = Run::new(340.0, 3.0, Vector3::zeros());
         let seen = run.hold(40.0, to_deg, Vertical::Depth(3.0));
-        let off = |e: &Estimate| {
-            Heading::from_deg(to_deg)
-                .turn_to(e.attitude.heading)
-                .to_degrees()
-        };
+        let off = |e: &Estimate| Heading::from_deg(to_deg).turn_to(e.attitude.heading).to_degrees();
         let settled = worst(after(&seen, 20.0), off);
-        let side = Heading::from_deg(340.0)
-            .turn_to(Heading::from_deg(to_deg))
-            .signum();
+        let side = Heading::from_deg(340.0).turn_to(Heading::from_deg(to_deg)).signum();
         let over = seen.iter().map(|e| off(e) * side).fold(0.0, f64::max);
         let rate = worst(&seen, |e| e.attitude.rates_rad_s.z.to_degrees());
         let depth = worst(&seen, |e| e.depth_m - 3.0);
-        assert!(
-            settled < 1.0 && over < 3.0,
-            "off {settled} deg, over {over} deg"
-        );
+        assert!(settled < 1.0 && over < 3.0, "off {settled} deg, over {over} deg");
         assert!(rate < 11.0, "rate {rate} deg/s");
         assert!(depth < 0.5, "depth off by {depth} m in the turn");
     }
@@ -164,15 +127,10 @@ fn a_circle_does_not_slow_the_turn_out_of_it() {
         run.turn(circling_s, 0.0, 4.5, Vertical::Depth(3.0));
         let heading_deg = run.estimate().attitude.heading.deg();
         let seen = run.hold(10.0, heading_deg - 150.0, Vertical::Depth(3.0));
-        seen.iter()
-            .map(|e| e.attitude.rates_rad_s.z.to_degrees())
-            .fold(0.0, f64::max)
+        seen.iter().map(|e| e.attitude.rates_rad_s.z.to_degrees()).fold(0.0, f64::max)
     };
     let by_default = AutopilotSpec::default().heading_trim_limit_deg.get();
-    let (soon, late) = (
-        fastest_to_port(5.0, by_default),
-        fastest_to_port(400.0, by_default),
-    );
+    let (soon, late) = (fastest_to_port(5.0, by_default), fastest_to_port(400.0, by_default));
     let wound_up = fastest_to_port(400.0, 15.0);
     assert!(
         late > 0.85 * soon && wound_up < 0.85 * soon,
@@ -186,10 +144,7 @@ fn a_depth_change_settles() {
     let seen = run.hold(60.0, 340.0, Vertical::Depth(4.0));
     let over = seen.iter().map(|e| e.depth_m - 4.0).fold(0.0, f64::max);
     let settled = worst(after(&seen, 30.0), |e| e.depth_m - 4.0);
-    assert!(
-        over < 0.3 && settled < 0.1,
-        "over {over} m, settled {settled} m"
-    );
+    assert!(over < 0.3 && settled < 0.1, "over {over} m, settled {settled} m");
 }
 
 #[test]
@@ -198,9 +153,7 @@ fn altitude_is_held_over_the_slope() {
     for heading_deg in [70.0, 250.0, 340.0] {
         let mut run = Run::new(heading_deg, 4.0, Vector3::zeros());
         let seen = run.hold(75.0, heading_deg, Vertical::Altitude(2.0));
-        let off = worst(after(&seen, 15.0), |e| {
-            e.altitude_m.expect("bed below") - 2.0
-        });
+        let off = worst(after(&seen, 15.0), |e| e.altitude_m.expect("bed below") - 2.0);
         assert!(off < 0.7, "altitude off by {off} m");
     }
 }
@@ -210,8 +163,6 @@ fn speed_through_the_water_is_held_in_a_current() {
     let current = Vector3::new(0.15, -0.2, 0.0);
     let mut run = Run::new(340.0, 3.0, current);
     let seen = run.hold(60.0, 340.0, Vertical::Depth(3.0));
-    let off = worst(after(&seen, 20.0), |e| {
-        e.v_ground_body.x - current.xy().dot(&e.attitude.heading.unit()) - 2.0
-    });
+    let off = worst(after(&seen, 20.0), |e| e.v_ground_body.x - current.xy().dot(&e.attitude.heading.unit()) - 2.0);
     assert!(off < 0.1, "speed off by {off} m/s");
 }

@@ -61,10 +61,7 @@ fn in_folder(text: &[u8], args: &[&str]) -> Output {
 /// `check` and `run` both refuse the text with exactly this message and exit code 1.
 #[track_caller]
 fn refused(text: impl AsRef<[u8]>, message: &str) {
-    for args in [
-        &["check", "pond.ron"][..],
-        &["run", "pond.ron", "--no-zenoh", "--quiet"],
-    ] {
+    for args in [&["check", "pond.ron"][..], &["run", "pond.ron", "--no-zenoh", "--quiet"]] {
         let output = in_folder(text.as_ref(), args);
         assert_eq!(stderr(&output), message, "{args:?}");
         assert_eq!(output.status.code(), Some(1), "{args:?}");
@@ -85,10 +82,7 @@ fn the_pond_itself_is_fine() {
     assert_eq!(output.status.code(), Some(0));
     let said = String::from_utf8_lossy(&output.stdout);
     let (first, estimate) = said.split_once('\n').expect("two lines");
-    assert_eq!(
-        first,
-        "pond.ron: fine: Pond (1 robot, 1 source, 1 obstacle)"
-    );
+    assert_eq!(first, "pond.ron: fine: Pond (1 robot, 1 source, 1 obstacle)");
     assert!(estimate.starts_with("  a run takes about "), "{estimate}");
 }
 
@@ -136,10 +130,7 @@ fn truncated_anywhere_says_that_the_file_ends_too_early() {
     for cut in 1..POND.trim_end().len() {
         let error = rheotaxis::scenario::parse("pond.ron", &POND[..cut]).unwrap_err();
         let line = error.lines().remove(0);
-        assert!(
-            line.contains("the file ends at line"),
-            "cut at {cut}: {line}"
-        );
+        assert!(line.contains("the file ends at line"), "cut at {cut}: {line}");
     }
 }
 
@@ -170,50 +161,32 @@ fn missing_field() {
 
 #[test]
 fn missing_comma() {
-    refused(
-        pond("width_m: 50,", "width_m: 50"),
-        &golden("missing_comma"),
-    );
+    refused(pond("width_m: 50,", "width_m: 50"), &golden("missing_comma"));
 }
 
 #[test]
 fn text_for_a_number() {
-    refused(
-        pond("limit_s: 2", "limit_s: \"2\""),
-        &golden("text_for_a_number"),
-    );
+    refused(pond("limit_s: 2", "limit_s: \"2\""), &golden("text_for_a_number"));
 }
 
 #[test]
 fn number_out_of_range() {
-    refused(
-        pond("heading_deg: 180", "heading_deg: 361"),
-        &golden("number_out_of_range"),
-    );
+    refused(pond("heading_deg: 180", "heading_deg: 361"), &golden("number_out_of_range"));
 }
 
 #[test]
 fn depth_that_is_not_positive() {
-    refused(
-        pond("Level(depth_m: 10)", "Level(depth_m: -10)"),
-        &golden("depth_that_is_not_positive"),
-    );
+    refused(pond("Level(depth_m: 10)", "Level(depth_m: -10)"), &golden("depth_that_is_not_positive"));
 }
 
 #[test]
 fn negative_diffusivity() {
-    refused(
-        pond("horizontal_m2_s: 0.01", "horizontal_m2_s: -0.01"),
-        &golden("negative_diffusivity"),
-    );
+    refused(pond("horizontal_m2_s: 0.01", "horizontal_m2_s: -0.01"), &golden("negative_diffusivity"));
 }
 
 #[test]
 fn nan() {
-    refused(
-        pond("horizontal_m2_s: 0.01", "horizontal_m2_s: NaN"),
-        &golden("nan"),
-    );
+    refused(pond("horizontal_m2_s: 0.01", "horizontal_m2_s: NaN"), &golden("nan"));
 }
 
 #[test]
@@ -223,35 +196,23 @@ fn infinite() {
 
 #[test]
 fn zero_layers() {
-    let text = pond(
-        "Uniform(speed_m_s: 0.1, heading_deg: 180)",
-        "Layered(layers: [])",
-    );
+    let text = pond("Uniform(speed_m_s: 0.1, heading_deg: 180)", "Layered(layers: [])");
     refused(text, &golden("zero_layers"));
 }
 
 #[test]
 fn source_outside_the_area() {
-    refused(
-        pond("north_m: 40", "north_m: 400"),
-        &golden("source_outside_the_area"),
-    );
+    refused(pond("north_m: 40", "north_m: 400"), &golden("source_outside_the_area"));
 }
 
 #[test]
 fn source_under_the_bottom() {
-    refused(
-        pond("height_m: 0.2", "height_m: -0.2"),
-        &golden("source_under_the_bottom"),
-    );
+    refused(pond("height_m: 0.2", "height_m: -0.2"), &golden("source_under_the_bottom"));
 }
 
 #[test]
 fn source_above_the_surface() {
-    refused(
-        pond("height_m: 0.2", "height_m: 10.2"),
-        &golden("source_above_the_surface"),
-    );
+    refused(pond("height_m: 0.2", "height_m: 10.2"), &golden("source_above_the_surface"));
 }
 
 #[test]
@@ -262,26 +223,17 @@ fn start_inside_an_obstacle() {
 
 #[test]
 fn start_outside_the_area() {
-    refused(
-        pond("east_m: 10,", "east_m: 30,"),
-        &golden("start_outside_the_area"),
-    );
+    refused(pond("east_m: 10,", "east_m: 30,"), &golden("start_outside_the_area"));
 }
 
 #[test]
 fn start_under_the_bed() {
-    refused(
-        pond("depth_m: 5", "depth_m: 15"),
-        &golden("start_under_the_bed"),
-    );
+    refused(pond("depth_m: 5", "depth_m: 15"), &golden("start_under_the_bed"));
 }
 
 #[test]
 fn start_at_depth_and_altitude() {
-    refused(
-        pond("depth_m: 5", "depth_m: 5, altitude_m: 5"),
-        &golden("start_at_depth_and_altitude"),
-    );
+    refused(pond("depth_m: 5", "depth_m: 5, altitude_m: 5"), &golden("start_at_depth_and_altitude"));
 }
 
 #[test]
@@ -289,26 +241,17 @@ fn robots_of_one_name() {
     let start = POND.find("        (\n            id").unwrap();
     let end = POND.find("    ],\n    time").unwrap();
     let robot = &POND[start..end];
-    refused(
-        POND.replacen(robot, &robot.repeat(2), 1),
-        &golden("robots_of_one_name"),
-    );
+    refused(POND.replacen(robot, &robot.repeat(2), 1), &golden("robots_of_one_name"));
 }
 
 #[test]
 fn missing_urdf() {
-    refused(
-        pond("Remus100()", "Remus100(urdf: \"hull.urdf\")"),
-        &golden("missing_urdf"),
-    );
+    refused(pond("Remus100()", "Remus100(urdf: \"hull.urdf\")"), &golden("missing_urdf"));
 }
 
 #[test]
 fn missing_mesh() {
-    let text = pond(
-        "Cylinder(radius_m: 2, height_m: 8)",
-        "Mesh(file: \"pile.stl\")",
-    );
+    let text = pond("Cylinder(radius_m: 2, height_m: 8)", "Mesh(file: \"pile.stl\")");
     refused(text, &golden("missing_mesh"));
 }
 
@@ -322,28 +265,16 @@ fn several_mistakes_are_all_shown() {
 fn a_search_without_a_source_is_a_warning() {
     let start = POND.find("        (id: \"s1\"").unwrap();
     let end = POND.find("    ],\n    obstacles").unwrap();
-    let text = POND
-        .replace(&POND[start..end], "")
-        .replace("time:", "success: Declared(within_m: 5),\n    time:");
+    let text = POND.replace(&POND[start..end], "").replace("time:", "success: Declared(within_m: 5),\n    time:");
     let output = in_folder(text.as_bytes(), &["check", "pond.ron"]);
     assert_eq!(output.status.code(), Some(0));
-    assert_eq!(
-        stderr(&output),
-        golden("a_search_without_a_source_is_a_warning")
-    );
+    assert_eq!(stderr(&output), golden("a_search_without_a_source_is_a_warning"));
 }
 
 #[test]
 fn unwritable_out_folder() {
     // Permissions do not bind root; a folder below a regular file cannot be made by anyone.
-    let args = [
-        "run",
-        "pond.ron",
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-        "pond.ron/out",
-    ];
+    let args = ["run", "pond.ron", "--no-zenoh", "--quiet", "--out", "pond.ron/out"];
     let output = in_folder(POND.as_bytes(), &args);
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(stderr(&output), golden("unwritable_out_folder"));
@@ -357,10 +288,7 @@ fn busy_port() {
     let args = ["run", "pond.ron", "--quiet", "--zenoh-listen", &endpoint];
     let output = in_folder(POND.as_bytes(), &args);
     assert_eq!(output.status.code(), Some(1));
-    assert_eq!(
-        stderr(&output).replace(&port.to_string(), "PORT"),
-        golden("busy_port")
-    );
+    assert_eq!(stderr(&output).replace(&port.to_string(), "PORT"), golden("busy_port"));
 }
 
 #[test]
@@ -374,8 +302,5 @@ fn init_does_not_overwrite() {
 fn wrong_usage_has_an_exit_code_of_its_own() {
     let output = common::rheotaxis(&["run", "duck_st", "--speed", "fast"]);
     assert_eq!(output.status.code(), Some(2));
-    assert_eq!(
-        stderr(&output),
-        golden("wrong_usage_has_an_exit_code_of_its_own")
-    );
+    assert_eq!(stderr(&output), golden("wrong_usage_has_an_exit_code_of_its_own"));
 }

@@ -36,11 +36,7 @@ fn folder(seeds: u64, spin_up_s: &str, limit_s: &str) -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
     let channel = include_str!("../../scenarios/catalog/uniform_channel.ron");
     let times = [("spin_up_s", spin_up_s), ("limit_s", limit_s)];
-    fs::write(
-        dir.path().join("pond.ron"),
-        common::with_fields(channel, &times),
-    )
-    .unwrap();
+    fs::write(dir.path().join("pond.ron"), common::with_fields(channel, &times)).unwrap();
     let text = CAMPAIGN.replace("SEEDS", &seeds.to_string());
     fs::write(dir.path().join("c.ron"), text).unwrap();
     dir
@@ -49,9 +45,7 @@ fn folder(seeds: u64, spin_up_s: &str, limit_s: &str) -> tempfile::TempDir {
 fn campaign(dir: &Path, args: &[&str]) -> Output {
     let mut all = vec!["campaign"];
     all.extend_from_slice(args);
-    scheduler_free(common::command(dir, &all))
-        .output()
-        .expect("rheotaxis starts")
+    scheduler_free(common::command(dir, &all)).output().expect("rheotaxis starts")
 }
 
 /// Whoever runs the tests may do so in a cluster's job.
@@ -105,17 +99,11 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     let one = out("one", 1, &["--jobs", "1", "--block", "4"]);
     assert_eq!(one.len(), 24);
     assert!(one.iter().enumerate().all(|(i, row)| row.run == i as u64));
-    assert!(
-        one.iter()
-            .all(|row| row.error.is_none() && !row.digest.is_empty())
-    );
+    assert!(one.iter().all(|row| row.error.is_none() && !row.digest.is_empty()));
     // The arms have seed and water in common, but not the run; other seeds and conditions neither.
     for pair in one.chunks(2) {
         assert_eq!(pair[0].seed, pair[1].seed);
-        assert_eq!(
-            (pair[0].arm.as_str(), pair[1].arm.as_str()),
-            ("slow", "fast")
-        );
+        assert_eq!((pair[0].arm.as_str(), pair[1].arm.as_str()), ("slow", "fast"));
     }
     let mut digests: Vec<&String> = one.iter().map(|row| &row.digest).collect();
     digests.sort();
@@ -126,21 +114,10 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     assert_eq!(one, out("seven", 7, &["--jobs", "1", "--block", "2"]));
     assert_eq!(one, out("whole", 1, &["--jobs", "2"]));
     // The second arm of each pair took over the first one's spun-up state.
-    let wall: Vec<f64> = read_rows(&dir.join("one"))
-        .unwrap()
-        .iter()
-        .map(|r| r.spin_up_wall_s)
-        .collect();
-    assert!(
-        wall.chunks(2).all(|pair| pair[0] > 0.0 && pair[1] == 0.0),
-        "{wall:?}"
-    );
+    let wall: Vec<f64> = read_rows(&dir.join("one")).unwrap().iter().map(|r| r.spin_up_wall_s).collect();
+    assert!(wall.chunks(2).all(|pair| pair[0] > 0.0 && pair[1] == 0.0), "{wall:?}");
     // A run made again, by the ordinary way and spinning up itself, is the row's.
-    let (said, _) = ends(
-        dir,
-        0,
-        &["rerun", "one", "--run", "13", "--record", "--quiet"],
-    );
+    let (said, _) = ends(dir, 0, &["rerun", "one", "--run", "13", "--record", "--quiet"]);
     assert_eq!(
         said,
         format!(
@@ -150,35 +127,18 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     );
     assert!(dir.join("one/run-13/run.mcap").is_file());
     let (_, said) = ends(dir, 1, &["rerun", "one", "--run", "24"]);
-    assert!(
-        said.contains("there is no run 24: the campaign has 24, counted from 0"),
-        "{said}"
-    );
+    assert!(said.contains("there is no run 24: the campaign has 24, counted from 0"), "{said}");
     // Merged, all rows are in both files.
     let (said, _) = ends(dir, 0, &["merge", "three", "-o", "all.parquet", "--csv"]);
-    assert!(
-        said.starts_with("24 rows in all.parquet, ")
-            && said.ends_with(" in all-declarations.parquet\n"),
-        "{said}"
-    );
-    assert!(
-        fs::read(dir.join("all.parquet"))
-            .unwrap()
-            .ends_with(b"PAR1")
-    );
+    assert!(said.starts_with("24 rows in all.parquet, ") && said.ends_with(" in all-declarations.parquet\n"), "{said}");
+    assert!(fs::read(dir.join("all.parquet")).unwrap().ends_with(b"PAR1"));
     let csv = fs::read_to_string(dir.join("all.csv")).unwrap();
     assert_eq!(csv.lines().count(), 25);
     let declared: usize = one.iter().map(|r| r.declarations.len()).sum();
     let declarations = fs::read_to_string(dir.join("all-declarations.csv")).unwrap();
     assert_eq!(declarations.lines().count(), 1 + declared);
-    assert!(
-        said.contains(&format!(", {declared} declaration")),
-        "{said}"
-    );
-    assert!(
-        csv.lines().nth(14).unwrap().contains(&one[13].digest),
-        "{csv}"
-    );
+    assert!(said.contains(&format!(", {declared} declaration")), "{said}");
+    assert!(csv.lines().nth(14).unwrap().contains(&one[13].digest), "{csv}");
 }
 
 #[test]
@@ -195,9 +155,7 @@ fn another_scenario_campaign_or_block_size_is_refused_by_name() {
     let pond = fs::read_to_string(dir.join("pond.ron")).unwrap();
     fs::write(dir.join("pond.ron"), format!("{pond}// another\n")).unwrap();
     let (_, said) = ends(dir, 1, &[&run[..], &["--block", "4"]].concat());
-    let scenario = rheotaxis::scenario::load(&dir.join("pond.ron"))
-        .unwrap()
-        .hash();
+    let scenario = rheotaxis::scenario::load(&dir.join("pond.ron")).unwrap().hash();
     let differs = format!(
         "out holds runs of another campaign: scenario {} there, {scenario} here; block size 2 there, 4 here",
         was("scenario_hash")
@@ -209,14 +167,8 @@ fn another_scenario_campaign_or_block_size_is_refused_by_name() {
     let text = fs::read_to_string(dir.join("c.ron")).unwrap();
     fs::write(dir.join("c.ron"), text.replace("Two speeds", "2 speeds")).unwrap();
     let (_, said) = ends(dir, 1, &run);
-    let differs = format!(
-        "out holds runs of another campaign: campaign {} there, ",
-        was("campaign_hash")
-    );
-    assert!(
-        said.contains(&differs) && !said.contains("scenario "),
-        "{said}"
-    );
+    let differs = format!("out holds runs of another campaign: campaign {} there, ", was("campaign_hash"));
+    assert!(said.contains(&differs) && !said.contains("scenario "), "{said}");
     assert_eq!(blocks(&dir.join("out")), before);
     ends(dir, 0, &[&run[..], &["--force"]].concat());
     assert_eq!(blocks(&dir.join("out")), before);
@@ -227,10 +179,7 @@ fn another_scenario_campaign_or_block_size_is_refused_by_name() {
     fs::write(dir.join("out/campaign.json"), other.to_string()).unwrap();
     fs::write(dir.join("c.ron"), text).unwrap();
     let (_, said) = ends(dir, 1, &run);
-    let here = format!(
-        "another campaign: version 0.0.1 there, {} here",
-        was("version")
-    );
+    let here = format!("another campaign: version 0.0.1 there, {} here", was("version"));
     assert!(said.contains(&here), "{said}");
 }
 
@@ -252,20 +201,11 @@ fn blocks_that_are_not_whole_are_found_named_and_done_again() {
         fs::write(block_path(&out, 1), broken).unwrap();
         let (said, _) = ends(dir, 75, &["status", "out"]);
         assert!(said.contains("6 of 8 runs done, 3 of 4 blocks"), "{said}");
-        assert!(
-            said.contains("out/part-000001.parquet is not whole: "),
-            "{said}"
-        );
+        assert!(said.contains("out/part-000001.parquet is not whole: "), "{said}");
         let (_, said) = ends(dir, 1, &["merge", "out", "-o", "all.parquet"]);
-        assert!(
-            said.contains("out/part-000001.parquet is not whole: "),
-            "{said}"
-        );
+        assert!(said.contains("out/part-000001.parquet is not whole: "), "{said}");
         let (_, said) = ends(dir, 0, &run);
-        assert!(
-            said.starts_with("out/part-000001.parquet is not whole: "),
-            "{said}"
-        );
+        assert!(said.starts_with("out/part-000001.parquet is not whole: "), "{said}");
         assert!(said.ends_with("; it is done again\n"), "{said}");
         assert_eq!(rows(&out), good);
         ends(dir, 0, &["status", "out"]);
@@ -277,10 +217,7 @@ fn blocks_that_are_not_whole_are_found_named_and_done_again() {
     let (_, said) = ends(dir, 1, &["merge", "out", "-o", "all.parquet"]);
     assert!(said.contains(says), "{said}");
     let (_, said) = ends(dir, 0, &run);
-    assert!(
-        said.starts_with(says) && said.ends_with("; it is done again\n"),
-        "{said}"
-    );
+    assert!(said.starts_with(says) && said.ends_with("; it is done again\n"), "{said}");
     assert_eq!(rows(&out), good);
 }
 
@@ -320,27 +257,16 @@ fn a_full_disk_is_said_and_what_was_done_stays_readable() {
     ends(dir, 0, &run);
     let all = rows(&out);
     fs::remove_file(block_path(&out, 3)).unwrap();
-    let script = format!(
-        "trap '' XFSZ; ulimit -f 1; exec '{}' campaign {}",
-        common::binary().display(),
-        run.join(" ")
-    );
-    let end = common::apart(std::process::Command::new("bash").args(["-c", &script]))
-        .current_dir(dir)
-        .output()
-        .unwrap();
+    let script = format!("trap '' XFSZ; ulimit -f 1; exec '{}' campaign {}", common::binary().display(), run.join(" "));
+    let end =
+        common::apart(std::process::Command::new("bash").args(["-c", &script])).current_dir(dir).output().unwrap();
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(
-        said.contains("cannot write out/") && said.contains("-000003.parquet: File too large"),
-        "{said}"
-    );
+    assert!(said.contains("cannot write out/") && said.contains("-000003.parquet: File too large"), "{said}");
     assert!(said.contains("blocks written before are whole"), "{said}");
     assert_eq!(rows(&out), all[..6]);
     let left = fs::read_dir(&out).unwrap().map(|f| f.unwrap().file_name());
-    let left: Vec<_> = left
-        .filter(|n| n.to_string_lossy().ends_with(".tmp"))
-        .collect();
+    let left: Vec<_> = left.filter(|n| n.to_string_lossy().ends_with(".tmp")).collect();
     assert!(left.is_empty(), "{left:?}");
     ends(dir, 0, &run);
     assert_eq!(rows(&out), all);

@@ -41,14 +41,7 @@ pub(crate) fn apart(command: &mut Command) -> &mut Command {
 }
 
 /// Arguments that run `odd.ron` into `out`.
-pub(crate) const ODD: [&str; 6] = [
-    "run",
-    "odd.ron",
-    "--no-zenoh",
-    "--no-record",
-    "--out",
-    "out",
-];
+pub(crate) const ODD: [&str; 6] = ["run", "odd.ron", "--no-zenoh", "--no-record", "--out", "out"];
 
 /// Runs `rheotaxis` with these arguments in `dir` to its end.
 pub(crate) fn rheotaxis_in(dir: &Path, args: &[&str]) -> Output {
@@ -69,8 +62,7 @@ pub(crate) fn mission(dir: &Path, name: &str, text: &str) -> (i32, serde_json::V
     let end = command(dir, &[]).args(args).args([&out, &file]).output();
     let end = end.expect("rheotaxis starts");
     let summary = std::fs::read_to_string(out.join("summary.json"));
-    let summary =
-        summary.unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&end.stderr)));
+    let summary = summary.unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&end.stderr)));
     let summary = serde_json::from_str(&summary).expect("a summary is JSON");
     (end.status.code().expect("it was not killed"), summary)
 }
@@ -85,16 +77,9 @@ pub(crate) fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
             .map(|(i, _)| i)
             .filter(|&i| !text[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
             .collect();
-        assert_eq!(
-            places.len(),
-            1,
-            "{name} stands {} times in the scenario",
-            places.len()
-        );
+        assert_eq!(places.len(), 1, "{name} stands {} times in the scenario", places.len());
         let start = places[0] + named.len();
-        let end = text[start..]
-            .find([',', ')', '\n'])
-            .map_or(text.len(), |i| start + i);
+        let end = text[start..].find([',', ')', '\n']).map_or(text.len(), |i| start + i);
         text.replace_range(start..end, &format!(" {value}"));
     }
     text
@@ -102,10 +87,6 @@ pub(crate) fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
 
 /// The rows of a campaign without what the wall clock says.
 pub(crate) fn timeless_rows(dir: &Path) -> Vec<RunRow> {
-    let timeless = |row| RunRow {
-        spin_up_wall_s: 0.0,
-        mission_wall_s: 0.0,
-        ..row
-    };
+    let timeless = |row| RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..row };
     read_rows(dir).unwrap().into_iter().map(timeless).collect()
 }

@@ -16,9 +16,7 @@ fn said(name: &str, changes: &[(&str, &str)]) -> Vec<String> {
     }
     match parse(name, &text) {
         Err(error) => error.lines(),
-        Ok(scenario) => (check_within(&scenario, &folder, cost::MEMORY).iter())
-            .map(ToString::to_string)
-            .collect(),
+        Ok(scenario) => (check_within(&scenario, &folder, cost::MEMORY).iter()).map(ToString::to_string).collect(),
     }
 }
 
@@ -77,13 +75,7 @@ fn numbers_that_make_infinite_loops_and_tables_are_refused() {
             "robots[0].map.step_s",
             "must be at least 0.006 to look back 600 s in 100000 steps, got 1e-6",
         ),
-        (
-            "moth_eyes",
-            "map: Hmm()",
-            "map: Hmm(step_s: 1e-4)",
-            "robots[0].map.step_s",
-            "must be at least 0.006",
-        ),
+        ("moth_eyes", "map: Hmm()", "map: Hmm(step_s: 1e-4)", "robots[0].map.step_s", "must be at least 0.006"),
         (
             "moth_eyes",
             "sidescan: ()",
@@ -134,13 +126,7 @@ fn numbers_that_make_infinite_loops_and_tables_are_refused() {
 #[test]
 fn numbers_beyond_physics_are_refused_where_they_stand() {
     for (name, from, to, path, legal) in [
-        (
-            "flume_crab",
-            "speed_m_s: 0.05),",
-            "speed_m_s: 1e306),",
-            "sources[0].release.nozzle.speed_m_s",
-            "got 1e306",
-        ),
+        ("flume_crab", "speed_m_s: 0.05),", "speed_m_s: 1e306),", "sources[0].release.nozzle.speed_m_s", "got 1e306"),
         (
             "flume_crab",
             "diameter_m: 0.0042",
@@ -162,34 +148,10 @@ fn numbers_beyond_physics_are_refused_where_they_stand() {
             "obstacles[0].shape.size_m",
             "must be from 0.001 to 1000000 m, got 2e9",
         ),
-        (
-            "harbour_3d",
-            "size_m: (200, 6, 12)",
-            "size_m: (1e200, 6, 12)",
-            "obstacles[0].shape.size_m",
-            "got 1e200",
-        ),
-        (
-            "flume_crab",
-            "mean_m_s: 0.05",
-            "mean_m_s: 1e154",
-            "water.currents[0].mean_m_s",
-            "got 1e154",
-        ),
-        (
-            "duck_st",
-            "std_m_s: 0.02",
-            "std_m_s: 1e39",
-            "water.currents[1].std_m_s",
-            "got 1e39",
-        ),
-        (
-            "duck_st",
-            "std_m_s: 0.02",
-            "std_m_s: 1e9",
-            "water.currents[1].std_m_s",
-            "must be from 0 to 5 m/s, got 1e9",
-        ),
+        ("harbour_3d", "size_m: (200, 6, 12)", "size_m: (1e200, 6, 12)", "obstacles[0].shape.size_m", "got 1e200"),
+        ("flume_crab", "mean_m_s: 0.05", "mean_m_s: 1e154", "water.currents[0].mean_m_s", "got 1e154"),
+        ("duck_st", "std_m_s: 0.02", "std_m_s: 1e39", "water.currents[1].std_m_s", "got 1e39"),
+        ("duck_st", "std_m_s: 0.02", "std_m_s: 1e9", "water.currents[1].std_m_s", "must be from 0 to 5 m/s, got 1e9"),
         (
             "duck_st",
             "background_vertical_m2_s: 0.00001",
@@ -241,25 +203,17 @@ fn numbers_beyond_physics_are_refused_where_they_stand() {
 fn waves_of_no_sea_are_refused() {
     let wave = "Uniform(speed_m_s: 0.2, heading_deg: 90),";
     for (given, path, legal) in [
-        (
-            "peak_period_s: 1e17",
-            "water.currents[1].spectrum.peak_period_s",
-            "must be from 0.05 to 60 s, got 1e17",
-        ),
+        ("peak_period_s: 1e17", "water.currents[1].spectrum.peak_period_s", "must be from 0.05 to 60 s, got 1e17"),
         (
             "peak_period_s: 3, spreading: 1e12",
             "water.currents[1].spectrum.spreading",
             "must be from 0 to 1000, got 1e12",
         ),
     ] {
-        let sea = format!(
-            "{wave} Waves(spectrum: (significant_height_m: 0.2, heading_deg: 90, {given})),"
-        );
+        let sea = format!("{wave} Waves(spectrum: (significant_height_m: 0.2, heading_deg: 90, {given})),");
         refuses("uniform_channel", wave, &sea, path, legal);
     }
-    let train = format!(
-        "{wave} Waves(mixing: 1e12, trains: [(height_m: 0.2, period_s: 3, heading_deg: 90)]),"
-    );
+    let train = format!("{wave} Waves(mixing: 1e12, trains: [(height_m: 0.2, period_s: 3, heading_deg: 90)]),");
     let (path, legal) = ("water.currents[1].mixing", "must be from 0 to 10, got 1e12");
     refuses("uniform_channel", wave, &train, path, legal);
 }
@@ -277,16 +231,10 @@ fn memory_beyond_what_is_allowed_names_the_field_and_what_would_fit() {
     };
     let refused = said("40000", 5e8);
     assert_eq!(refused.len(), 1, "{refused:#?}");
-    let [path, legal] = [
-        "sources[0].release.rate_hz: must be at most ",
-        ", got 40000: ",
-    ];
+    let [path, legal] = ["sources[0].release.rate_hz: must be at most ", ", got 40000: "];
     assert!(refused[0].starts_with(path), "{refused:#?}");
     assert!(refused[0].contains(legal), "{refused:#?}");
-    assert!(
-        refused[0].contains("at most 500 MB are allowed"),
-        "{refused:#?}"
-    );
+    assert!(refused[0].contains("at most 500 MB are allowed"), "{refused:#?}");
     // What it calls legal is.
     let rest = &refused[0][path.len()..];
     let most = &rest[..rest.find(',').expect("a comma after the number")];
@@ -296,10 +244,7 @@ fn memory_beyond_what_is_allowed_names_the_field_and_what_would_fit() {
     assert!(over(&more.to_string()), "{more}");
     // More memory, no error: hours are a warning.
     let warned = said("40000", 1e11);
-    assert!(
-        warned.iter().all(|s| s.contains("will take hours")),
-        "{warned:#?}"
-    );
+    assert!(warned.iter().all(|s| s.contains("will take hours")), "{warned:#?}");
 }
 
 #[test]
@@ -309,20 +254,14 @@ fn hours_are_a_warning_that_names_what_takes_them() {
             "wp_laminar",
             &[
                 ("rate_hz: 10,", "rate_hz: 49000,"),
-                (
-                    "spin_up_s: 120,",
-                    "spin_up_s: 120, spin_up_period_s: 0.02, drift_period_s: 0.02,",
-                ),
+                ("spin_up_s: 120,", "spin_up_s: 120, spin_up_period_s: 0.02, drift_period_s: 0.02,"),
             ][..],
             "sources[0].release.rate_hz: the run will take hours",
         ),
         (
             "flume_crab",
             &[
-                (
-                    "diameter_m: 0.0042, speed_m_s: 0.05",
-                    "diameter_m: 0.00001, speed_m_s: 0.5",
-                ),
+                ("diameter_m: 0.0042, speed_m_s: 0.05", "diameter_m: 0.00001, speed_m_s: 0.5"),
                 ("step_s: 0.01,", "step_s: 0.001,"),
                 ("drift_period_s: 0.05", "drift_period_s: 0.005"),
             ][..],
@@ -330,10 +269,7 @@ fn hours_are_a_warning_that_names_what_takes_them() {
         ),
         (
             "moth_eyes",
-            &[(
-                "map: Hmm()",
-                "map: Hmm(step_s: 0.02, grid: (along: 300, across: 300))",
-            )][..],
+            &[("map: Hmm()", "map: Hmm(step_s: 0.02, grid: (along: 300, across: 300))")][..],
             "robots[0].map",
         ),
     ] {
@@ -351,11 +287,7 @@ fn no_scenario_that_comes_with_the_program_is_too_much() {
         let (bytes, seconds) = (cost.bytes(), cost.seconds());
         assert!(cost.fits(5e8), "{}: {bytes} bytes", template.name);
         assert!(seconds < 3600.0, "{}: {seconds} s", template.name);
-        assert!(
-            cost.seconds() > 0.2 && cost.bytes() > 2e7,
-            "{}",
-            template.name
-        );
+        assert!(cost.seconds() > 0.2 && cost.bytes() > 2e7, "{}", template.name);
     }
 }
 

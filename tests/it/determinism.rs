@@ -16,38 +16,21 @@ fn short_duck(dir: &Path) -> std::path::PathBuf {
 
 fn digest_of(file: &Path, seed: u64, out: &Path, options: &[&str]) -> String {
     let seed = seed.to_string();
-    let mut args = vec![
-        "run",
-        file.to_str().unwrap(),
-        "--seed",
-        &seed,
-        "--quiet",
-        "--out",
-    ];
+    let mut args = vec!["run", file.to_str().unwrap(), "--seed", &seed, "--quiet", "--out"];
     args.push(out.to_str().unwrap());
     args.extend_from_slice(options);
     let end = common::rheotaxis(&args);
-    assert_eq!(
-        end.status.code(),
-        Some(3),
-        "{}",
-        String::from_utf8_lossy(&end.stderr)
-    );
+    assert_eq!(end.status.code(), Some(3), "{}", String::from_utf8_lossy(&end.stderr));
     let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
-    summary["digest"]
-        .as_str()
-        .expect("summary.json has a digest")
-        .to_string()
+    summary["digest"].as_str().expect("summary.json has a digest").to_string()
 }
 
 #[test]
 fn two_processes_with_and_without_zenoh_and_recording_agree() {
     let dir = tempfile::tempdir().unwrap();
     let file = short_duck(dir.path());
-    let run = |name: &str, seed: u64, options: &[&str]| {
-        digest_of(&file, seed, &dir.path().join(name), options)
-    };
+    let run = |name: &str, seed: u64, options: &[&str]| digest_of(&file, seed, &dir.path().join(name), options);
     let bare = run("bare", 5, &["--no-zenoh", "--no-record"]);
     assert_eq!(bare, run("again", 5, &["--no-zenoh", "--no-record"]));
     assert_eq!(bare, run("recorded", 5, &["--no-zenoh"]));
@@ -106,20 +89,12 @@ fn thread_count_does_not_matter() {
     let file = short_duck(dir.path());
     let loaded = scenario::load(&file).unwrap();
     let digests = |threads: usize| -> Vec<String> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
             use rayon::prelude::*;
             (0..4_u64)
                 .into_par_iter()
-                .map(|seed| {
-                    Trial::assemble(&loaded, seed)
-                        .unwrap()
-                        .finish_quietly()
-                        .digest
-                })
+                .map(|seed| Trial::assemble(&loaded, seed).unwrap().finish_quietly().digest)
                 .collect()
         })
     };

@@ -8,11 +8,7 @@ use studies::campaign;
 /// What `rheotaxis explain` prints, with whether it found something.
 fn explained(what: &str) -> (bool, String) {
     let end = rheotaxis(&["explain", what]);
-    let said = if end.status.success() {
-        end.stdout
-    } else {
-        end.stderr
-    };
+    let said = if end.status.success() { end.stdout } else { end.stderr };
     (end.status.success(), String::from_utf8(said).unwrap())
 }
 
@@ -57,23 +53,11 @@ fn campaigns_vehicles_and_tables_are_explained_as_a_scenario_is() {
         ("robots[0].strategy.reacquire", "Bowtie"),
         ("vehicle.hydrodynamics", "volume_m3"),
         ("campaign", "\n  arms[]: list of (…); must be given\n"),
-        (
-            "campaign.until.half_width",
-            "value    number, > 0 to < 0.5\n",
-        ),
-        (
-            "campaign.seeds",
-            "\n  number(whole number, 1 to 1.099511627776e12)\n",
-        ),
-        (
-            "campaign.seeds.Literal",
-            "\n  first: whole number, >= 0; must be given\n",
-        ),
+        ("campaign.until.half_width", "value    number, > 0 to < 0.5\n"),
+        ("campaign.seeds", "\n  number(whole number, 1 to 1.099511627776e12)\n"),
+        ("campaign.seeds.Literal", "\n  first: whole number, >= 0; must be given\n"),
         ("campaign.conditions", "default  Single\n"),
-        (
-            "campaign.conditions.draw",
-            "a path in the scenario and a distribution",
-        ),
+        ("campaign.conditions.draw", "a path in the scenario and a distribution"),
         ("track.csv", "\n  est_depth_m, m\n"),
         ("probes-crab0.csv", "\n  <probe>_threshold_v, V\n"),
         ("part-0001.parquet", "\n  traced_m, m\n"),
@@ -81,11 +65,9 @@ fn campaigns_vehicles_and_tables_are_explained_as_a_scenario_is() {
         let (found, text) = explained(path);
         assert!(found && text.contains(part), "no {part:?} in\n{text}");
     }
-    for (path, near) in [
-        ("robots.strategy.reaquire", "reacquire"),
-        ("campaign.armes", "campaign.arms[]"),
-        ("tracks.csv", "tracks.csv"),
-    ] {
+    for (path, near) in
+        [("robots.strategy.reaquire", "reacquire"), ("campaign.armes", "campaign.arms[]"), ("tracks.csv", "tracks.csv")]
+    {
         let (found, text) = explained(path);
         assert!(!found && text.contains(near), "no {near:?} in\n{text}");
     }

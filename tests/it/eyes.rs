@@ -4,8 +4,7 @@ use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::Picture;
 use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render,
-    turned,
+    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render, turned,
 };
 use robots::vision::place::{AddUpSpec, Answer, Place, Stand, Useless};
 use std::f64::consts::FRAC_PI_2;
@@ -49,12 +48,7 @@ struct Sea {
 }
 
 fn sea(visibility_m: f64, body: Option<[f64; 3]>, kg_s: f64) -> Sea {
-    Sea {
-        visibility_m,
-        light_klx: 60.0,
-        body,
-        dye: Dye { kg_s, from_m: 0.0 },
-    }
+    Sea { visibility_m, light_klx: 60.0, body, dye: Dye { kg_s, from_m: 0.0 } }
 }
 
 /// The source: dark, with 2 g of dye a minute.
@@ -66,14 +60,8 @@ impl Sea {
     /// Pictures from places (east, north, altitude), looking straight down with the nose to the east.
     fn pictures(&self, from: &[[f64; 3]], noise: u64) -> Vec<(Picture, Stand)> {
         let optics = Optics::new(&OpticsSpec {
-            clarity: ClaritySpec {
-                visibility_m: Positive::new(self.visibility_m),
-                ..ClaritySpec::default()
-            },
-            light: LightSpec {
-                illuminance_klux: Positive::new(self.light_klx),
-                ..LightSpec::default()
-            },
+            clarity: ClaritySpec { visibility_m: Positive::new(self.visibility_m), ..ClaritySpec::default() },
+            light: LightSpec { illuminance_klux: Positive::new(self.light_klx), ..LightSpec::default() },
             ..OpticsSpec::default()
         });
         let optics = optics.expect("legal");
@@ -87,20 +75,12 @@ impl Sea {
                 north_m: Finite::new(0.0),
                 base: Base::default(),
                 heading_deg: HeadingDeg::new(0.0),
-                surface: Surface {
-                    albedo: (r, g, b),
-                    ..Surface::default()
-                },
+                surface: Surface { albedo: (r, g, b), ..Surface::default() },
             };
             Obstacle::build(&spec, &BED, Path::new("")).expect("a body")
         });
         let obstacles = Obstacles(body.into_iter().collect());
-        let scene = Scene {
-            terrain: &BED,
-            obstacles: &obstacles,
-            dye: &self.dye,
-            optics: &optics,
-        };
+        let scene = Scene { terrain: &BED, obstacles: &obstacles, dye: &self.dye, optics: &optics };
         let camera = CameraModel::new(&CameraSpec {
             width: 48,
             height: 36,
@@ -111,11 +91,7 @@ impl Sea {
             let [east, north, altitude_m] = *at;
             let pose = looking(Vector3::new(east, north, altitude_m - 8.0), 0.0, FRAC_PI_2);
             let made = render(&camera, &pose, &scene, noise + n as u64);
-            let stand = Stand {
-                position: Vector2::new(east, north),
-                altitude_m,
-                R_WB: UnitQuaternion::identity(),
-            };
+            let stand = Stand { position: Vector2::new(east, north), altitude_m, R_WB: UnitQuaternion::identity() };
             (shown(made.image), stand)
         };
         from.iter().enumerate().map(one).collect()
@@ -123,19 +99,11 @@ impl Sea {
 }
 
 fn shown(image: RgbImage) -> Picture {
-    Picture {
-        image: Arc::new(image),
-        p_BC: Vector3::zeros(),
-        R_BC: turned(0.0, FRAC_PI_2),
-        view_rad: FRAC_PI_2,
-    }
+    Picture { image: Arc::new(image), p_BC: Vector3::zeros(), R_BC: turned(0.0, FRAC_PI_2), view_rad: FRAC_PI_2 }
 }
 
 fn place(within_m: f64) -> Place {
-    let spec = AddUpSpec {
-        within_m: Positive::new(within_m),
-        ..AddUpSpec::default()
-    };
+    let spec = AddUpSpec { within_m: Positive::new(within_m), ..AddUpSpec::default() };
     Place::new(&spec, Vector2::zeros(), Heading::from_deg(90.0))
 }
 
@@ -147,32 +115,19 @@ fn add(place: &mut Place, pictures: &[(Picture, Stand)]) {
 
 /// Stands along the flow, from -6 to 6 m, over a strip `north` of the place.
 fn line(north: f64, altitude_m: f64) -> Vec<[f64; 3]> {
-    (0..9)
-        .map(|k| [1.5 * f64::from(k) - 6.0, north, altitude_m])
-        .collect()
+    (0..9).map(|k| [1.5 * f64::from(k) - 6.0, north, altitude_m]).collect()
 }
 
 /// The beam attenuation that the renderer used comes back from its pictures of the bare bed within 30 %, from two
 /// heights as a survey in that water flies them.
 #[test]
 fn the_pictures_show_how_clear_the_water_is() {
-    for (visibility_m, heights) in [
-        (2.0, [2.0, 1.4]),
-        (3.0, [2.5, 1.4]),
-        (4.5, [2.5, 1.4]),
-        (6.0, [2.5, 2.0]),
-        (9.0, [2.5, 2.5]),
-    ] {
+    for (visibility_m, heights) in
+        [(2.0, [2.0, 1.4]), (3.0, [2.5, 1.4]), (4.5, [2.5, 1.4]), (6.0, [2.5, 2.0]), (9.0, [2.5, 2.5])]
+    {
         let bare = sea(visibility_m, None, 0.0);
-        let stands: Vec<[f64; 3]> = (0..8)
-            .map(|k| {
-                [
-                    7.0 * f64::from(k),
-                    3.0 * f64::from(k),
-                    heights[k as usize % 2],
-                ]
-            })
-            .collect();
+        let stands: Vec<[f64; 3]> =
+            (0..8).map(|k| [7.0 * f64::from(k), 3.0 * f64::from(k), heights[k as usize % 2]]).collect();
         let mut place = place(3.0);
         add(&mut place, &bare.pictures(&stands, 1));
         let seen_m = place.clarity().expect("pictures").visibility_m();
@@ -196,13 +151,7 @@ fn all_pictures_of_a_line_verify_a_source_and_find_its_place() {
 fn what_is_no_source_is_rejected_or_left_open() {
     let dark = Some([0.08, 0.08, 0.07]);
     let red = Some([0.5, 0.08, 0.08]);
-    let passing = Sea {
-        dye: Dye {
-            kg_s: 3.3e-5,
-            from_m: -20.0,
-        },
-        ..sea(8.0, dark, 0.0)
-    };
+    let passing = Sea { dye: Dye { kg_s: 3.3e-5, from_m: -20.0 }, ..sea(8.0, dark, 0.0) };
     for (what, there) in [
         ("bed", sea(8.0, None, 0.0)),
         ("rock", sea(8.0, dark, 0.0)),
@@ -211,53 +160,30 @@ fn what_is_no_source_is_rejected_or_left_open() {
     ] {
         let mut place = place(2.0);
         for (n, north) in [0.0, 1.5, -1.5].into_iter().enumerate() {
-            add(
-                &mut place,
-                &there.pictures(&line(north, 2.5), 10 * n as u64),
-            );
+            add(&mut place, &there.pictures(&line(north, 2.5), 10 * n as u64));
         }
         let said = place.weigh();
         // Dye that passes by as a wide band is partly taken for background: it may stay open.
-        let may = if what == "rock in passing dye" {
-            [Answer::Rejected, Answer::CannotTell]
-        } else {
-            [Answer::Rejected; 2]
-        };
-        assert!(
-            may.contains(&said.answer) && said.log_factor < 0.0,
-            "{what}: {:.1}",
-            said.log_factor
-        );
+        let may =
+            if what == "rock in passing dye" { [Answer::Rejected, Answer::CannotTell] } else { [Answer::Rejected; 2] };
+        assert!(may.contains(&said.answer) && said.log_factor < 0.0, "{what}: {:.1}", said.log_factor);
     }
     let mut murky = place(2.0);
     add(&mut murky, &source(1.2).pictures(&line(0.0, 2.5), 1));
     let said = murky.weigh();
     assert_eq!(said.answer, Answer::CannotTell, "{:.1}", said.log_factor);
     let mut elsewhere = place(3.0);
-    add(
-        &mut elsewhere,
-        &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1),
-    );
+    add(&mut elsewhere, &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1));
     let said = elsewhere.weigh();
-    assert_eq!(
-        said.answer,
-        Answer::CannotTell,
-        "most of it was not seen: {:.1}",
-        said.log_factor
-    );
+    assert_eq!(said.answer, Answer::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
 }
 
 /// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no more
 /// than once.
 #[test]
 fn evidence_adds_up_over_pictures_and_not_over_copies() {
-    let dusk = Sea {
-        light_klx: 1.0,
-        ..source(8.0)
-    };
-    let passes: Vec<_> = (1..5)
-        .map(|k| dusk.pictures(&line(0.0, 2.0), 100 * k))
-        .collect();
+    let dusk = Sea { light_klx: 1.0, ..source(8.0) };
+    let passes: Vec<_> = (1..5).map(|k| dusk.pictures(&line(0.0, 2.0), 100 * k)).collect();
     let mut place = place(2.0);
     add(&mut place, &passes[0]);
     let once = place.weigh();
@@ -267,21 +193,12 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
         add(&mut copied, &passes[0]);
     }
     let copied = copied.weigh().log_factor;
-    assert!(
-        copied <= once.log_factor + 0.5,
-        "{copied} {}",
-        once.log_factor
-    );
+    assert!(copied <= once.log_factor + 0.5, "{copied} {}", once.log_factor);
     for pass in &passes[1..] {
         add(&mut place, pass);
     }
     let all = place.weigh();
-    assert!(
-        all.log_factor > once.log_factor + 1.0,
-        "{} {}",
-        all.log_factor,
-        once.log_factor
-    );
+    assert!(all.log_factor > once.log_factor + 1.0, "{} {}", all.log_factor, once.log_factor);
     assert_eq!(all.answer, Answer::Verified, "{:.1}", all.log_factor);
 }
 
@@ -300,11 +217,7 @@ fn overlap_takes_out_an_error_of_the_navigation() {
 
 #[test]
 fn pictures_of_nothing_leave_it_open() {
-    let stand = Stand {
-        position: Vector2::zeros(),
-        altitude_m: 2.0,
-        R_WB: UnitQuaternion::identity(),
-    };
+    let stand = Stand { position: Vector2::zeros(), altitude_m: 2.0, R_WB: UnitQuaternion::identity() };
     let mut place = place(2.0);
     assert_eq!(place.weigh().answer, Answer::CannotTell);
     let plain = |w, h, level: u8| shown(RgbImage::from_pixel(w, h, Rgb([level; 3])));
@@ -318,18 +231,10 @@ fn pictures_of_nothing_leave_it_open() {
         assert_eq!(place.add(&picture, &stand), Err(why));
     }
     // On the bed, or looking at the surface, it sees none of the ground.
-    let (picture, _) = sea(8.0, None, 0.0)
-        .pictures(&[[0.0, 0.0, 2.0]], 1)
-        .remove(0);
-    let low = Stand {
-        altitude_m: 0.0,
-        ..stand
-    };
+    let (picture, _) = sea(8.0, None, 0.0).pictures(&[[0.0, 0.0, 2.0]], 1).remove(0);
+    let low = Stand { altitude_m: 0.0, ..stand };
     assert_eq!(place.add(&picture, &low), Err(Useless::Empty));
-    let up = Stand {
-        R_WB: UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0),
-        ..stand
-    };
+    let up = Stand { R_WB: UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0), ..stand };
     assert_eq!(place.add(&picture, &up), Err(Useless::Empty));
     assert_eq!(place.pictures(), [0, 7]);
     let said = place.weigh();

@@ -15,10 +15,7 @@ fn with(name: &str, faults: &str, changes: &[(&str, &str)]) -> String {
     let text = template(name).unwrap().text.to_string();
     let estimator = "estimator: DeadReckoning(),";
     let faulty = format!("{estimator}\n            faults: [{faults}],");
-    let changes = changes
-        .iter()
-        .copied()
-        .chain([(estimator, faulty.as_str())]);
+    let changes = changes.iter().copied().chain([(estimator, faulty.as_str())]);
     changes.fold(text, |text, (from, to)| {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text.replace(from, to)
@@ -63,10 +60,7 @@ fn after(states: &[(f64, RobotFrame)], t_s: f64, so: impl Fn(&RobotFrame) -> boo
 #[test]
 fn a_fault_changes_nothing_before_its_time() {
     let none = template("uniform_channel").unwrap().text;
-    let none = none.replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 60, limit_s: 30",
-    );
+    let none = none.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 30");
     let (well, healthy) = flown(&loaded(&none));
     assert_eq!(flown(&channel("", 30.0)).0, well, "an empty list");
     for what in [
@@ -97,10 +91,7 @@ fn a_fault_changes_nothing_before_its_time() {
 
 #[test]
 fn a_vehicle_with_a_stuck_rudder_goes_round_in_circles() {
-    for how in [
-        "Rudder(StuckAt(10))",
-        "Drive(link: \"rudder\", how: StuckAt(10))",
-    ] {
+    for how in ["Rudder(StuckAt(10))", "Drive(link: \"rudder\", how: StuckAt(10))"] {
         let (_, states) = flown(&channel(&format!("(at_s: 10, what: {how})"), 160.0));
         let angle = 10_f64.to_radians();
         let is_stuck = |r: &RobotFrame| match r.actuators {
@@ -115,9 +106,7 @@ fn a_vehicle_with_a_stuck_rudder_goes_round_in_circles() {
         assert!(turned > 2.0 * std::f64::consts::TAU, "{turned} rad");
         // The circles drift with the water, 0.2 m/s, and are narrower than 60 m.
         let at = |n: usize| states[n].1.truth.pose.p_WB.xy();
-        let far = (150..states.len())
-            .map(|n| (at(n) - at(150)).norm())
-            .fold(0.0, f64::max);
+        let far = (150..states.len()).map(|n| (at(n) - at(150)).norm()).fold(0.0, f64::max);
         assert!(far < 60.0 + 0.2 * 150.0, "{far} m");
     }
 }
@@ -144,11 +133,7 @@ fn a_rudder_that_sticks_stays_and_comes_free() {
 #[test]
 fn a_vehicle_with_a_dead_propeller_drifts_with_the_water() {
     let current = "water: (currents: [Uniform(speed_m_s: 0.3, heading_deg: 90)]),";
-    let text = with(
-        "remus_turning_circle",
-        "(at_s: 20, what: Propeller(Dead))",
-        &[("water: (),", current)],
-    );
+    let text = with("remus_turning_circle", "(at_s: 20, what: Propeller(Dead))", &[("water: (),", current)]);
     let (_, states) = flown(&loaded(&text));
     assert!(states.iter().any(|(_, r)| r.truth.v_world().norm() > 1.5));
     let drifts = |r: &RobotFrame| {
@@ -180,10 +165,7 @@ fn fixes_that_lie_move_the_estimate() {
     // Fixes are good to 1 m; between them the estimate drifts by some metres.
     let [before, jumped] = off("");
     assert!(before.norm() < 8.0, "{before}");
-    assert!(
-        (jumped - nalgebra::Vector2::new(30.0, -20.0)).norm() < 8.0,
-        "{jumped}"
-    );
+    assert!((jumped - nalgebra::Vector2::new(30.0, -20.0)).norm() < 8.0, "{jumped}");
     let [same, grown] = off(", over_s: 2000");
     assert_eq!(same, before);
     assert!(grown.norm() < 12.0, "{grown}");
@@ -221,12 +203,8 @@ fn a_mission_survives_every_fault() {
 #[test]
 fn faults_are_told() {
     let dir = tempfile::tempdir().unwrap();
-    let faults =
-        "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
-    let short = (
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 60, limit_s: 8",
-    );
+    let faults = "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
+    let short = ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 8");
     let text = with("uniform_channel", faults, &[short]);
     std::fs::write(dir.path().join("odd.ron"), text).unwrap();
     let end = common::rheotaxis_in(dir.path(), &common::ODD);
@@ -234,10 +212,9 @@ fn faults_are_told() {
     let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
     let events = summary["abnormal"].as_array().unwrap();
     let of = |n: usize, field: &str| events[n][field].clone();
-    for (n, words, t_s, lasted_s, over) in [
-        (0, "compass off by 5 degrees", 3.0, 2.0, true),
-        (1, "propeller dead", 4.0, 3.98, false),
-    ] {
+    for (n, words, t_s, lasted_s, over) in
+        [(0, "compass off by 5 degrees", 3.0, 2.0, true), (1, "propeller dead", 4.0, 3.98, false)]
+    {
         assert_eq!(of(n, "robot"), "auv0");
         assert_eq!(of(n, "what"), "fault");
         assert_eq!(of(n, "fault"), words);
@@ -261,8 +238,7 @@ fn faults_are_told() {
 /// What is published says which faults hold now.
 #[test]
 fn faults_are_published_while_they_hold() {
-    let faults =
-        "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
+    let faults = "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
     let mut trial = Trial::assemble(&channel(faults, 10.0), 3).unwrap();
     let mut said = Vec::new();
     for t_s in [2.5, 3.5, 4.5, 5.5] {
@@ -270,36 +246,17 @@ fn faults_are_published_while_they_hold() {
         let all = rheotaxis::registry::messages(trial.frame().unwrap());
         let (_, doing) = all.iter().find(|(k, _)| k == "auv/auv0/behaviour").unwrap();
         let wrong = doing["abnormal"].as_array().cloned().unwrap_or_default();
-        said.push(
-            wrong
-                .iter()
-                .map(|w| w.as_str().unwrap().to_string())
-                .collect::<Vec<_>>(),
-        );
+        said.push(wrong.iter().map(|w| w.as_str().unwrap().to_string()).collect::<Vec<_>>());
     }
     let (compass, propeller) = ("fault: compass off by 5 degrees", "fault: propeller dead");
-    assert_eq!(
-        said,
-        [
-            vec![],
-            vec![compass],
-            vec![compass, propeller],
-            vec![propeller]
-        ]
-    );
+    assert_eq!(said, [vec![], vec![compass], vec![compass, propeller], vec![propeller]]);
 }
 
 /// The example of the documents is a scenario.
 #[test]
 fn the_example_in_docs_is_legal() {
     let text = std::fs::read_to_string(common::root().join("docs/faults.md")).unwrap();
-    let example = text
-        .split("```ron\n")
-        .nth(1)
-        .unwrap()
-        .split("```")
-        .next()
-        .unwrap();
+    let example = text.split("```ron\n").nth(1).unwrap().split("```").next().unwrap();
     let faults = example.trim().strip_prefix("faults: [").unwrap();
     let faults = faults.strip_suffix("],").unwrap();
     let loaded = channel(faults, 2000.0);

@@ -34,14 +34,9 @@ fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
     let ros2 = ["--ros2", "--zenoh-listen", "tcp/127.0.0.1:0"];
     assert_eq!(bare, run("ros2", &ros2));
     let out = dir.path().join("live");
-    for name in [
-        "run.mcap",
-        "flume-crab0.svg",
-        "flume-crab0.png",
-        "probes-crab0.svg",
-        "probes-crab0.png",
-        "report.html",
-    ] {
+    for name in
+        ["run.mcap", "flume-crab0.svg", "flume-crab0.png", "probes-crab0.svg", "probes-crab0.png", "report.html"]
+    {
         assert!(out.join(name).exists(), "{name}");
     }
     assert!(!out.join("map.svg").exists());
@@ -50,11 +45,7 @@ fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
     let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let column = |name: &str| header.iter().position(|h| *h == name).unwrap();
     let (t, v) = (column("t_s"), column("probe_left_v"));
-    let rows: Vec<Vec<&str>> = table
-        .lines()
-        .skip(1)
-        .map(|l| l.split(',').collect())
-        .collect();
+    let rows: Vec<Vec<&str>> = table.lines().skip(1).map(|l| l.split(',').collect()).collect();
     // Twenty scans a second for six seconds.
     assert_eq!(rows.len(), 120);
     assert!(rows.iter().all(|r| r.len() == header.len()));
@@ -82,14 +73,7 @@ fn a_users_urdf_says_where_the_probes_are() {
     // The place of the left probe, from the head, in the first row of the table.
     let place = || {
         let out = dir.path().join("out");
-        let run = [
-            "run",
-            file.to_str().unwrap(),
-            "--quiet",
-            "--no-zenoh",
-            "--no-record",
-            "--out",
-        ];
+        let run = ["run", file.to_str().unwrap(), "--quiet", "--no-zenoh", "--no-record", "--out"];
         common::rheotaxis(&[&run[..], &[out.to_str().unwrap()]].concat());
         let table = std::fs::read_to_string(out.join("probes-crab0.csv")).unwrap();
         let mut lines = table.lines().map(|l| l.split(',').collect::<Vec<_>>());
@@ -98,8 +82,7 @@ fn a_users_urdf_says_where_the_probes_are() {
             let k = header.iter().position(|h| *h == name).unwrap();
             row[k].parse().unwrap()
         };
-        ["east_m", "north_m", "up_m"]
-            .map(|axis| value(format!("probe_left_{axis}")) - value(format!("head_{axis}")))
+        ["east_m", "north_m", "up_m"].map(|axis| value(format!("probe_left_{axis}")) - value(format!("head_{axis}")))
     };
     let before = place();
     // Forward is up-stream, west in this flume; left is south.
@@ -108,18 +91,12 @@ fn a_users_urdf_says_where_the_probes_are() {
     std::fs::write(&urdf, &moved).unwrap();
     let after = place();
     for (k, by) in [-0.02, -0.02, 0.01].into_iter().enumerate() {
-        assert!(
-            (after[k] - before[k] - by).abs() < 3e-4,
-            "{before:?} {after:?}"
-        );
+        assert!((after[k] - before[k] - by).abs() < 3e-4, "{before:?} {after:?}");
     }
     std::fs::write(&urdf, moved.replace("name=\"probe_left\"", "name=\"left\"")).unwrap();
     let end = common::rheotaxis(&["check", file.to_str().unwrap()]);
     let said = String::from_utf8_lossy(&end.stderr);
-    assert!(
-        end.status.code() == Some(1) && said.contains("crab_gantry.urdf"),
-        "{said}"
-    );
+    assert!(end.status.code() == Some(1) && said.contains("crab_gantry.urdf"), "{said}");
     assert!(said.contains("probe_left"), "{said}");
 }
 
@@ -128,11 +105,7 @@ fn list_explains_the_tracker_and_the_gantry() {
     let algorithms = common::rheotaxis(&["list", "algorithms"]).stdout;
     let algorithms = String::from_utf8(algorithms).unwrap();
     let searchers = Registry::default().entries::<robots::track::GantryStrategies>();
-    for unit in robots::track::UNITS
-        .iter()
-        .chain(robots::track::READINGS)
-        .chain(&searchers)
-    {
+    for unit in robots::track::UNITS.iter().chain(robots::track::READINGS).chain(&searchers) {
         assert!(algorithms.contains(unit.what), "{}", unit.name);
         assert!(algorithms.contains(unit.source), "{}", unit.name);
     }

@@ -17,50 +17,14 @@ const EARLY_S: f64 = 5.0;
 /// Scenario, seed, most seconds of spin-up and of the mission, and what the run is there for.
 const RUNS: [(&str, u64, f64, f64, &str); 18] = [
     ("remus_zigzag", 1, 0.0, 1e4, "hull, open loop"),
-    (
-        "uniform_channel",
-        1,
-        300.0,
-        60.0,
-        "the adaptive mission planner",
-    ),
+    ("uniform_channel", 1, 300.0, 60.0, "the adaptive mission planner"),
     ("uniform_channel", 2, 300.0, 60.0, "another seed"),
-    (
-        "flume_crab_paper",
-        1,
-        1e4,
-        40.0,
-        "gantry, probes, the crab as printed",
-    ),
+    ("flume_crab_paper", 1, 1e4, 40.0, "gantry, probes, the crab as printed"),
     ("flume_crab", 1, 1e4, 40.0, "the crab's adaptive units"),
-    (
-        "wp_laminar",
-        1,
-        300.0,
-        1e4,
-        "source map, A*, a rule on the map",
-    ),
-    (
-        "wp_dead_end",
-        1,
-        30.0,
-        60.0,
-        "ranging, replanning, potential field",
-    ),
-    (
-        "four_maps",
-        1,
-        60.0,
-        120.0,
-        "POMDP, Bayesian, HMM, particles",
-    ),
-    (
-        "moth_plus",
-        1,
-        120.0,
-        120.0,
-        "subsumption, CTD, layers of water",
-    ),
+    ("wp_laminar", 1, 300.0, 1e4, "source map, A*, a rule on the map"),
+    ("wp_dead_end", 1, 30.0, 60.0, "ranging, replanning, potential field"),
+    ("four_maps", 1, 60.0, 120.0, "POMDP, Bayesian, HMM, particles"),
+    ("moth_plus", 1, 120.0, 120.0, "subsumption, CTD, layers of water"),
     ("duck_mt", 1, 120.0, 60.0, "subregions"),
     ("dalian_bay", 1, 60.0, 60.0, "tide, waves"),
     ("block_in_channel", 1, 60.0, 30.0, "water round obstacles"),
@@ -69,13 +33,7 @@ const RUNS: [(&str, u64, f64, f64, &str); 18] = [
     ("lauv_bay", 1, 300.0, 60.0, "a hull of a folder, fins mixed"),
     ("bluerov_harbour", 1, 60.0, 60.0, "hovering, allocation"),
     ("surface_lake", 1, 60.0, 60.0, "a floating hull"),
-    (
-        "glider_shelf",
-        1,
-        60.0,
-        300.0,
-        "buoyancy engine, moving mass",
-    ),
+    ("glider_shelf", 1, 60.0, 300.0, "buoyancy engine, moving mass"),
 ];
 
 fn line(name: &str, seed: u64, spin_up_s: f64, limit_s: f64) -> String {
@@ -142,8 +100,7 @@ fn parts(trial: &Trial) -> String {
             }),
         ),
     ];
-    all.map(|(name, digest)| format!("{name}:{}", &digest.hex()[..8]))
-        .join(" ")
+    all.map(|(name, digest)| format!("{name}:{}", &digest.hex()[..8])).join(" ")
 }
 
 fn of(frame: &Frame, write: impl Fn(&Frame, &mut Digest)) -> Digest {
@@ -162,10 +119,6 @@ fn runs_still_go_through_the_same_states() {
             changed.push(format!("{what}:\n{now}"));
         }
     }
-    assert!(
-        changed.is_empty(),
-        "not as in tests/golden/digests.txt:\n{}",
-        changed.concat()
-    );
+    assert!(changed.is_empty(), "not as in tests/golden/digests.txt:\n{}", changed.concat());
     assert_eq!(golden.len(), RUNS.len());
 }

@@ -18,15 +18,7 @@ fn has_lines(run: &mut Process, out: &Path, n: usize) {
 fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
-    let args = [
-        "run",
-        "uniform_channel",
-        "--speed",
-        "2",
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-    ];
+    let args = ["run", "uniform_channel", "--speed", "2", "--no-zenoh", "--quiet", "--out"];
     let mut command = common::command(dir.path(), &args);
     let mut run = Process::start(command.arg(&out).stderr(Stdio::null()));
     has_lines(&mut run, &out, 20);
@@ -40,18 +32,10 @@ fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
 
     assert!(!out.join("run.mcap.tmp").exists());
     let recorded = std::fs::read(out.join("run.mcap")).unwrap();
-    let parts = mcap::Summary::read(&recorded)
-        .unwrap()
-        .expect("a whole file has a summary");
+    let parts = mcap::Summary::read(&recorded).unwrap().expect("a whole file has a summary");
     let messages = parts.stats.expect("and counts").message_count;
-    let read = mcap::MessageStream::new(&recorded)
-        .unwrap()
-        .map(Result::unwrap)
-        .count();
-    assert!(
-        messages > 100 && read as u64 == messages,
-        "{read} of {messages}"
-    );
+    let read = mcap::MessageStream::new(&recorded).unwrap().map(Result::unwrap).count();
+    assert!(messages > 100 && read as u64 == messages, "{read} of {messages}");
 }
 
 /// Waits until a process listens to Ctrl-C, sends it until the process has ended, and says with which code.
@@ -83,21 +67,8 @@ fn a_second_ctrl_c_ends_a_run_at_once() {
 #[test]
 fn long_commands_end_at_ctrl_c() {
     for args in [
-        &[
-            "statistics",
-            "uniform_channel",
-            "--seconds",
-            "1e6",
-            "--quiet",
-        ][..],
-        &[
-            "score-vision",
-            "--scenes",
-            "100000",
-            "--quiet",
-            "--out",
-            "scores",
-        ],
+        &["statistics", "uniform_channel", "--seconds", "1e6", "--quiet"][..],
+        &["score-vision", "--scenes", "100000", "--quiet", "--out", "scores"],
         &["reproduce", "duck_st", "--quiet", "--out", "rows"],
     ] {
         let dir = tempfile::tempdir().unwrap();
@@ -136,15 +107,7 @@ fn ctrl_c_ends_a_run_that_waits_for_its_pace() {
         let text = include_str!("../../scenarios/catalog/uniform_channel.ron");
         let text = common::with_fields(text, &[("spin_up_s", "5")]);
         std::fs::write(dir.path().join("s.ron"), text).unwrap();
-        let args = [
-            "run",
-            "s.ron",
-            "--no-zenoh",
-            "--quiet",
-            "--out",
-            "out",
-            "--speed",
-        ];
+        let args = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out", "--speed"];
         let mut command = common::command(dir.path(), &args);
         let mut run = Process::start(command.arg(speed).stderr(Stdio::null()));
         has_lines(&mut run, &out, 2);

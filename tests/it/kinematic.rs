@@ -29,14 +29,11 @@ fn text_with(text: &str, vehicle: &str, changes: &[(&str, &str)]) -> Loaded {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text = text.replace(from, to);
     }
-    load_text(&Registry::default(), "kinematic", &text)
-        .unwrap_or_else(|e| panic!("{:?}", e.lines()))
+    load_text(&Registry::default(), "kinematic", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()))
 }
 
 fn run(loaded: &Loaded, seed: u64) -> Ended {
-    Trial::assemble(loaded, seed)
-        .expect("a run")
-        .finish_quietly()
+    Trial::assemble(loaded, seed).expect("a run").finish_quietly()
 }
 
 #[test]
@@ -75,10 +72,7 @@ fn a_table_drives_it_too() {
         (robot.truth.w_WB_B.z.to_degrees(), robot.truth.v_WB_B.x)
     };
     let (rate, speed) = turning(&trial);
-    assert!(
-        (rate + 20.0 / 3.0).abs() < 1e-9 && (speed - 2.0).abs() < 1e-12,
-        "{rate} {speed}"
-    );
+    assert!((rate + 20.0 / 3.0).abs() < 1e-9 && (speed - 2.0).abs() < 1e-12, "{rate} {speed}");
     trial.run(&mut Unwatched);
     assert_eq!(trial.ended().outcome, RunOutcome::Completed);
 }
@@ -87,19 +81,11 @@ fn a_table_drives_it_too() {
 #[test]
 fn its_first_readings_are_those_of_a_remus() {
     let first = |vehicle: &str| {
-        let loaded = with(
-            "uniform_channel",
-            vehicle,
-            &[("spin_up_s: 2000", "spin_up_s: 50")],
-        );
+        let loaded = with("uniform_channel", vehicle, &[("spin_up_s: 2000", "spin_up_s: 50")]);
         let mut trial = Trial::assemble(&loaded, 3).expect("a run");
         assert!(trial.step());
         let world = &mut trial.simulation.world;
-        world
-            .query::<&Readings>()
-            .single(world)
-            .expect("a robot")
-            .clone()
+        world.query::<&Readings>().single(world).expect("a robot").clone()
     };
     let remus = first("Remus100()");
     assert!(remus.dvl.is_some() && remus.attitude.is_some() && remus.chemical.is_some());
@@ -111,19 +97,14 @@ fn its_first_readings_are_those_of_a_remus() {
 /// Alone, in lanes beside a REMUS, and with the plume on two threads: the same bits.
 #[test]
 fn its_digest_does_not_depend_on_lanes_and_threads() {
-    let cut = [
-        ("spin_up_s: 2000", "spin_up_s: 100"),
-        ("limit_s: 1800", "limit_s: 60"),
-    ];
+    let cut = [("spin_up_s: 2000", "spin_up_s: 100"), ("limit_s: 1800", "limit_s: 60")];
     let all = [WATER, "Remus100()", GROUND].map(|v| with("uniform_channel", v, &cut));
     let alone = all.each_ref().map(|loaded| run(loaded, 5).digest);
     assert!(alone[0] != alone[1] && alone[0] != alone[2]);
     for threads in [1, 2] {
         let mut lanes = Lanes::default().with_threads(threads);
         for loaded in &all {
-            lanes
-                .add(loaded, 5, || Ok::<_, LaneError>(Unwatched))
-                .expect("one ocean");
+            lanes.add(loaded, 5, || Ok::<_, LaneError>(Unwatched)).expect("one ocean");
         }
         let mut together = Vec::new();
         lanes.run(|_, run| together.push(run.expect("no fault").ended().digest));

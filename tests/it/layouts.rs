@@ -27,9 +27,7 @@ fn text(value: &Value) -> String {
 fn placed(tree: &Value, into: &mut BTreeSet<String>) {
     match tree {
         Value::String(name) => drop(into.insert(name.clone())),
-        other => ["first", "second"]
-            .iter()
-            .for_each(|side| placed(&other[side], into)),
+        other => ["first", "second"].iter().for_each(|side| placed(&other[side], into)),
     }
 }
 
@@ -63,8 +61,7 @@ fn named(layout: &Value) -> Named {
                 let paths = panel["paths"].as_array().expect("paths");
                 // A number is a line at that height.
                 let paths = paths.iter().map(|p| text(&p["value"]));
-                all.paths
-                    .extend(paths.filter(|p| p.parse::<f64>().is_err()));
+                all.paths.extend(paths.filter(|p| p.parse::<f64>().is_err()));
             }
             "RosOut" => drop(all.topics.insert((text(&panel["topicToRender"]), None))),
             "Image" => {
@@ -84,8 +81,7 @@ fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
     let scenario = with_fields(&read(&format!("scenarios/catalog/{scenario}.ron")), fields);
     mission(dir.path(), "s", &scenario);
     let recording = Recording::read(&dir.path().join("s/run.mcap"));
-    let layout: Value =
-        serde_json::from_str(&read(&format!("docs/layouts/{layout}"))).expect("JSON");
+    let layout: Value = serde_json::from_str(&read(&format!("docs/layouts/{layout}"))).expect("JSON");
     let named = named(&layout);
     assert!(named.topics.len() > 4 && named.paths.len() > 4, "{named:?}");
     for (topic, field) in &named.topics {
@@ -93,10 +89,7 @@ fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
         assert!(clouds > 0, "{topic} is not in {:#?}", recording.topics());
         if let Some(field) = field {
             let fields = recording.cloud_fields(topic);
-            assert!(
-                fields.contains(field),
-                "{topic} has {fields:?}, not {field}"
-            );
+            assert!(fields.contains(field), "{topic} has {fields:?}, not {field}");
         }
     }
     for path in &named.paths {

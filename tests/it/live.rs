@@ -15,8 +15,8 @@ mod setup;
 use crate::waits::until;
 use image::Rgb;
 use kit::{
-    broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume,
-    scene_document, sent, start, water,
+    broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume, scene_document, sent,
+    start, water,
 };
 use output::live::{Live, LiveOptions, Payload, topics};
 use readings::{picture, ping};
@@ -44,10 +44,7 @@ fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
     assert_eq!(json(&seen["gantry/crab0/behaviour"])["found"], true);
     assert_eq!(json(&seen["meta/digest"]), json!({"digest": "d1"}));
     let clock = json(&seen["clock"]);
-    assert_eq!(
-        (clock["step"].as_u64(), &clock["ended"]),
-        (Some(last_step), &json!(true))
-    );
+    assert_eq!((clock["step"].as_u64(), &clock["ended"]), (Some(last_step), &json!(true)));
 }
 
 /// A topic's key for the vehicle or the gantry of the run.
@@ -60,31 +57,17 @@ fn key_of(key: &str) -> String {
 
 #[test]
 fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
-    let port = TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port();
+    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let endpoint = format!("tcp/127.0.0.1:{port}");
     let config = format!(
         r#"{{ mode: "peer", listen: {{ endpoints: [] }}, scouting: {{ multicast: {{ enabled: false }} }},
              connect: {{ endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
     );
-    let session = zenoh::open(Config::from_json5(&config).unwrap())
-        .wait()
-        .unwrap();
+    let session = zenoh::open(Config::from_json5(&config).unwrap()).wait().unwrap();
     let samples = listen(&session, "before_1");
-    let alive = session
-        .liveliness()
-        .declare_subscriber("rheotaxis/*/@live/sim")
-        .history(true)
-        .wait()
-        .unwrap();
+    let alive = session.liveliness().declare_subscriber("rheotaxis/*/@live/sim").history(true).wait().unwrap();
 
-    let options = LiveOptions {
-        listen: Some(endpoint),
-        ..options("before_1")
-    };
+    let options = LiveOptions { listen: Some(endpoint), ..options("before_1") };
     let live = Live::start(&options, meta()).unwrap();
     let token = next(&alive);
     assert_eq!(token.key_expr().as_str(), "rheotaxis/before_1/@live/sim");
@@ -114,15 +97,8 @@ fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
         let seen = kept(&session, "during_1");
         seen.contains_key("clock").then_some(seen)
     });
-    assert_eq!(
-        json(&seen["clock"])["step"],
-        1,
-        "the state at hand is told at once"
-    );
-    assert!(
-        !seen.contains_key("meta/digest"),
-        "no digest before the end"
-    );
+    assert_eq!(json(&seen["clock"])["step"], 1, "the state at hand is told at once");
+    assert!(!seen.contains_key("meta/digest"), "no digest before the end");
 
     live.publish(&frame(2));
     live.finish("d1");
@@ -144,12 +120,7 @@ fn a_subscriber_started_after_the_end_sees_schema_state_and_end_until_the_run_cl
     let seen = kept_at_the_end(&session, "after_1");
     assert_whole(&seen, 9);
 
-    let alive = session
-        .liveliness()
-        .declare_subscriber("rheotaxis/after_1/@live/sim")
-        .history(true)
-        .wait()
-        .unwrap();
+    let alive = session.liveliness().declare_subscriber("rheotaxis/after_1/@live/sim").history(true).wait().unwrap();
     assert_eq!(next(&alive).kind(), SampleKind::Put);
     drop(live);
     assert_eq!(next(&alive).kind(), SampleKind::Delete);
@@ -172,14 +143,8 @@ fn zenoh_s_own_advanced_subscriber_finds_the_cached_meta() {
         let sample = next(&samples);
         seen.insert(sample.key_expr().as_str().to_owned(), json(&sample));
     }
-    assert_eq!(
-        seen["rheotaxis/advanced_1/meta/digest"],
-        json!({"digest": "d1"})
-    );
-    assert_eq!(
-        seen["rheotaxis/advanced_1/meta/version"]["version"],
-        "0.1.0"
-    );
+    assert_eq!(seen["rheotaxis/advanced_1/meta/digest"], json!({"digest": "d1"}));
+    assert_eq!(seen["rheotaxis/advanced_1/meta/version"]["version"], "0.1.0");
     assert_eq!(seen["rheotaxis/advanced_1/meta/scenario"]["seed"], 7);
     drop(samples);
     drop(live);
@@ -191,22 +156,14 @@ fn a_run_that_breaks_off_never_says_that_it_ended() {
     let live = start("broken_1");
     let session = client(live.endpoint());
     let samples = listen(&session, "broken_1");
-    let alive = session
-        .liveliness()
-        .declare_subscriber("rheotaxis/broken_1/@live/sim")
-        .history(true)
-        .wait()
-        .unwrap();
+    let alive = session.liveliness().declare_subscriber("rheotaxis/broken_1/@live/sim").history(true).wait().unwrap();
     assert_eq!(next(&alive).kind(), SampleKind::Put);
     live.publish(&frame(1));
     sent(&live);
     drop(live);
     assert_eq!(next(&alive).kind(), SampleKind::Delete);
-    let clocks: Vec<Value> = samples
-        .drain()
-        .filter(|s| s.key_expr().as_str().ends_with("/clock"))
-        .map(|s| json(&s))
-        .collect();
+    let clocks: Vec<Value> =
+        samples.drain().filter(|s| s.key_expr().as_str().ends_with("/clock")).map(|s| json(&s)).collect();
     assert!(!clocks.is_empty());
     assert!(clocks.iter().all(|c| c["ended"] == false), "{clocks:?}");
     session.close().wait().unwrap();
@@ -226,9 +183,7 @@ fn every_message_keeps_its_published_schema() {
     for topic in topics() {
         let schema = json(&seen[&format!("meta/schema/{}", topic.name)]);
         let key = key_of(topic.key).replace("<name>", "clock");
-        let sample = seen
-            .get(&key)
-            .unwrap_or_else(|| panic!("{key} is not published"));
+        let sample = seen.get(&key).unwrap_or_else(|| panic!("{key} is not published"));
         let value = match topic.payload {
             Payload::Json | Payload::Schema => json(sample),
             Payload::PackedF32 | Payload::Jpeg => {
@@ -299,16 +254,7 @@ fn a_gantry_in_its_flume_keeps_the_schemas() {
     assert_eq!(doing["behaviour"], "sweep");
     let joints = json(&seen["gantry/crab0/joints"]);
     let head = joints["head_m"][0].as_f64().unwrap();
-    assert!(
-        (head - 1.14).abs() < 0.01,
-        "it starts 114 cm down-stream: {head}"
-    );
-    assert_eq!(
-        json(&seen["gantry/crab0/probes"])["volts"]
-            .as_array()
-            .unwrap()
-            .len(),
-        3
-    );
+    assert!((head - 1.14).abs() < 0.01, "it starts 114 cm down-stream: {head}");
+    assert_eq!(json(&seen["gantry/crab0/probes"])["volts"].as_array().unwrap().len(), 3);
     session.close().wait().unwrap();
 }

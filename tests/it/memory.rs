@@ -18,18 +18,9 @@ const MOST_MB: f64 = 300.0;
 fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
     let mut text = include_str!("../../scenarios/catalog/duck_st.ron").to_string();
     for (from, to) in [
-        (
-            "release: (rate_hz: 5,",
-            format!("release: (rate_hz: {rate_hz},"),
-        ),
-        (
-            "points: 3, within_m: 4",
-            "points: 3, within_m: 0.0001".to_string(),
-        ),
-        (
-            "success:",
-            "record: (frame_period_s: 0.1),\n    success:".to_string(),
-        ),
+        ("release: (rate_hz: 5,", format!("release: (rate_hz: {rate_hz},")),
+        ("points: 3, within_m: 4", "points: 3, within_m: 0.0001".to_string()),
+        ("success:", "record: (frame_period_s: 0.1),\n    success:".to_string()),
     ] {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text = text.replace(from, &to);
@@ -38,15 +29,7 @@ fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
     let file = dir.join("crowd.ron");
     std::fs::write(&file, text).unwrap();
     let out = dir.join("out");
-    let args = [
-        "run",
-        "crowd.ron",
-        "--quiet",
-        "--zenoh-listen",
-        "tcp/127.0.0.1:0",
-        "--out",
-        out.to_str().unwrap(),
-    ];
+    let args = ["run", "crowd.ron", "--quiet", "--zenoh-listen", "tcp/127.0.0.1:0", "--out", out.to_str().unwrap()];
     let mut run = Process::start(&mut common::command(dir, &args));
     let status = format!("/proc/{}/status", run.0.id());
     let mut peak_kb = 0.0;
@@ -74,12 +57,7 @@ fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
 #[test]
 fn a_hundred_thousand_filaments_fit() {
     let dir = tempfile::tempdir().unwrap();
-    let times = [
-        ("spin_up_s", "500"),
-        ("limit_s", "360"),
-        ("step_s", "0.02"),
-        ("frame_period_s", "0.02"),
-    ];
+    let times = [("spin_up_s", "500"), ("limit_s", "360"), ("step_s", "0.02"), ("frame_period_s", "0.02")];
     let (peak_mb, filaments) = peak(dir.path(), "210", &times);
     assert!(filaments >= 100_000, "{filaments}");
     assert!(peak_mb > 10.0 && peak_mb < MOST_MB / 2.0, "{peak_mb} MB");

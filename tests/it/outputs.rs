@@ -55,12 +55,7 @@ fn a_run_replaces_no_pipe_and_no_device_and_writes_all_the_rest() {
         assert_eq!(code, Some(1), "{name}: {said}");
         assert!(said.contains(&format!("out/{name}")), "{said}");
         assert!(said.contains("a pipe"), "{said}");
-        assert!(
-            fs::symlink_metadata(out.join(name))
-                .unwrap()
-                .file_type()
-                .is_fifo()
-        );
+        assert!(fs::symlink_metadata(out.join(name)).unwrap().file_type().is_fifo());
         assert!(!out.join("summary.json").exists());
         fs::remove_file(out.join(name)).unwrap();
     }
@@ -70,34 +65,15 @@ fn a_run_replaces_no_pipe_and_no_device_and_writes_all_the_rest() {
     fs::create_dir(out.join("map.png")).unwrap();
     let (code, said) = ends(dir.path(), &RUN);
     assert_eq!(code, Some(1), "{said}");
-    for (name, what) in [
-        ("summary.json", "it is a pipe"),
-        ("report.html", "it is a link to a device"),
-        ("map.png", "it is a folder"),
-    ] {
-        assert!(
-            said.contains(&format!("cannot write out/{name}: {what}")),
-            "{said}"
-        );
+    for (name, what) in
+        [("summary.json", "it is a pipe"), ("report.html", "it is a link to a device"), ("map.png", "it is a folder")]
+    {
+        assert!(said.contains(&format!("cannot write out/{name}: {what}")), "{said}");
     }
-    assert!(
-        fs::symlink_metadata(out.join("summary.json"))
-            .unwrap()
-            .file_type()
-            .is_fifo()
-    );
+    assert!(fs::symlink_metadata(out.join("summary.json")).unwrap().file_type().is_fifo());
     assert!(out.join("report.html").is_symlink() && out.join("map.png").is_dir());
-    for name in [
-        "track.csv",
-        "run.mcap",
-        "plume.csv",
-        "map.svg",
-        "series-auv0.png",
-    ] {
-        assert!(
-            fs::metadata(out.join(name)).is_ok_and(|m| m.len() > 0),
-            "{name}"
-        );
+    for name in ["track.csv", "run.mcap", "plume.csv", "map.svg", "series-auv0.png"] {
+        assert!(fs::metadata(out.join(name)).is_ok_and(|m| m.len() > 0), "{name}");
     }
     assert_eq!(leftovers(&out), Vec::<String>::new());
 }
@@ -121,10 +97,7 @@ fn the_table_of_the_plume_is_that_of_the_end() {
     }
     let in_water_kg = summary["run"]["mass"]["in_water_kg"].as_f64();
     let in_water_kg = in_water_kg.expect("a source");
-    assert!(
-        rows > 10 && (mass_kg / in_water_kg - 1.0).abs() < 1e-4,
-        "{mass_kg} {in_water_kg}"
-    );
+    assert!(rows > 10 && (mass_kg / in_water_kg - 1.0).abs() < 1e-4, "{mass_kg} {in_water_kg}");
     let all = summary["run"]["filaments"].as_f64().expect("a count");
     assert!((filaments / all - 1.0).abs() < 1e-4, "{filaments} {all}");
 }
@@ -153,14 +126,8 @@ fn no_link_has_its_target_overwritten() {
 
 /// A limit on the length of files stands for a full disk: both end a write half way.
 fn with_little_room(dir: &Path, args: &str, kib: u32) -> Output {
-    let script = format!(
-        "ulimit -f {kib}; exec '{}' {args}",
-        common::binary().display()
-    );
-    common::apart(Command::new("bash").args(["-c", &script]))
-        .current_dir(dir)
-        .output()
-        .unwrap()
+    let script = format!("ulimit -f {kib}; exec '{}' {args}", common::binary().display());
+    common::apart(Command::new("bash").args(["-c", &script])).current_dir(dir).output().unwrap()
 }
 
 #[test]
@@ -172,10 +139,7 @@ fn a_full_disk_is_an_error_and_what_was_computed_before_is_there() {
     let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out no", 24);
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(
-        said.contains("no/run.mcap") && said.contains("too large"),
-        "{said}"
-    );
+    assert!(said.contains("no/run.mcap") && said.contains("too large"), "{said}");
     let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out out", 256);
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
@@ -188,10 +152,7 @@ fn a_full_disk_is_an_error_and_what_was_computed_before_is_there() {
     assert!(summary.contains("\"failed\""), "{summary}");
     let recordings = leftovers(&out);
     for name in &recordings {
-        assert!(
-            name.starts_with("run.mcap.") && said.contains(name.as_str()),
-            "{said}"
-        );
+        assert!(name.starts_with("run.mcap.") && said.contains(name.as_str()), "{said}");
     }
     assert!(recordings.len() <= 1);
     // The next run knows that file for its own.
@@ -211,32 +172,20 @@ fn a_picture_and_a_segmented_one_replace_only_files() {
         let args = [&place[..], &["--out", out, "--truth", truth]].concat();
         ends(dir.path(), &args)
     };
-    for (out, truth, written) in [
-        ("pipe.png", "truth.png", "truth.png"),
-        ("seen.png", "pipe.png", "seen.png"),
-    ] {
+    for (out, truth, written) in [("pipe.png", "truth.png", "truth.png"), ("seen.png", "pipe.png", "seen.png")] {
         let (code, said) = picture(out, truth);
         assert_eq!(code, Some(1), "{said}");
-        assert!(
-            said.contains("cannot write pipe.png: it is a pipe"),
-            "{said}"
-        );
+        assert!(said.contains("cannot write pipe.png: it is a pipe"), "{said}");
         assert!(at(written).is_file());
     }
     let (code, said) = picture("same.png", "same.png");
     assert_eq!(code, Some(1));
-    assert!(
-        said.contains("same.png") && !at("same.png").exists(),
-        "{said}"
-    );
+    assert!(said.contains("same.png") && !at("same.png").exists(), "{said}");
 
     // In the place of the picture taken apart, and of what that leaves.
     let (code, said) = ends(dir.path(), &["segment", "pipe.png", "--out", "parts"]);
     assert_eq!(code, Some(1));
-    assert!(
-        said.contains("pipe.png: it is a pipe, not a file"),
-        "{said}"
-    );
+    assert!(said.contains("pipe.png: it is a pipe, not a file"), "{said}");
     let parts = at("parts");
     fs::create_dir(&parts).unwrap();
     for name in ["plume-mask.png", "segmentation.json", "sheet.png"] {
@@ -246,12 +195,7 @@ fn a_picture_and_a_segmented_one_replace_only_files() {
     assert_eq!(code, Some(1), "{said}");
     for name in ["plume-mask.png", "segmentation.json", "sheet.png"] {
         assert!(said.contains(&format!("parts/{name}")), "{said}");
-        assert!(
-            fs::symlink_metadata(parts.join(name))
-                .unwrap()
-                .file_type()
-                .is_fifo()
-        );
+        assert!(fs::symlink_metadata(parts.join(name)).unwrap().file_type().is_fifo());
     }
     for name in ["plume.png", "left.png", "overlay.png", "clusters.png"] {
         assert!(parts.join(name).is_file(), "{name}");
@@ -270,11 +214,7 @@ fn what_is_no_file_is_not_waited_for() {
     let reef = include_str!("../../scenarios/catalog/reef_mesh.ron");
     fs::write(at("reef.ron"), reef.replace("meshes/reef.obj", "pipe.obj")).unwrap();
     let mound = include_str!("../../scenarios/catalog/mound.ron");
-    fs::write(
-        at("mound.ron"),
-        mound.replace("meshes/mound.asc", "pipe.asc"),
-    )
-    .unwrap();
+    fs::write(at("mound.ron"), mound.replace("meshes/mound.asc", "pipe.asc")).unwrap();
     let hull = short().replace("Remus100()", "Remus100(urdf: \"pipe.urdf\")");
     fs::write(at("hull.ron"), hull).unwrap();
     for (args, named) in [
@@ -300,36 +240,23 @@ fn a_campaign_replaces_only_files() {
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
     fs::write(at("s.ron"), short()).unwrap();
-    let campaign =
-        "(version: 1, title: \"t\", base: \"s.ron\", seeds: 2, seed: 1, arms: [(name: \"a\")])";
+    let campaign = "(version: 1, title: \"t\", base: \"s.ron\", seeds: 2, seed: 1, arms: [(name: \"a\")])";
     fs::write(at("c.ron"), campaign).unwrap();
-    let (code, said) = ends(
-        dir.path(),
-        &["campaign", "run", "c.ron", "--out", "c", "--quiet"],
-    );
+    let (code, said) = ends(dir.path(), &["campaign", "run", "c.ron", "--out", "c", "--quiet"]);
     assert_eq!(code, Some(0), "{said}");
     mkfifo(&at("all.parquet"));
     mkfifo(&at("rows.csv"));
     symlink("/dev/null", at("null.parquet")).unwrap();
     for (args, named) in [
         (&["-o", "all.parquet"][..], "all.parquet: it is a pipe"),
-        (
-            &["-o", "null.parquet"],
-            "null.parquet: it is a link to a device",
-        ),
+        (&["-o", "null.parquet"], "null.parquet: it is a link to a device"),
         (&["-o", "rows.parquet", "--csv"], "rows.csv: it is a pipe"),
-        (
-            &["-o", "same.csv", "--csv"],
-            "same.csv: the Parquet file and the CSV file",
-        ),
+        (&["-o", "same.csv", "--csv"], "same.csv: the Parquet file and the CSV file"),
     ] {
         let args = [&["campaign", "merge", "c"][..], args].concat();
         let (code, said) = ends(dir.path(), &args);
         assert_eq!(code, Some(1), "{args:?}: {said}");
-        assert!(
-            said.contains(&format!("cannot write {named}")),
-            "{args:?}: {said}"
-        );
+        assert!(said.contains(&format!("cannot write {named}")), "{args:?}: {said}");
         assert_eq!(leftovers(dir.path()), Vec::<String>::new(), "{args:?}");
     }
     assert!(!at("same.csv").exists());
@@ -337,8 +264,5 @@ fn a_campaign_replaces_only_files() {
     mkfifo(&at("report/arms.csv"));
     let (code, said) = ends(dir.path(), &["campaign", "report", "c", "--out", "report"]);
     assert_eq!(code, Some(1), "{said}");
-    assert!(
-        said.contains("report/arms.csv") && at("report/report.html").is_file(),
-        "{said}"
-    );
+    assert!(said.contains("report/arms.csv") && at("report/report.html").is_file(), "{said}");
 }

@@ -17,12 +17,7 @@ const CRATES: [&str; 8] = [
 ];
 
 /// The categories of crates.io that fit: it refuses unknown ones.
-const CATEGORIES: [&str; 4] = [
-    "command-line-utilities",
-    "science",
-    "science::robotics",
-    "simulation",
-];
+const CATEGORIES: [&str; 4] = ["command-line-utilities", "science", "science::robotics", "simulation"];
 
 /// The parts of a path from the workspace's folder, with `..` taken away.
 fn plain(path: &str) -> String {
@@ -47,25 +42,15 @@ fn what_a_package_includes_is_in_it() {
                 continue;
             }
             let code = text.split("#[cfg(test)]").next().expect("the whole");
-            for included in code
-                .split("include_str!(")
-                .skip(1)
-                .chain(code.split("include_bytes!(").skip(1))
-            {
+            for included in code.split("include_str!(").skip(1).chain(code.split("include_bytes!(").skip(1)) {
                 let Some(name) = included.split('"').nth(1) else {
                     continue;
                 };
                 seen += 1;
                 let path = plain(&format!("{folder}/{name}"));
-                assert!(
-                    path.starts_with(&format!("{package}/")),
-                    "{file} includes {path}, which is not in {package}"
-                );
+                assert!(path.starts_with(&format!("{package}/")), "{file} includes {path}, which is not in {package}");
                 let first = root().join(&path);
-                assert!(
-                    first.exists() || name.ends_with('/'),
-                    "{file} includes {path}, which is not there"
-                );
+                assert!(first.exists() || name.ends_with('/'), "{file} includes {path}, which is not there");
             }
         }
     }
@@ -82,8 +67,7 @@ fn field<'a>(manifest: &'a str, table: &str, name: &str) -> Option<&'a str> {
     let begin = format!("[{table}]");
     let lines = manifest.lines().skip_while(|line| **line != begin).skip(1);
     let mut own = lines.take_while(|line| !line.starts_with('['));
-    own.find_map(|line| line.split_once(" = ").filter(|(field, _)| *field == name))
-        .map(|(_, value)| value)
+    own.find_map(|line| line.split_once(" = ").filter(|(field, _)| *field == name)).map(|(_, value)| value)
 }
 
 /// The texts of a list.
@@ -114,10 +98,7 @@ fn each_manifest_says_what_a_package_index_asks_for() {
         let good = |word: &&str| word.len() <= 20 && word.starts_with(char::is_alphanumeric);
         assert!(keywords.iter().all(good), "{file}: {keywords:?}");
         let categories = listed(said("categories"));
-        assert!(
-            (1..=5).contains(&categories.len()),
-            "{file}: {categories:?}"
-        );
+        assert!((1..=5).contains(&categories.len()), "{file}: {categories:?}");
         let known = |slug: &&str| CATEGORIES.contains(slug);
         assert!(categories.iter().all(known), "{file}: {categories:?}");
     }
@@ -146,8 +127,6 @@ fn the_citation_names_this_version() {
     let workspace = text("Cargo.toml");
     let version = field(&workspace, "workspace.package", "version").expect("a version");
     let citation = text("CITATION.cff");
-    let cited = citation
-        .lines()
-        .find_map(|line| line.strip_prefix("version: "));
+    let cited = citation.lines().find_map(|line| line.strip_prefix("version: "));
     assert_eq!(cited, Some(version.trim_matches('"')), "CITATION.cff");
 }

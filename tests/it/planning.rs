@@ -7,9 +7,7 @@ use parry3d::shape::Capsule;
 use robots::handoff::BeliefGrid;
 use robots::plan::{AStar, AStarParams, From, Planner, Reach, Room};
 use std::path::Path;
-use world::obstacles::{
-    Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
-};
+use world::obstacles::{Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
 use world::seeds::Stream;
 use world::terrain::Terrain;
@@ -25,14 +23,8 @@ fn obstacles(rng: &mut Stream, size: [f64; 3], bed: &Terrain) -> Obstacles {
     let solids = (0..count).map(|k| {
         let mut within = |from: f64, to: f64| from + (to - from) * rng.uniform();
         let shape = if within(0.0, 1.0) < 0.5 {
-            let [x, y, z] = [
-                within(1.0, 8.0),
-                within(1.0, 8.0),
-                within(0.2, 1.0) * size[2],
-            ];
-            ShapeSpec::Box(BoxShape {
-                size_m: (Positive::new(x), Positive::new(y), Positive::new(z)),
-            })
+            let [x, y, z] = [within(1.0, 8.0), within(1.0, 8.0), within(0.2, 1.0) * size[2]];
+            ShapeSpec::Box(BoxShape { size_m: (Positive::new(x), Positive::new(y), Positive::new(z)) })
         } else {
             ShapeSpec::Cylinder(CylinderShape {
                 radius_m: Positive::new(within(0.3, 3.0)),
@@ -45,11 +37,7 @@ fn obstacles(rng: &mut Stream, size: [f64; 3], bed: &Terrain) -> Obstacles {
             shape,
             east_m: Finite::new(within(0.0, size[0])),
             north_m: Finite::new(within(0.0, size[1])),
-            base: if within(0.0, 1.0) < 0.7 {
-                Base::OnBed
-            } else {
-                Base::Z(Finite::new(within(-1.0, -0.3) * size[2]))
-            },
+            base: if within(0.0, 1.0) < 0.7 { Base::OnBed } else { Base::Z(Finite::new(within(-1.0, -0.3) * size[2])) },
             heading_deg: HeadingDeg::new(within(0.0, 360.0)),
         };
         Obstacle::build(&spec, bed, Path::new(".")).expect("a legal obstacle")
@@ -67,9 +55,7 @@ fn parry_distance(solids: &Obstacles, a: &Vector3<f64>, b: &Vector3<f64>) -> f64
         .map(|o| {
             let q = o.pose.R_WB.coords;
             let pose = Pose::from_parts(to(&o.pose.p_WB), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
-            distance(&Pose::IDENTITY, &swept, &pose, &*o.shape)
-                .expect("parry knows both shapes")
-                .distance
+            distance(&Pose::IDENTITY, &swept, &pose, &*o.shape).expect("parry knows both shapes").distance
         })
         .fold(f64::INFINITY, f64::min)
 }
@@ -82,71 +68,38 @@ fn paths_are_free_for_the_inflated_hull_in_ten_thousand_random_worlds() {
     let mut planner = AStar::new(&AStarParams::default()).expect("legal");
     for world in 0..WORLDS {
         // Nine in ten of the plane, the others of space.
-        let n = if world % 10 == 0 {
-            [14, 12, 7]
-        } else {
-            [52, 44, 1]
-        };
-        let cell_m = if world % 10 == 0 {
-            [1.6, 1.4, 1.2]
-        } else {
-            [0.5, 0.6, 8.0]
-        };
+        let n = if world % 10 == 0 { [14, 12, 7] } else { [52, 44, 1] };
+        let cell_m = if world % 10 == 0 { [1.6, 1.4, 1.2] } else { [0.5, 0.6, 8.0] };
         let size = [0, 1, 2].map(|a| n[a] as f64 * cell_m[a]);
         let bed = Terrain::Level { depth_m: size[2] };
         let solids = obstacles(&mut rng, size, &bed);
-        let lattice = BeliefGrid {
-            corner: Vector3::new(0.0, 0.0, -size[2]),
-            axes: [Vector2::x(), Vector2::y()],
-            cell_m,
-            n,
-        };
+        let lattice =
+            BeliefGrid { corner: Vector3::new(0.0, 0.0, -size[2]), axes: [Vector2::x(), Vector2::y()], cell_m, n };
         let mut room = Room::new(lattice, HULL_M, 4.0);
         let level = -0.5 * size[2];
         room.chart(&solids, &bed, &|_, _| level);
         let mut place = || {
             let [x, y, z] = [rng.uniform(), rng.uniform(), rng.uniform()];
-            let z = if n[2] == 1 {
-                level
-            } else {
-                (z - 1.0) * size[2]
-            };
+            let z = if n[2] == 1 { level } else { (z - 1.0) * size[2] };
             Vector3::new(x * size[0], y * size[1], z)
         };
         let (p_W, goal) = (place(), place());
         let heading = Heading::from_deg(360.0 * rng.uniform());
-        let start = From {
-            p_W,
-            heading,
-            turning_radius_m: 0.0,
-        };
+        let start = From { p_W, heading, turning_radius_m: 0.0 };
         let Ok(path) = planner.plan(&room, &start, &goal) else {
-            assert!(
-                (0..room.lattice().len()).all(|c| !room.free(c)),
-                "world {world}"
-            );
+            assert!((0..room.lattice().len()).all(|c| !room.free(c)), "world {world}");
             continue;
         };
         planned += 1;
         whole += usize::from(path.reach == Reach::Goal);
         // The first leg of a path out of a solid is not free, and the path says so, then only.
-        assert_eq!(
-            path.leaves_solid,
-            !room.free(room.nearest_cell(&p_W)),
-            "world {world}"
-        );
+        assert_eq!(path.leaves_solid, !room.free(room.nearest_cell(&p_W)), "world {world}");
         let skip = usize::from(path.leaves_solid);
         for leg in path.points[skip..].windows(2) {
             legs += 1;
             let d = parry_distance(&solids, &leg[0], &leg[1]);
-            assert!(
-                d > 0.0,
-                "world {world}: the hull meets a solid on {leg:?} of {path:?}"
-            );
+            assert!(d > 0.0, "world {world}: the hull meets a solid on {leg:?} of {path:?}");
         }
     }
-    assert!(
-        planned > 9_900 && whole > 6_000 && legs > 10_000,
-        "{planned} planned, {whole} whole, {legs} legs"
-    );
+    assert!(planned > 9_900 && whole > 6_000 && legs > 10_000, "{planned} planned, {whole} whole, {legs} legs");
 }

@@ -12,9 +12,7 @@ fn read(name: &str) -> String {
 fn blocks<'a>(section: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("```{language}\n");
     let parts = section.split(&fence).skip(1);
-    parts
-        .map(|part| part.split("```").next().expect("split gives one part"))
-        .collect()
+    parts.map(|part| part.split("```").next().expect("split gives one part")).collect()
 }
 
 /// The parts of the patch, one for each file: its name and its lines.
@@ -38,8 +36,7 @@ fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
     let section = &section[..section.find("\n## Checks").expect("the next section")];
 
     let parts = parts(&patch);
-    let (new, old): (Vec<_>, Vec<_>) =
-        (parts.iter()).partition(|(name, _)| name.ends_with("spiral.rs"));
+    let (new, old): (Vec<_>, Vec<_>) = (parts.iter()).partition(|(name, _)| name.ends_with("spiral.rs"));
     let [(_, lines)] = new[..] else {
         panic!("the patch makes one file");
     };
@@ -53,10 +50,7 @@ fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
     for (name, lines) in old {
         let changed = lines.iter().filter(|l| !l.starts_with(' '));
         for line in changed {
-            assert!(
-                shown.iter().any(|block| block.lines().any(|l| l == *line)),
-                "{name}: README does not show {line}"
-            );
+            assert!(shown.iter().any(|block| block.lines().any(|l| l == *line)), "{name}: README does not show {line}");
         }
     }
     for line in shown.iter().flat_map(|block| block.lines()) {
@@ -68,13 +62,9 @@ fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
 #[test]
 fn the_controller_that_readme_shows_is_the_one_of_the_first_page() {
     let (readme, page) = (read("README.md"), read("scenarios/simulation/src/lib.rs"));
-    let from = readme
-        .find("## Bring your own searcher")
-        .expect("the section");
+    let from = readme.find("## Bring your own searcher").expect("the section");
     let section = &readme[from..];
-    let section = &section[..section
-        .find("\n## What it reaches")
-        .expect("the next section")];
+    let section = &section[..section.find("\n## What it reaches").expect("the next section")];
     let [shown] = blocks(section, "rust")[..] else {
         panic!("one example in Rust");
     };

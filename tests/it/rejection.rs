@@ -66,11 +66,7 @@ fn rejected_and_searched_on(dir: &Path, name: &str, text: &str) -> Value {
         assert_eq!(d["number"], k);
     }
     let stands = (all.iter()).any(|d| d["verdict"] != "rejected" && near(d));
-    let end = if stands {
-        (0, "found")
-    } else {
-        (3, "not_found")
-    };
+    let end = if stands { (0, "found") } else { (3, "not_found") };
     assert_eq!((code, summary["outcome"].as_str()), (end.0, Some(end.1)));
 
     let track = std::fs::read_to_string(dir.join(name).join("track.csv")).unwrap();
@@ -83,10 +79,7 @@ fn rejected_and_searched_on(dir: &Path, name: &str, text: &str) -> Value {
         }
     }
     // The frame of the declaration itself may still have what led to it.
-    let from = done
-        .iter()
-        .position(|b| *b == "survey")
-        .expect("it surveyed");
+    let from = done.iter().position(|b| *b == "survey").expect("it surveyed");
     let after = &done[from + 1..];
     assert!(from <= 1 && after.contains(&"track_in"), "{done:?}");
     summary
@@ -123,10 +116,7 @@ fn a_camera_that_sees_no_dye_rejects_what_the_sidescan_saw() {
     let seen = &declarations(&summary)[0]["surveyed"];
     let off = |axis: &str, at: f64| (seen[axis].as_f64().expect("a place") - at).abs();
     // The rock is 1.5 m wide, the fixes err by a metre.
-    assert!(
-        off("east_m", -80.0) < 3.0 && off("north_m", 0.0) < 3.0,
-        "{seen}"
-    );
+    assert!(off("east_m", -80.0) < 3.0 && off("north_m", 0.0) < 3.0, "{seen}");
     let pictures = std::fs::read_to_string(dir.path().join("decoy/pictures.csv")).unwrap();
     assert!(pictures.lines().count() > 2, "{pictures}");
 }

@@ -37,10 +37,7 @@ fn without_walls(path: &Path) -> Vec<String> {
     let text = fs::read_to_string(path).unwrap();
     let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     let keep = |line: &str| {
-        let cells = line
-            .split(',')
-            .zip(&head)
-            .filter(|(_, name)| !name.ends_with("_wall_s"));
+        let cells = line.split(',').zip(&head).filter(|(_, name)| !name.ends_with("_wall_s"));
         cells.map(|(cell, _)| cell).collect::<Vec<_>>().join(",")
     };
     text.lines().map(keep).collect()
@@ -51,10 +48,7 @@ fn writes_the_same_table_with_one_thread_and_with_two() {
     let dir = tempfile::tempdir().unwrap();
     write_row(dir.path());
     for jobs in ["1", "2"] {
-        let (code, out, error) = reproduce(
-            dir.path(),
-            &["row.ron", "--seeds", "3", "--jobs", jobs, "--out", jobs],
-        );
+        let (code, out, error) = reproduce(dir.path(), &["row.ron", "--seeds", "3", "--jobs", jobs, "--out", jobs]);
         assert_eq!(code, Some(0), "{error}");
         assert!(out.contains("3 runs, seeds 1 to 3"), "{out}");
         assert!(out.contains("7/8 = 87.5 % [52.9 to 97.8 %]"), "{out}");
@@ -68,12 +62,7 @@ fn writes_the_same_table_with_one_thread_and_with_two() {
     assert_eq!(rows("1"), rows("2"));
     assert_eq!(rows("1").len(), 1 + 3);
     let page = fs::read_to_string(dir.path().join("1/REPRODUCTION.md")).unwrap();
-    for says in [
-        "## channel",
-        "made for this test",
-        "| declared | ",
-        "- declared: of | 8.",
-    ] {
+    for says in ["## channel", "made for this test", "| declared | ", "- declared: of | 8."] {
         assert!(page.contains(says), "{says}: {page}");
     }
 }
@@ -94,19 +83,13 @@ fn says_first_how_many_trials_it_makes() {
         said
     };
     let both = said(&["arms.ron"]);
-    assert!(
-        both.contains("channel (2 arms): 1 seed each, 2 trials"),
-        "{both}"
-    );
+    assert!(both.contains("channel (2 arms): 1 seed each, 2 trials"), "{both}");
     let one = said(&["arms.ron", "--arm", "b"]);
     assert!(one.contains("channel: 1 seed each, 1 trial"), "{one}");
     assert_eq!(without_walls(&dir.path().join("o/rows.csv")).len(), 1 + 1);
     let (code, _, error) = reproduce(dir.path(), &["arms.ron", "--arm", "c"]);
     assert_eq!(code, Some(1));
-    assert!(
-        error.contains("no row asked for has an arm `c`; there are: `a`, `b`"),
-        "{error}"
-    );
+    assert!(error.contains("no row asked for has an arm `c`; there are: `a`, `b`"), "{error}");
 }
 
 #[test]
@@ -118,16 +101,7 @@ fn a_first_look_takes_the_seeds_of_each_row_and_says_what_is_left() {
         let row = row.replace("figures:", &format!("quick: {seeds}, figures:"));
         fs::write(dir.path().join(format!("{id}.ron")), row).unwrap();
     }
-    let args = [
-        "reproduce",
-        "some.ron",
-        "few.ron",
-        "--quick",
-        "--jobs",
-        "1",
-        "--out",
-        "o",
-    ];
+    let args = ["reproduce", "some.ron", "few.ron", "--quick", "--jobs", "1", "--out", "o"];
     let end = rheotaxis_in(dir.path(), &args);
     let said = String::from_utf8_lossy(&end.stderr).into_owned();
     assert!(end.status.success(), "{said}");
@@ -154,18 +128,7 @@ fn stops_by_width_or_at_the_most_allowed() {
     let dir = tempfile::tempdir().unwrap();
     write_row(dir.path());
     let n = |width: &str, most: &str| {
-        let (code, _, error) = reproduce(
-            dir.path(),
-            &[
-                "row.ron",
-                "--until-width",
-                width,
-                "--max",
-                most,
-                "--out",
-                "o",
-            ],
-        );
+        let (code, _, error) = reproduce(dir.path(), &["row.ron", "--until-width", width, "--max", most, "--out", "o"]);
         assert_eq!(code, Some(0), "{error}");
         without_walls(&dir.path().join("o/rows.csv")).len() - 1
     };
@@ -179,34 +142,19 @@ fn wrong_rows_folders_and_options_are_refused_before_anything_runs() {
     let dir = tempfile::tempdir().unwrap();
     let (code, _, error) = reproduce(dir.path(), &["nobody"]);
     assert_eq!(code, Some(1));
-    assert!(
-        error.contains("no row `nobody`") && error.contains("duck_st"),
-        "{error}"
-    );
+    assert!(error.contains("no row `nobody`") && error.contains("duck_st"), "{error}");
 
-    fs::write(
-        dir.path().join("bad.ron"),
-        ROW.replace("declared)", "luck)"),
-    )
-    .unwrap();
+    fs::write(dir.path().join("bad.ron"), ROW.replace("declared)", "luck)")).unwrap();
     let (code, _, error) = reproduce(dir.path(), &["bad.ron"]);
     assert_eq!(code, Some(1));
-    assert!(
-        error.contains("bad.ron") && error.contains("luck"),
-        "{error}"
-    );
+    assert!(error.contains("bad.ron") && error.contains("luck"), "{error}");
 
     fs::write(dir.path().join("file"), "").unwrap();
     let (code, _, error) = reproduce(dir.path(), &["duck_st", "--out", "file/out"]);
     assert_eq!(code, Some(1));
     assert!(error.contains("file/out"), "{error}");
 
-    for usage in [
-        &["--quick", "--seeds", "5"][..],
-        &["--max", "5"],
-        &["--until-width", "0.5"],
-        &["--seeds", "0"],
-    ] {
+    for usage in [&["--quick", "--seeds", "5"][..], &["--max", "5"], &["--until-width", "0.5"], &["--seeds", "0"]] {
         assert_eq!(reproduce(dir.path(), usage).0, Some(2), "{usage:?}");
     }
 }

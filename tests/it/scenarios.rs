@@ -22,8 +22,7 @@ fn crowded(robots: usize) -> String {
     let one = &text[begin + "    robots: [".len()..end];
     let many: String = (0..robots)
         .map(|k| {
-            one.replace("auv0", &format!("auv{k}"))
-                .replace("north_m: -30", &format!("north_m: {}", 12 * k as i32 - 30))
+            one.replace("auv0", &format!("auv{k}")).replace("north_m: -30", &format!("north_m: {}", 12 * k as i32 - 30))
         })
         .collect();
     format!("{}    robots: [{many}{}", &text[..begin], &text[end..])
@@ -73,11 +72,7 @@ fn those_that_come_with_the_program_are_fine() {
         let loaded = load(Path::new(template.name)).unwrap();
         let warnings = loaded.check().unwrap();
         assert!(warnings.is_empty(), "{}: {warnings:?}", template.name);
-        assert!(
-            !loaded.scenario.citation.is_empty(),
-            "{} has no citation",
-            template.name
-        );
+        assert!(!loaded.scenario.citation.is_empty(), "{} has no citation", template.name);
     }
 }
 
@@ -117,10 +112,7 @@ fn scenarios_that_say_they_are_another_differ_only_in_who_searches() {
         assert_eq!(found, [".title"], "{name} beside {of}");
     }
     let fallback = &scenario("duck_external")["robots"][0]["strategy"]["External"]["on_late"];
-    assert_eq!(
-        fallback["Fallback"],
-        scenario("duck_st")["robots"][0]["strategy"]
-    );
+    assert_eq!(fallback["Fallback"], scenario("duck_st")["robots"][0]["strategy"]);
 }
 
 /// `flume_crab` runs what `rheotaxis reproduce crab` measures as `adaptive`, beside the paper's tracker.
@@ -140,9 +132,7 @@ fn the_crab_of_the_catalogue_is_the_one_that_is_measured() {
         let part = |k: usize| change[k].as_str().expect("a text");
         text = put(&text, part(0), part(1)).expect("a field");
     }
-    let measured = load_text(&Registry::default(), "measured", &text)
-        .unwrap()
-        .scenario;
+    let measured = load_text(&Registry::default(), "measured", &text).unwrap().scenario;
     let measured = serde_json::to_value(measured).unwrap();
     let tracker = |scenario: &Value| scenario["gantries"][0]["tracker"].clone();
     assert_eq!(tracker(&measured), tracker(&scenario("flume_crab")));
@@ -155,10 +145,6 @@ fn manoeuvring_trials_touch_nothing() {
     for name in ["remus_turning_circle", "remus_zigzag", "remus_dive"] {
         let text = rheotaxis::scenario::template(name).unwrap().text;
         let (code, summary) = common::mission(dir.path(), name, text);
-        assert_eq!(
-            (code, &summary["abnormal"]),
-            (0, &serde_json::json!([])),
-            "{name}"
-        );
+        assert_eq!((code, &summary["abnormal"]), (0, &serde_json::json!([])), "{name}");
     }
 }

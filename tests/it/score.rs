@@ -67,9 +67,7 @@ impl Watch for Order {
 #[test]
 fn robots_come_in_the_order_of_the_file_however_they_are_stored() {
     let mut loaded = channel(2.0);
-    let map = load(Path::new("wp_laminar")).unwrap().scenario.robots[0]
-        .map
-        .clone();
+    let map = load(Path::new("wp_laminar")).unwrap().scenario.robots[0].map.clone();
     assert!(map.is_some());
     let one = loaded.scenario.robots[0].clone();
     let robot = |(n, id): (usize, &str)| {
@@ -79,10 +77,7 @@ fn robots_come_in_the_order_of_the_file_however_they_are_stored() {
         robot.map = map.clone().filter(|_| id.starts_with("mapper"));
         robot
     };
-    for ids in [
-        ["a", "mapper_b", "c", "mapper_d", "e"],
-        ["mapper_a", "b", "mapper_c", "d", "mapper_e"],
-    ] {
+    for ids in [["a", "mapper_b", "c", "mapper_d", "e"], ["mapper_a", "b", "mapper_c", "d", "mapper_e"]] {
         loaded.scenario.robots = ids.into_iter().enumerate().map(robot).collect();
         let mut order = Order::default();
         let mut trial = Trial::assemble(&loaded, 5).unwrap();

@@ -51,11 +51,7 @@ fn held(waves: bool) -> Held {
         let tide: Vector2<f64> = ocean.water().column(p.xy(), t).velocity(p.z - 1.0).xy();
         flow += (estimate.flow.unwrap().velocity - tide).norm_squared();
     }
-    Held {
-        depth: (depth / n, worst),
-        flow: flow / n,
-        drift_m: (off[off.len() - 1] - off[0]).norm(),
-    }
+    Held { depth: (depth / n, worst), flow: flow / n, drift_m: (off[off.len() - 1] - off[0]).norm() }
 }
 
 #[test]

@@ -22,10 +22,7 @@ fn changed(loaded: &Loaded, change: impl Fn(&mut Scenario)) -> Loaded {
 
 /// Digest of a run that spins up itself.
 fn alone(loaded: &Loaded, seed: u64) -> String {
-    Trial::assemble(loaded, seed)
-        .unwrap()
-        .finish_quietly()
-        .digest
+    Trial::assemble(loaded, seed).unwrap().finish_quietly().digest
 }
 
 fn spun_up(loaded: &Loaded, seed: u64) -> SpunUp {
@@ -63,10 +60,7 @@ fn arms_that_share_a_spin_up_end_as_if_each_had_its_own() {
             assert_eq!(digest, alone(arm, 11), "{name}");
             digest
         });
-        assert!(
-            arms[0] != arms[1] && arms[0] != arms[2],
-            "{name}: the arms differ"
-        );
+        assert!(arms[0] != arms[1] && arms[0] != arms[2], "{name}: the arms differ");
         // Those who took it over have not moved it.
         assert_eq!(after(&state, &base, 11), arms[0], "{name}");
     }
@@ -105,25 +99,13 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
     };
     assert_eq!(differs(level), "terrain");
     assert_eq!(differs(|s| s.water.currents.truncate(1)), "water");
-    assert_eq!(
-        differs(|s| s.sources[0].rate_g_s = Positive::new(0.03)),
-        "sources"
-    );
+    assert_eq!(differs(|s| s.sources[0].rate_g_s = Positive::new(0.03)), "sources");
     assert_eq!(differs(|s| s.permeable.push("pile".into())), "permeable");
     type Change = (fn(&mut Scenario), &'static str);
     let times: [Change; 3] = [
-        (
-            |s| s.time.spin_up_s = NonNegative::new(121.0),
-            "time.spin_up_s",
-        ),
-        (
-            |s| s.time.spin_up_period_s = Positive::new(0.5),
-            "time.spin_up_period_s",
-        ),
-        (
-            |s| s.time.flow_period_s = NonNegative::new(5.0),
-            "time.flow_period_s",
-        ),
+        (|s| s.time.spin_up_s = NonNegative::new(121.0), "time.spin_up_s"),
+        (|s| s.time.spin_up_period_s = Positive::new(0.5), "time.spin_up_period_s"),
+        (|s| s.time.flow_period_s = NonNegative::new(5.0), "time.flow_period_s"),
     ];
     for (change, block) in times {
         assert_eq!(differs(change), block);
@@ -131,13 +113,7 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
 
     let mut other = Trial::assemble(&base, 12).unwrap();
     let error = other.take_over(&state).unwrap_err();
-    assert_eq!(
-        error,
-        Mismatch::Seed {
-            theirs: 11.into(),
-            ours: 12.into()
-        }
-    );
+    assert_eq!(error, Mismatch::Seed { theirs: 11.into(), ours: 12.into() });
     assert!(error.to_string().contains("seed 11"), "{error}");
     // Refused, it is as it was.
     assert_eq!(other.finish_quietly().digest, alone(&base, 12));

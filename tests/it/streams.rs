@@ -43,21 +43,14 @@ fn a_result_that_cannot_be_printed_is_an_error_and_a_closed_pipe_is_none() {
         let end = here(args).stdout(full()).output().unwrap();
         let said = String::from_utf8(end.stderr).unwrap();
         assert_eq!(end.status.code(), Some(1), "{args:?}: {said}");
-        assert!(
-            said.contains("cannot write to standard output"),
-            "{args:?}: {said}"
-        );
+        assert!(said.contains("cannot write to standard output"), "{args:?}: {said}");
 
         // Nobody reads.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let end = here(args).stdout(writer).output().unwrap();
         let said = String::from_utf8(end.stderr).unwrap();
-        assert_eq!(
-            (end.status.code(), said.as_str()),
-            (Some(0), ""),
-            "{args:?}"
-        );
+        assert_eq!((end.status.code(), said.as_str()), (Some(0), ""), "{args:?}");
     }
 }
 
@@ -96,19 +89,11 @@ fn titles_and_names_command_no_terminal() {
     let text = format!("{head}title: \"{odd}\"{rest}");
     let name = format!("{odd}.ron");
     fs::write(dir.path().join(&name), &text).unwrap();
-    fs::write(
-        dir.path().join("wrong.ron"),
-        text.replacen("title:", "titel:", 1),
-    )
-    .unwrap();
+    fs::write(dir.path().join("wrong.ron"), text.replacen("title:", "titel:", 1)).unwrap();
     let look = |args: &[&str]| {
         let end = rheotaxis_in(dir.path(), args);
-        let said = [end.stdout, end.stderr]
-            .map(|s| String::from_utf8(s).unwrap())
-            .concat();
-        let raw = said
-            .chars()
-            .find(|c| *c != '\n' && (c.is_control() || *c == '\u{202e}'));
+        let said = [end.stdout, end.stderr].map(|s| String::from_utf8(s).unwrap()).concat();
+        let raw = said.chars().find(|c| *c != '\n' && (c.is_control() || *c == '\u{202e}'));
         assert_eq!(raw, None, "{args:?}: {said}");
         assert!(said.contains(r"\u{1b}"), "{args:?}: {said}");
     };
@@ -124,10 +109,7 @@ fn an_empty_key_is_refused() {
     fs::write(dir.path().join("s.ron"), short()).unwrap();
     let run = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out"];
     let by_argument = rheotaxis_in(dir.path(), &[&run[..], &["--key", ""]].concat());
-    let by_environment = command(dir.path(), &run)
-        .env("RHEOTAXIS_KEY", "")
-        .output()
-        .unwrap();
+    let by_environment = command(dir.path(), &run).env("RHEOTAXIS_KEY", "").output().unwrap();
     for end in [by_argument, by_environment] {
         let said = String::from_utf8(end.stderr).unwrap();
         assert_eq!(end.status.code(), Some(2), "{said}");

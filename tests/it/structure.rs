@@ -65,38 +65,11 @@ const CRATES: [(&str, &str, &[&str]); 8] = [
     ("world", "world", &[]),
     ("plumes", "plumes", &["world"]),
     ("robots", "robots", &["world"]),
-    (
-        "rheotaxis",
-        "scenarios/simulation",
-        &["plumes", "robots", "world"],
-    ),
-    (
-        "output",
-        "scenarios/output",
-        &["plumes", "rheotaxis", "robots", "world"],
-    ),
-    (
-        "studies",
-        "scenarios/studies",
-        &["output", "plumes", "rheotaxis", "robots", "world"],
-    ),
-    (
-        "command",
-        "scenarios/command",
-        &[
-            "output",
-            "plumes",
-            "rheotaxis",
-            "robots",
-            "studies",
-            "world",
-        ],
-    ),
-    (
-        "rheotaxis-python",
-        "scenarios/python",
-        &["output", "rheotaxis", "robots", "world"],
-    ),
+    ("rheotaxis", "scenarios/simulation", &["plumes", "robots", "world"]),
+    ("output", "scenarios/output", &["plumes", "rheotaxis", "robots", "world"]),
+    ("studies", "scenarios/studies", &["output", "plumes", "rheotaxis", "robots", "world"]),
+    ("command", "scenarios/command", &["output", "plumes", "rheotaxis", "robots", "studies", "world"]),
+    ("rheotaxis-python", "scenarios/python", &["output", "rheotaxis", "robots", "world"]),
 ];
 
 /// The `src` folders of all crates.
@@ -123,10 +96,7 @@ fn crates_know_only_those_below_them() {
     // What a user's crate builds on costs no engine of pictures, tables, wires or terminals.
     let library = dependencies("scenarios/simulation");
     for heavy in ["zenoh", "parquet", "tiny-skia", "clap", "mcap", "image"] {
-        assert!(
-            !library.iter().any(|d| d == heavy),
-            "the library needs {heavy}"
-        );
+        assert!(!library.iter().any(|d| d == heavy), "the library needs {heavy}");
     }
 }
 
@@ -137,15 +107,10 @@ fn rooms_of_a_crate_make_no_circle() {
         let mut knows: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         for (file, text) in sources(folder) {
             let room = |part: &str| part.trim_end_matches(".rs").to_string();
-            let inside = file
-                .strip_prefix(folder)
-                .expect("below it")
-                .trim_start_matches('/');
+            let inside = file.strip_prefix(folder).expect("below it").trim_start_matches('/');
             let own = room(inside.split('/').next().expect("a file"));
             let name = file.rsplit('/').next().expect("a file");
-            if ["lib", "main", "sample", "sample_gantry"].contains(&own.as_str())
-                || name.contains("test")
-            {
+            if ["lib", "main", "sample", "sample_gantry"].contains(&own.as_str()) || name.contains("test") {
                 continue;
             }
             let code = text.split("#[cfg(test)]").next().expect("the whole");
@@ -177,10 +142,7 @@ fn rooms_of_a_crate_make_no_circle() {
 fn searchers_do_not_write_to_the_ocean() {
     for (file, text) in sources("scenarios/simulation/src") {
         let own = file.starts_with("scenarios/simulation/src/ocean/");
-        assert!(
-            own || !text.contains("ResMut<Ocean>"),
-            "{file} writes to the ocean"
-        );
+        assert!(own || !text.contains("ResMut<Ocean>"), "{file} writes to the ocean");
     }
 }
 
@@ -188,25 +150,11 @@ fn searchers_do_not_write_to_the_ocean() {
 fn each_engine_stays_in_its_room() {
     let rooms: [(&str, &[&str]); 6] = [
         ("rapier3d", &["world/src/physics"]),
-        (
-            "parry3d",
-            &[
-                "world/src/physics",
-                "world/src/terrain",
-                "world/src/obstacles",
-            ],
-        ),
+        ("parry3d", &["world/src/physics", "world/src/terrain", "world/src/obstacles"]),
         ("urdf_rs", &["robots/src/vehicles"]),
         ("pyo3", &["scenarios/python/src"]),
         ("zenoh", &["scenarios/output/src/live", "tests/it"]),
-        (
-            "ron",
-            &[
-                "scenarios/simulation/src",
-                "scenarios/studies/src",
-                "tests/it",
-            ],
-        ),
+        ("ron", &["scenarios/simulation/src", "scenarios/studies/src", "tests/it"]),
     ];
     for folder in SOURCES {
         for (file, text) in sources(folder) {
@@ -235,14 +183,10 @@ fn only_systems_speak_ecs() {
             for word in ["Query<", "Res<", "ResMut<", "Commands<", "Commands,"] {
                 let bad = text.lines().any(|l| {
                     !l.trim_start().starts_with("//")
-                        && l.match_indices(word).any(|(i, _)| {
-                            !l[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_')
-                        })
+                        && l.match_indices(word)
+                            .any(|(i, _)| !l[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
                 });
-                assert!(
-                    !bad,
-                    "{file} uses {word}: systems live in system.rs, tick.rs, assemble.rs"
-                );
+                assert!(!bad, "{file} uses {word}: systems live in system.rs, tick.rs, assemble.rs");
             }
         }
     }
@@ -276,14 +220,10 @@ fn files_are_opened_in_one_room() {
             let code = text.split("#[cfg(test)]").next().unwrap();
             for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
                 for way in ways {
-                    let found = line.match_indices(way).any(|(i, _)| {
-                        way.starts_with('.') || !line[..i].ends_with(|c: char| c.is_alphanumeric())
-                    });
-                    assert!(
-                        !found,
-                        "{file}: `{}`: world::files opens files",
-                        line.trim()
-                    );
+                    let found = line
+                        .match_indices(way)
+                        .any(|(i, _)| way.starts_with('.') || !line[..i].ends_with(|c: char| c.is_alphanumeric()));
+                    assert!(!found, "{file}: `{}`: world::files opens files", line.trim());
                 }
             }
         }
@@ -327,9 +267,6 @@ fn top_level_holds_only_the_story() {
     ];
     for entry in fs::read_dir(root()).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        assert!(
-            allowed.contains(&name.as_str()),
-            "{name} does not belong at top level"
-        );
+        assert!(allowed.contains(&name.as_str()), "{name} does not belong at top level");
     }
 }

@@ -4,18 +4,12 @@ use crate::structure::{naming, sources};
 
 #[test]
 fn stages_meet_only_in_handoff() {
-    let stages = [
-        "sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track",
-        "survey", "vision",
-    ];
+    let stages =
+        ["sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track", "survey", "vision"];
     for (file, text) in sources("robots/src") {
         let stage = file.split('/').nth(2).unwrap();
         // A strategy composes behaviours, declaration rules, planners and what looks at pictures: it alone may name them.
-        let may: &[&str] = if stage == "strategy" {
-            &["behave", "declare", "plan", "survey", "vision"]
-        } else {
-            &[]
-        };
+        let may: &[&str] = if stage == "strategy" { &["behave", "declare", "plan", "survey", "vision"] } else { &[] };
         let tests = file.rsplit('/').next().unwrap().contains("test");
         if tests || (!stages.contains(&stage) && stage != "strategy") {
             continue;
@@ -71,10 +65,7 @@ fn code_outside_tests(file: &str, text: &str) -> String {
         return String::new();
     }
     let code = text.split("#[cfg(test)]\nmod ").next().unwrap();
-    code.lines()
-        .filter(|l| !l.trim_start().starts_with("//"))
-        .map(|l| format!("{l}\n"))
-        .collect()
+    code.lines().filter(|l| !l.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect()
 }
 
 /// A searcher that opened the scenario file would know where the source is, and one that kept something between two runs would
@@ -102,14 +93,8 @@ fn searchers_read_no_files_and_keep_nothing_between_runs() {
         "thread_local!",
     ];
     // Names of files for `Files`; nothing else may take a path to where something could be read.
-    let paths = [
-        "files.rs",
-        "mesh.rs",
-        "urdf_parts.rs",
-        "folder/load.rs",
-        "folder/shipped.rs",
-    ]
-    .map(|f| format!("robots/src/vehicles/{f}"));
+    let paths = ["files.rs", "mesh.rs", "urdf_parts.rs", "folder/load.rs", "folder/shipped.rs"]
+        .map(|f| format!("robots/src/vehicles/{f}"));
     for (file, text) in sources("robots/src") {
         let code = code_outside_tests(&file, &text);
         for word in banned {
@@ -127,10 +112,7 @@ fn handoff_holds_plain_data() {
     for (file, text) in sources("robots/src/handoff") {
         let code = code_outside_tests(&file, &text);
         for word in banned {
-            assert!(
-                !code.contains(word),
-                "{file} uses {word}: it is no plain data"
-            );
+            assert!(!code.contains(word), "{file} uses {word}: it is no plain data");
         }
         assert!(!code.contains("crate::"), "{file} imports another room");
     }

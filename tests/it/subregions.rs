@@ -60,21 +60,12 @@ fn one_region_after_the_other_each_with_its_end() {
     assert_eq!(declared.len(), 2);
     let number = |d: &Value, path: &str| d.pointer(path).and_then(Value::as_f64).unwrap();
     let edge = &declared[0];
-    assert_eq!(
-        (&edge["rule"], &edge["region"]),
-        (&"up_flow_edge".into(), &1.into())
-    );
+    assert_eq!((&edge["rule"], &edge["region"]), (&"up_flow_edge".into(), &1.into()));
     // On the edge by construction; the plume's line is known to its half width (some metres) and the fixes.
     assert!(number(edge, "/position/east_m").abs() < 1e-6, "{edge}");
-    assert!(
-        (number(edge, "/position/north_m") + 50.0).abs() < 12.0,
-        "{edge}"
-    );
+    assert!((number(edge, "/position/north_m") + 50.0).abs() < 12.0, "{edge}");
     let inside = &declared[1];
-    assert_eq!(
-        (&inside["region"], &inside["number"]),
-        (&2.into(), &1.into())
-    );
+    assert_eq!((&inside["region"], &inside["number"]), (&2.into(), &1.into()));
     assert!(number(inside, "/error/total_m") < 20.0, "{inside}");
 
     // The track says which region was searched when; without one it was on its way.
@@ -91,13 +82,9 @@ fn one_region_after_the_other_each_with_its_end() {
     }
     assert_eq!(regions, ["A", "B", "C"]);
     let map = std::fs::read_to_string(dir.path().join("three/map.svg")).unwrap();
-    for words in [
-        "A: timed out",
-        "B: plume to up-flow edge",
-        "C: source declared",
-        "subregion",
-        "plume at up-flow edge",
-    ] {
+    for words in
+        ["A: timed out", "B: plume to up-flow edge", "C: source declared", "subregion", "plume at up-flow edge"]
+    {
         assert!(map.contains(words), "the map does not say `{words}`");
     }
 }

@@ -14,28 +14,17 @@ use world::units::Heading;
 const STEP_S: f64 = 0.02;
 
 fn vehicle(parameters: ParameterSet) -> Vehicle {
-    let spec = RemusSpec {
-        parameters,
-        ..RemusSpec::default()
-    };
+    let spec = RemusSpec { parameters, ..RemusSpec::default() };
     Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 fn water(velocity: Vector3<f64>) -> WaterSample {
-    WaterSample {
-        velocity,
-        gradient: Matrix3::zeros(),
-        rate: Vector3::zeros(),
-        density_kg_m3: 1026.0,
-    }
+    WaterSample { velocity, gradient: Matrix3::zeros(), rate: Vector3::zeros(), density_kg_m3: 1026.0 }
 }
 
 /// Deep enough that the surface is out of reach, heading north, as the reference's origin.
 fn start() -> Truth {
-    Truth::at_rest(Pose::level(
-        Vector3::new(0.0, 0.0, -100.0),
-        Heading::from_deg(0.0),
-    ))
+    Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -100.0), Heading::from_deg(0.0)))
 }
 
 /// A vehicle alone in the water.
@@ -53,24 +42,11 @@ impl Alone {
         Self::in_steps_of(STEP_S, parameters, solver, start, water)
     }
 
-    fn in_steps_of(
-        step_s: f64,
-        parameters: ParameterSet,
-        solver: Solver,
-        start: Truth,
-        water: WaterSample,
-    ) -> Self {
+    fn in_steps_of(step_s: f64, parameters: ParameterSet, solver: Solver, start: Truth, water: WaterSample) -> Self {
         let vehicle = vehicle(parameters);
         let mut physics = Physics::new(step_s).with_solver(solver);
         let id = physics.add_body(vehicle.body_spec("auv", start));
-        Self {
-            physics,
-            id,
-            vehicle,
-            water,
-            step_s,
-            steps: 0,
-        }
+        Self { physics, id, vehicle, water, step_s, steps: 0 }
     }
 
     fn t_s(&self) -> f64 {
@@ -82,9 +58,7 @@ impl Alone {
     }
 
     fn step(&mut self, command: &ActuatorCommand) {
-        let free = self
-            .vehicle
-            .step(&self.truth(), &self.water, command, self.step_s);
+        let free = self.vehicle.step(&self.truth(), &self.water, command, self.step_s);
         self.physics.push(self.id, free);
         self.physics.step();
         self.steps += 1;
@@ -92,27 +66,15 @@ impl Alone {
 }
 
 fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
-    ActuatorCommand {
-        rudder_rad: rudder_deg.to_radians(),
-        stern_rad: stern_deg.to_radians(),
-        rpm,
-    }
+    ActuatorCommand { rudder_rad: rudder_deg.to_radians(), stern_rad: stern_deg.to_radians(), rpm }
 }
 
 /// Worst (position, m; attitude, deg) along a reference file.
-fn against(
-    file: &str,
-    solver: Solver,
-    water: WaterSample,
-    at: fn(f64) -> ActuatorCommand,
-) -> (f64, f64) {
+fn against(file: &str, solver: Solver, water: WaterSample, at: fn(f64) -> ActuatorCommand) -> (f64, f64) {
     let path = root().join("tests/reference/remus100").join(file);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    let rows: Vec<Vec<f64>> = text
-        .lines()
-        .skip(1)
-        .map(|l| l.split(',').map(|s| s.parse().expect("number")).collect())
-        .collect();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(1).map(|l| l.split(',').map(|s| s.parse().expect("number")).collect()).collect();
     // NED and FRD Euler angles to ENU and FLU.
     let pose = |n: &[f64]| Pose {
         p_WB: start().pose.p_WB + Vector3::new(n[2], n[1], -n[3]),
@@ -136,26 +98,17 @@ fn against(
 fn holds(file: &str, water: WaterSample, at: fn(f64) -> ActuatorCommand) {
     for solver in [Solver::WhenInReach, Solver::Always, Solver::RapierAlone] {
         let (m, deg) = against(file, solver, water, at);
-        assert!(
-            m < 0.02 && deg < 0.05,
-            "{file} {solver:?}: {m} m, {deg} deg"
-        );
+        assert!(m < 0.02 && deg < 0.05, "{file} {solver:?}: {m} m, {deg} deg");
     }
 }
 
 #[test]
 fn surge() {
-    holds("a_surge_1000rpm.csv", water(Vector3::zeros()), |_| {
-        command(0.0, 0.0, 1000.0)
-    });
+    holds("a_surge_1000rpm.csv", water(Vector3::zeros()), |_| command(0.0, 0.0, 1000.0));
 }
 
 fn turn_from_30_s(t_s: f64) -> ActuatorCommand {
-    let rudder = if t_s >= 30.0 - STEP_S / 2.0 {
-        10.0
-    } else {
-        0.0
-    };
+    let rudder = if t_s >= 30.0 - STEP_S / 2.0 { 10.0 } else { 0.0 };
     command(rudder, 0.0, 1525.0)
 }
 
@@ -166,19 +119,15 @@ fn turn() {
 
 #[test]
 fn depth_change() {
-    holds(
-        "c_depth_change_doublet3deg.csv",
-        water(Vector3::zeros()),
-        |t_s| {
-            let t = t_s + STEP_S / 2.0;
-            let stern = match t {
-                30.0..50.0 => 3.0,
-                50.0..70.0 => -3.0,
-                _ => 0.0,
-            };
-            command(0.0, stern, 1525.0)
-        },
-    );
+    holds("c_depth_change_doublet3deg.csv", water(Vector3::zeros()), |t_s| {
+        let t = t_s + STEP_S / 2.0;
+        let stern = match t {
+            30.0..50.0 => 3.0,
+            50.0..70.0 => -3.0,
+            _ => 0.0,
+        };
+        command(0.0, stern, 1525.0)
+    });
 }
 
 #[test]
@@ -215,11 +164,7 @@ fn steps_of_a_twentieth_of_a_second_are_exact_enough_for_a_mission() {
         auv.water.gradient = gradient;
         // Every ten seconds to the other side: far more often than any search turns.
         while auv.t_s() < 240.0 - 0.5 * step_s {
-            let side = if ((auv.t_s() / 10.0 + 1e-9) as u64).is_multiple_of(2) {
-                1.0
-            } else {
-                -1.0
-            };
+            let side = if ((auv.t_s() / 10.0 + 1e-9) as u64).is_multiple_of(2) { 1.0 } else { -1.0 };
             let moved = auv.truth().pose.p_WB - start().pose.p_WB;
             auv.water.velocity = around.velocity + gradient * moved;
             auv.step(&command(15.0 * side, 1.0 * side, 1500.0));

@@ -29,10 +29,7 @@ impl Auv {
     }
 
     fn under(mut physics: Physics, parameters: ParameterSet, start: Truth) -> Self {
-        let spec = RemusSpec {
-            parameters,
-            ..RemusSpec::default()
-        };
+        let spec = RemusSpec { parameters, ..RemusSpec::default() };
         let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
         let id = physics.add_body(vehicle.body_spec("auv", start));
         let water = WaterSample {
@@ -41,12 +38,7 @@ impl Auv {
             rate: Vector3::zeros(),
             density_kg_m3: 1026.0,
         };
-        Self {
-            physics,
-            id,
-            vehicle,
-            water,
-        }
+        Self { physics, id, vehicle, water }
     }
 
     fn truth(&self) -> Truth {
@@ -54,9 +46,7 @@ impl Auv {
     }
 
     fn step(&mut self, command: &ActuatorCommand) -> Truth {
-        let free = self
-            .vehicle
-            .step(&self.truth(), &self.water, command, STEP_S);
+        let free = self.vehicle.step(&self.truth(), &self.water, command, STEP_S);
         self.physics.push(self.id, free);
         self.physics.step();
         self.truth()
@@ -75,41 +65,26 @@ impl Auv {
         let (v, w) = (t.v_WB_B, t.w_WB_B);
         let nu = Vector6::new(v.x, -v.y, -v.z, w.x, -w.y, -w.z);
         let upright = (t.pose.R_WB * Vector3::z()).z;
-        0.5 * nu.dot(&((c.rigid_mass() + c.added_mass()) * nu))
-            + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
+        0.5 * nu.dot(&((c.rigid_mass() + c.added_mass()) * nu)) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
     }
 }
 
 fn at(depth_m: f64) -> Truth {
-    Truth::at_rest(Pose::level(
-        Vector3::new(0.0, 0.0, -depth_m),
-        Heading::from_deg(90.0),
-    ))
+    Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(90.0)))
 }
 
 fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
-    ActuatorCommand {
-        rudder_rad: rudder_deg.to_radians(),
-        stern_rad: stern_deg.to_radians(),
-        rpm,
-    }
+    ActuatorCommand { rudder_rad: rudder_deg.to_radians(), stern_rad: stern_deg.to_radians(), rpm }
 }
 
-const DEAD: ActuatorCommand = ActuatorCommand {
-    rudder_rad: 0.0,
-    stern_rad: 0.0,
-    rpm: 0.0,
-};
+const DEAD: ActuatorCommand = ActuatorCommand { rudder_rad: 0.0, stern_rad: 0.0, rpm: 0.0 };
 
 /// Thrust at rest K_T0 ρ D⁴ n² (1 − t) on surge and pitch, coupled by m z_g.
 #[test]
 fn known_thrust_gives_known_acceleration() {
     for set in BOTH {
         let mut auv = Auv::new(set, at(50.0));
-        auv.vehicle.set_actuators(Actuators {
-            rpm: 600.0,
-            ..Actuators::default()
-        });
+        auv.vehicle.set_actuators(Actuators { rpm: 600.0, ..Actuators::default() });
         let c = auv.vehicle.coefficients();
         let m = c.rigid_mass() + c.added_mass();
         let thrust = 0.9 * 1026.0 * 0.14f64.powi(4) * 0.4566 * 100.0;
@@ -138,11 +113,7 @@ fn a_uniform_current_only_carries() {
         path
     };
     let (still, carried) = (path(Vector3::zeros()), path(current));
-    let worst = still
-        .iter()
-        .zip(&carried)
-        .map(|(a, b)| (a - b).norm())
-        .fold(0.0, f64::max);
+    let worst = still.iter().zip(&carried).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     assert!(worst < 1e-6, "{worst} m apart in the water's frame");
 }
 
@@ -169,10 +140,7 @@ fn accelerating_water_tilts_the_hull_as_a_pendulum() {
         auv.step(&DEAD);
     }
     let (roll, pitch) = auv.truth().pose.roll_pitch();
-    assert!(
-        roll.abs() < 1e-9 && (pitch / (0.05 / 9.81) - 1.0).abs() < 0.02,
-        "{pitch}"
-    );
+    assert!(roll.abs() < 1e-9 && (pitch / (0.05 / 9.81) - 1.0).abs() < 0.02, "{pitch}");
 }
 
 #[test]
@@ -188,16 +156,10 @@ fn energy_only_falls_without_thrust() {
         for _ in 0..3000 {
             auv.step(&DEAD);
             let now = auv.energy();
-            assert!(
-                now <= before + 1e-9 * first,
-                "{set:?}: {before} J became {now} J"
-            );
+            assert!(now <= before + 1e-9 * first, "{set:?}: {before} J became {now} J");
             before = now;
         }
-        assert!(
-            before < 0.02 * first,
-            "{set:?}: {before} J of {first} J left"
-        );
+        assert!(before < 0.02 * first, "{set:?}: {before} J of {first} J left");
     }
 }
 
@@ -228,11 +190,7 @@ fn steady_motion_of_both_sets() {
             assert!((steady(set, 0.0, rpm).0 - speed).abs() < 1e-3);
         }
     }
-    for (rudder, rate, radius) in [
-        (5.0, 3.612, 40.36),
-        (10.0, 5.900, 24.55),
-        (15.0, 7.779, 18.46),
-    ] {
+    for (rudder, rate, radius) in [(5.0, 3.612, 40.36), (10.0, 5.900, 24.55), (15.0, 7.779, 18.46)] {
         let (_, r, radius_m) = steady(ParameterSet::Reference, rudder, 1525.0);
         assert!((r - rate).abs() < 1e-3 && (radius_m - radius).abs() < 0.01);
     }
@@ -248,12 +206,8 @@ fn steady_motion_of_both_sets() {
 
 /// The bed of a level sea, 10 m deep, wide enough for a minute's run.
 fn over_bed(solver: Solver) -> Physics {
-    let area = Area {
-        centre: nalgebra::Vector2::zeros(),
-        length_m: 400.0,
-        width_m: 400.0,
-        axis: Heading::from_deg(0.0),
-    };
+    let area =
+        Area { centre: nalgebra::Vector2::zeros(), length_m: 400.0, width_m: 400.0, axis: Heading::from_deg(0.0) };
     let mut physics = Physics::new(STEP_S).with_solver(solver);
     physics.add_terrain(&Terrain::Level { depth_m: 10.0 }, &area);
     physics
@@ -292,9 +246,7 @@ fn a_wall_stops_a_run_without_giving_energy() {
     let spec = ObstacleSpec {
         surface: Default::default(),
         id: "wall".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (Positive::new(2.0), Positive::new(40.0), Positive::new(20.0)),
-        }),
+        shape: ShapeSpec::Box(BoxShape { size_m: (Positive::new(2.0), Positive::new(40.0), Positive::new(20.0)) }),
         east_m: Finite::new(20.0),
         north_m: Finite::new(0.0),
         base: Base::OnBed,
@@ -312,10 +264,7 @@ fn a_wall_stops_a_run_without_giving_energy() {
         furthest = furthest.max(nose - face);
         let speed = t.v_WB_B.norm();
         if touched {
-            assert!(
-                speed <= fastest,
-                "{speed} m/s after the wall, {fastest} m/s before"
-            );
+            assert!(speed <= fastest, "{speed} m/s after the wall, {fastest} m/s before");
         } else {
             fastest = f64::max(fastest, speed);
         }
@@ -333,11 +282,7 @@ fn asking_the_solver_changes_no_bit() {
         // Down to 0.2 m over the bed, touching nothing, then along it and up again.
         let mut lowest = f64::INFINITY;
         for n in 0..4000 {
-            let depth_error = if n < 2000 {
-                9.75 + auv.truth().pose.p_WB.z
-            } else {
-                6.0 + auv.truth().pose.p_WB.z
-            };
+            let depth_error = if n < 2000 { 9.75 + auv.truth().pose.p_WB.z } else { 6.0 + auv.truth().pose.p_WB.z };
             let t = auv.step(&command(4.0, (3.0 * depth_error).clamp(-3.0, 3.0), 900.0));
             lowest = f64::min(lowest, t.pose.p_WB.z);
             assert!(!auv.physics.contacts(auv.id).touching);

@@ -14,23 +14,14 @@ fn check_tells_that_the_mass_of_a_urdf_is_used() {
         std::fs::write(dir.join("auv.urdf"), urdf).unwrap();
         let scenario = parse("mass", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
         let found = check(&scenario, &dir).into_iter();
-        let of_mass: Vec<_> = found
-            .filter(|f| f.path == "robots[0].vehicle.urdf")
-            .map(|f| f.message)
-            .collect();
+        let of_mass: Vec<_> = found.filter(|f| f.path == "robots[0].vehicle.urdf").map(|f| f.message).collect();
         of_mass
     };
     assert_eq!(told("31.029385"), [""; 0]);
     let heavy = told("31.2");
     assert_eq!(heavy.len(), 1, "{heavy:?}");
-    assert!(
-        heavy[0].starts_with("weighs 31.2 kg by its URDF, "),
-        "{heavy:?}"
-    );
-    assert!(
-        heavy[0].ends_with("1.67 N heavier than water of 1026 kg/m3, it sinks"),
-        "{heavy:?}"
-    );
+    assert!(heavy[0].starts_with("weighs 31.2 kg by its URDF, "), "{heavy:?}");
+    assert!(heavy[0].ends_with("1.67 N heavier than water of 1026 kg/m3, it sinks"), "{heavy:?}");
     let other = told("40");
     assert!(other[0].contains("<mass> is 40 kg"), "{other:?}");
     std::fs::remove_dir_all(&dir).unwrap();

@@ -22,11 +22,7 @@ struct State {
 
 impl State {
     fn moved(&self, rate: &State, h: f64) -> State {
-        State {
-            eta: self.eta + rate.eta * h,
-            nu: self.nu + rate.nu * h,
-            act: self.act + rate.act * h,
-        }
+        State { eta: self.eta + rate.eta * h, nu: self.nu + rate.nu * h, act: self.act + rate.act * h }
     }
 }
 
@@ -65,23 +61,14 @@ impl Published {
         let alpha0 = 2.0 * (1.0 - e * e) / e.powi(3) * (0.5 * log - e);
         let beta0 = 1.0 / (e * e) - (1.0 - e * e) / (2.0 * e.powi(3)) * log;
         let (k1, k2) = (alpha0 / (2.0 - alpha0), beta0 / (2.0 - beta0));
-        let k = e.powi(4) * (beta0 - alpha0)
-            / ((2.0 - e * e) * (2.0 * e * e - (2.0 - e * e) * (beta0 - alpha0)));
+        let k = e.powi(4) * (beta0 - alpha0) / ((2.0 - e * e) * (2.0 * e * e - (2.0 - e * e) * (beta0 - alpha0)));
         let z = 0.02;
-        let mut rigid =
-            Matrix6::from_diagonal(&Vector6::new(m, m, m, ix + m * z * z, iy + m * z * z, iy));
+        let mut rigid = Matrix6::from_diagonal(&Vector6::new(m, m, m, ix + m * z * z, iy + m * z * z, iy));
         for (i, j, x) in [(0, 4, m * z), (1, 3, -m * z)] {
             rigid[(i, j)] = x;
             rigid[(j, i)] = x;
         }
-        let added = Matrix6::from_diagonal(&Vector6::new(
-            m * k1,
-            m * k2,
-            m * k2,
-            0.3 * ix,
-            k * iy,
-            k * iy,
-        ));
+        let added = Matrix6::from_diagonal(&Vector6::new(m * k1, m * k2, m * k2, 0.3 * ix, k * iy, k * iy));
         let total = rigid + added;
         let swing = |i: usize| (m * 9.81 * z / total[(i, i)]).sqrt();
         let damping = Vector6::new(
@@ -92,23 +79,13 @@ impl Published {
             2.0 * 0.8 * swing(4) * total[(4, 4)],
             total[(5, 5)],
         );
-        Self {
-            rigid,
-            added,
-            inverse: total.try_inverse().expect("masses"),
-            damping,
-            v_c,
-            beta_c,
-        }
+        Self { rigid, added, inverse: total.try_inverse().expect("masses"), damping, v_c, beta_c }
     }
 
     fn rate(&self, s: &State, asked: &Vector3<f64>) -> State {
         let (nu, rho) = (&s.nu, 1026.0);
         let [phi, theta, psi] = [s.eta[3], s.eta[4], s.eta[5]];
-        let (u_c, v_c) = (
-            self.v_c * math::cos(self.beta_c - psi),
-            self.v_c * math::sin(self.beta_c - psi),
-        );
+        let (u_c, v_c) = (self.v_c * math::cos(self.beta_c - psi), self.v_c * math::sin(self.beta_c - psi));
         let nu_r = nu - Vector6::new(u_c, v_c, 0.0, 0.0, 0.0, 0.0);
         let rate_c = Vector6::new(nu[5] * v_c, -nu[5] * u_c, 0.0, 0.0, 0.0, 0.0);
         let speed = nu_r.fixed_rows::<3>(0).norm();
@@ -151,11 +128,7 @@ impl Published {
         let n = s.act[2].clamp(-1525.0, 1525.0) / 60.0;
         let (D4, va) = (0.14f64.powi(4), 0.944 * speed);
         let by = |k0: f64, k_max: f64| {
-            let slip = if n > 0.0 {
-                (k_max - k0) / 0.6632 * (va / 0.14) * n.abs()
-            } else {
-                0.0
-            };
+            let slip = if n > 0.0 { (k_max - k0) / 0.6632 * (va / 0.14) * n.abs() } else { 0.0 };
             k0 * n * n.abs() + slip
         };
         let thrust = rho * D4 * by(0.4566, 0.1798);
@@ -176,14 +149,8 @@ impl Published {
         tau[3] -= zw * math::cos(theta) * math::sin(phi);
         tau[4] -= zw * math::sin(theta);
 
-        let (cf, sf, ct, st, cp, sp) = (
-            math::cos(phi),
-            math::sin(phi),
-            math::cos(theta),
-            math::sin(theta),
-            math::cos(psi),
-            math::sin(psi),
-        );
+        let (cf, sf, ct, st, cp, sp) =
+            (math::cos(phi), math::sin(phi), math::cos(theta), math::sin(theta), math::cos(psi), math::sin(psi));
         let R = Matrix3::new(
             cp * ct,
             -sp * cf + cp * st * sf,
@@ -199,14 +166,7 @@ impl Published {
         let (p, q, r) = (nu[3], nu[4], nu[5]);
         let turn = q * sf + r * cf;
         State {
-            eta: Vector6::new(
-                v.x,
-                v.y,
-                v.z,
-                p + turn * st / ct,
-                q * cf - r * sf,
-                turn / ct,
-            ),
+            eta: Vector6::new(v.x, v.y, v.z, p + turn * st / ct, q * cf - r * sf, turn / ct),
             nu: rate_c + self.inverse * tau,
             act: (asked - s.act).component_div(&Vector3::new(0.1, 0.1, 1.0)),
         }
@@ -217,37 +177,20 @@ impl Published {
         let k2 = self.rate(&s.moved(&k1, h / 2.0), asked);
         let k3 = self.rate(&s.moved(&k2, h / 2.0), asked);
         let k4 = self.rate(&s.moved(&k3, h), asked);
-        s.moved(&k1, h / 6.0)
-            .moved(&k2, h / 3.0)
-            .moved(&k3, h / 3.0)
-            .moved(&k4, h / 6.0)
+        s.moved(&k1, h / 6.0).moved(&k2, h / 3.0).moved(&k3, h / 3.0).moved(&k4, h / 6.0)
     }
 }
 
 /// Greatest distance (m) over `seconds` between our reference set and the published equations, started at rest with a heading,
 /// roll and pitch (degrees, NED) in a current towards `beta_deg`.
-fn apart(
-    v_c: f64,
-    beta_deg: f64,
-    attitude_deg: [f64; 3],
-    asked: Vector3<f64>,
-    seconds: f64,
-) -> f64 {
+fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, seconds: f64) -> f64 {
     let published = Published::new(v_c, beta_deg.to_radians());
     let [phi, theta, psi] = attitude_deg.map(f64::to_radians);
-    let mut theirs = State {
-        eta: Vector6::new(0.0, 0.0, 100.0, phi, theta, psi),
-        nu: Vector6::zeros(),
-        act: Vector3::zeros(),
-    };
-    let mut vehicle = Vehicle::load(
-        &RemusSpec {
-            parameters: ParameterSet::Reference,
-            ..RemusSpec::default()
-        },
-        &InMemory::default(),
-    )
-    .expect("built in");
+    let mut theirs =
+        State { eta: Vector6::new(0.0, 0.0, 100.0, phi, theta, psi), nu: Vector6::zeros(), act: Vector3::zeros() };
+    let mut vehicle =
+        Vehicle::load(&RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() }, &InMemory::default())
+            .expect("built in");
     let mut ours = Truth::at_rest(Pose {
         p_WB: Vector3::new(0.0, 0.0, -100.0),
         R_WB: UnitQuaternion::from_euler_angles(phi, -theta, Heading::from_rad(psi).yaw()),
@@ -259,11 +202,7 @@ fn apart(
         rate: Vector3::zeros(),
         density_kg_m3: 1026.0,
     };
-    let command = ActuatorCommand {
-        rudder_rad: asked[0],
-        stern_rad: asked[1],
-        rpm: asked[2],
-    };
+    let command = ActuatorCommand { rudder_rad: asked[0], stern_rad: asked[1], rpm: asked[2] };
     let mut worst: f64 = 0.0;
     for _ in 0..(seconds / STEP_S).round() as u64 {
         ours = vehicle.step(&ours, &water, &command, STEP_S);
@@ -292,10 +231,7 @@ fn at_rest_in_any_current_the_path_is_the_published_one() {
             let angle = (beta_deg - psi_deg).to_radians();
             if math::cos(angle).abs() > 1e-9 {
                 let worst = apart(0.5, beta_deg, [0.0, 0.0, psi_deg], turning, 40.0);
-                assert!(
-                    worst < 2e-6,
-                    "towards {beta_deg}, heading {psi_deg}: {worst} m"
-                );
+                assert!(worst < 2e-6, "towards {beta_deg}, heading {psi_deg}: {worst} m");
             }
         }
     }

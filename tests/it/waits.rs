@@ -1,8 +1,5 @@
 //! Waits for conditions, with a bound so generous that only what never comes reaches it.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "other processes and threads are waited for, outside any tick"
-)]
+#![allow(clippy::disallowed_methods, reason = "other processes and threads are waited for, outside any tick")]
 
 use std::fs;
 use std::path::Path;
@@ -21,11 +18,7 @@ pub(crate) fn until<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
         if let Some(found) = look() {
             return found;
         }
-        assert!(
-            begun.elapsed() < PATIENCE,
-            "waited {} s in vain: {what}",
-            PATIENCE.as_secs()
-        );
+        assert!(begun.elapsed() < PATIENCE, "waited {} s in vain: {what}", PATIENCE.as_secs());
         sleep(nap);
         nap = (nap * 2).min(Duration::from_millis(10));
     }
@@ -71,11 +64,7 @@ impl Process {
         let out = reader(self.0.stdout.take().map(|p| Box::new(p) as _));
         let err = reader(self.0.stderr.take().map(|p| Box::new(p) as _));
         let status = self.end();
-        Output {
-            status,
-            stdout: out.join().expect("read"),
-            stderr: err.join().expect("read"),
-        }
+        Output { status, stdout: out.join().expect("read"), stderr: err.join().expect("read") }
     }
 
     pub(crate) fn kill(&mut self) {
@@ -146,12 +135,7 @@ pub(crate) fn kill_again_and_again(
             process.ended()
         } else {
             let more = before + 1 + (3.0 * draw()) as usize;
-            let over = until("it gets on", || {
-                process
-                    .ended()
-                    .map(Some)
-                    .or_else(|| (parts() >= more).then_some(None))
-            });
+            let over = until("it gets on", || process.ended().map(Some).or_else(|| (parts() >= more).then_some(None)));
             // Not always just after a part.
             pause(if over.is_some() { 0.0 } else { 0.02 * draw() });
             over.or_else(|| process.ended())

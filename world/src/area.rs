@@ -47,10 +47,7 @@ impl Area {
     /// Its sides, for questions in every tick.
     #[must_use]
     pub fn sides(&self) -> Sides {
-        Sides {
-            axes: self.axes(),
-            area: *self,
-        }
+        Sides { axes: self.axes(), area: *self }
     }
 
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
@@ -93,12 +90,7 @@ impl Sides {
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
     #[must_use]
     pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
-        let Area {
-            centre,
-            length_m,
-            width_m,
-            ..
-        } = self.area;
+        let Area { centre, length_m, width_m, .. } = self.area;
         let [x, y] = self.axes.map(|axis| (p - centre).dot(&axis));
         let (dx, dy) = (length_m / 2.0 - x.abs(), width_m / 2.0 - y.abs());
         let [a, r] = [self.axes[0] * x.signum(), self.axes[1] * y.signum()];
@@ -119,12 +111,7 @@ impl Sides {
         let [along, across] = self.axes;
         let [x, y] = self.axes.map(|axis| (p - self.area.centre).dot(&axis));
         let (l, w) = (self.area.length_m / 2.0, self.area.width_m / 2.0);
-        [
-            (l - x, along),
-            (l + x, -along),
-            (w - y, across),
-            (w + y, -across),
-        ]
+        [(l - x, along), (l + x, -along), (w - y, across), (w + y, -across)]
     }
 }
 
@@ -133,12 +120,7 @@ mod tests {
     use super::*;
 
     fn duck() -> Area {
-        Area {
-            centre: Vector2::zeros(),
-            length_m: 1094.0,
-            width_m: 367.0,
-            axis: Heading::from_deg(340.0),
-        }
+        Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) }
     }
 
     #[test]

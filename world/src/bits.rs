@@ -122,11 +122,7 @@ impl<'a> Reader<'a> {
     /// As [`Self::words`]; also if it has another length.
     pub fn exactly<W: Word>(&mut self, n: usize) -> Result<Vec<W>, Unreadable> {
         let list = self.words()?;
-        if list.len() == n {
-            Ok(list)
-        } else {
-            Err(Unreadable("a list has another length than it must have"))
-        }
+        if list.len() == n { Ok(list) } else { Err(Unreadable("a list has another length than it must have")) }
     }
 
     /// The end of the bytes.
@@ -134,11 +130,7 @@ impl<'a> Reader<'a> {
     /// # Errors
     /// If some are left.
     pub fn end(self) -> Result<(), Unreadable> {
-        if self.0.is_empty() {
-            Ok(())
-        } else {
-            Err(Unreadable("it goes on after its end"))
-        }
+        if self.0.is_empty() { Ok(()) } else { Err(Unreadable("it goes on after its end")) }
     }
 }
 

@@ -49,8 +49,7 @@ impl Times {
     #[must_use]
     pub fn sums(&self) -> f64 {
         let every = |period_s: f64| self.flow_period_s.max(period_s);
-        2.0 + self.spin_up_s / every(self.spin_up_period_s)
-            + self.mission_s / every(self.drift_period_s)
+        2.0 + self.spin_up_s / every(self.spin_up_period_s) + self.mission_s / every(self.drift_period_s)
     }
 }
 
@@ -82,13 +81,7 @@ impl Part {
     /// A part that depends on no single number.
     #[must_use]
     pub fn new(path: impl Into<String>, what: impl Into<String>) -> Self {
-        Self {
-            path: path.into(),
-            what: what.into(),
-            bytes: 0.0,
-            seconds: 0.0,
-            rule: None,
-        }
+        Self { path: path.into(), what: what.into(), bytes: 0.0, seconds: 0.0, rule: None }
     }
 
     /// Sets the memory that it takes, bytes.
@@ -120,12 +113,7 @@ impl Part {
         let most = rule.value * math::powf(0.99 * bytes / self.bytes, 1.0 / rule.power);
         let legal = most.is_finite() && most > 0.0;
         let side = if rule.power > 0.0 { "most" } else { "least" };
-        legal.then(|| {
-            format!(
-                "must be at {side} {}",
-                shown(rounded(most, rule.power < 0.0))
-            )
-        })
+        legal.then(|| format!("must be at {side} {}", shown(rounded(most, rule.power < 0.0))))
     }
 }
 
@@ -133,11 +121,7 @@ impl Part {
 fn rounded(v: f64, up: bool) -> f64 {
     let text = format!("{v:.2e}");
     let near: f64 = text.parse().unwrap_or(v);
-    let exponent: i32 = text
-        .split('e')
-        .nth(1)
-        .and_then(|e| e.parse().ok())
-        .unwrap_or(0);
+    let exponent: i32 = text.split('e').nth(1).and_then(|e| e.parse().ok()).unwrap_or(0);
     let digit = format!("1e{}", exponent - 2).parse().unwrap_or(0.0);
     let off: f64 = match (up, near < v) {
         (true, true) => near + digit,
@@ -170,11 +154,7 @@ impl Cost {
     #[must_use]
     pub fn under(mut self, path: &str) -> Self {
         for part in &mut self.parts {
-            part.path = if part.path.is_empty() {
-                path.to_owned()
-            } else {
-                format!("{path}.{}", part.path)
-            };
+            part.path = if part.path.is_empty() { path.to_owned() } else { format!("{path}.{}", part.path) };
         }
         self
     }
@@ -207,9 +187,7 @@ impl Cost {
     /// The part that takes most time.
     #[must_use]
     pub fn slowest(&self) -> Option<&Part> {
-        self.parts
-            .iter()
-            .max_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        self.parts.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 }
 
@@ -256,18 +234,10 @@ mod tests {
     #[test]
     fn the_legal_value_needs_no_more_than_is_there() {
         // 1000 filaments for each hertz, 100 bytes each.
-        let at = |hz: f64| {
-            Part::new("rate_hz", "filaments")
-                .holds(1e5 * hz)
-                .by(hz, 1.0)
-        };
+        let at = |hz: f64| Part::new("rate_hz", "filaments").holds(1e5 * hz).by(hz, 1.0);
         assert_eq!(at(1e6).legal(1e9).unwrap(), "must be at most 9900");
         // Cells of a plane: memory goes with the inverse square of their size.
-        let of = |m: f64| {
-            Part::new("cell_m", "cells")
-                .holds(1e6 / (m * m))
-                .by(m, -2.0)
-        };
+        let of = |m: f64| Part::new("cell_m", "cells").holds(1e6 / (m * m)).by(m, -2.0);
         let said = of(1e-3).legal(1e9).unwrap();
         assert_eq!(said, "must be at least 0.0318");
         assert!(of(0.0318).bytes <= 1e9 && of(0.031).bytes > 1e9);
@@ -285,27 +255,8 @@ mod tests {
     #[test]
     fn times_and_sizes_are_said_as_people_say_them() {
         let times = [0.0, 12.4, 600.0, 4e4, 1e6, 1e10, f64::NAN].map(duration);
-        assert_eq!(
-            times,
-            [
-                "0.1 s",
-                "12 s",
-                "10 min",
-                "11 h",
-                "12 days",
-                "317 years",
-                "more than a lifetime"
-            ]
-        );
+        assert_eq!(times, ["0.1 s", "12 s", "10 min", "11 h", "12 days", "317 years", "more than a lifetime"]);
         let sizes = [6.2e7, 2.4e9, 1e18, f64::INFINITY].map(memory);
-        assert_eq!(
-            sizes,
-            [
-                "62 MB",
-                "2.4 GB",
-                "1e9 GB",
-                "more than any machine's memory"
-            ]
-        );
+        assert_eq!(sizes, ["62 MB", "2.4 GB", "1e9 GB", "more than any machine's memory"]);
     }
 }

@@ -23,11 +23,7 @@ const WAITING: usize = 1024;
 
 impl Default for Digest {
     fn default() -> Self {
-        Self(Box::new(Hashed {
-            hash: Xxh3::new(),
-            waiting: [0; WAITING],
-            used: 0,
-        }))
+        Self(Box::new(Hashed { hash: Xxh3::new(), waiting: [0; WAITING], used: 0 }))
     }
 }
 
@@ -153,17 +149,13 @@ mod tests {
         assert_eq!(read.finish(), given.finish());
         // BLAKE3's published answer for no input.
         let none = Fingerprint::hex(&Fingerprint::default().finish());
-        assert!(
-            none.starts_with("af1349b9f5f9a1a6a0404dea36dcc949"),
-            "{none}"
-        );
+        assert!(none.starts_with("af1349b9f5f9a1a6a0404dea36dcc949"), "{none}");
     }
 
     #[test]
     fn cutting_the_input_does_not_matter_but_every_bit_does() {
         let values: Vec<f64> = (0..1000).map(f64::from).collect();
-        let (mut whole, mut parts, mut other) =
-            (Digest::default(), Digest::default(), Digest::default());
+        let (mut whole, mut parts, mut other) = (Digest::default(), Digest::default(), Digest::default());
         whole.f64s(&values);
         values.chunks(7).for_each(|c| parts.f64s(c));
         assert_eq!(whole.hex(), parts.hex());
@@ -175,8 +167,7 @@ mod tests {
                 1 => mixed.f64s(&[*v]),
                 // Also where the room for those that wait is used up.
                 _ if n > 500 => mixed.f64(*v),
-                _ => mixed
-                    .f32s(&[v.to_bits() as u32, (v.to_bits() >> 32) as u32].map(f32::from_bits)),
+                _ => mixed.f32s(&[v.to_bits() as u32, (v.to_bits() >> 32) as u32].map(f32::from_bits)),
             }
             let _ = mixed.hex();
         }

@@ -75,13 +75,7 @@ pub trait Flow: Send + Sync {
     /// Velocity and diffusivity at several heights above one place (east, north), m. An implementation can compute only
     /// once what is the same in the whole column. The velocity excludes eddies that [`Flow::carry`] adds. Of waves that
     /// [`Flow::displacement`] adds, it contains only the mean drift, because it moves mean places.
-    fn column(
-        &self,
-        place: Vector2<f64>,
-        heights_m: &[f64],
-        t_s: f64,
-        out: &mut [(Vector3<f64>, Mixing)],
-    ) {
+    fn column(&self, place: Vector2<f64>, heights_m: &[f64], t_s: f64, out: &mut [(Vector3<f64>, Mixing)]) {
         for (z, node) in heights_m.iter().zip(out) {
             let p = Vector3::new(place.x, place.y, *z);
             *node = (self.velocity(&p, t_s), self.mixing(&p, t_s));
@@ -132,14 +126,8 @@ pub trait Flow: Send + Sync {
             let d = (self.velocity(&(p + e), t_s) - self.velocity(&(p - e), t_s)) / (2.0 * H);
             gradient.set_column(j, &d);
         }
-        let rate = (self.velocity(p, t_s + H) - self.velocity(p, (t_s - H).max(0.0)))
-            / (t_s + H - (t_s - H).max(0.0));
-        WaterSample {
-            velocity: self.velocity(p, t_s),
-            gradient,
-            rate,
-            density_kg_m3: self.density(p, t_s),
-        }
+        let rate = (self.velocity(p, t_s + H) - self.velocity(p, (t_s - H).max(0.0))) / (t_s + H - (t_s - H).max(0.0));
+        WaterSample { velocity: self.velocity(p, t_s), gradient, rate, density_kg_m3: self.density(p, t_s) }
     }
 }
 

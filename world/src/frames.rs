@@ -21,10 +21,7 @@ impl Pose {
     pub fn level(p: Vector3<f64>, heading: Heading) -> Self {
         // `from_euler_angles` with two angles of zero, whose sines and cosines are known.
         let (s, c) = math::sin_cos(heading.yaw() * 0.5);
-        Self {
-            p_WB: p,
-            R_WB: UnitQuaternion::new_unchecked(Quaternion::new(c, 0.0, 0.0, s)),
-        }
+        Self { p_WB: p, R_WB: UnitQuaternion::new_unchecked(Quaternion::new(c, 0.0, 0.0, s)) }
     }
 
     /// World coordinates of a point given in body axes.
@@ -76,11 +73,7 @@ impl Truth {
     /// A body at rest with a pose.
     #[must_use]
     pub fn at_rest(pose: Pose) -> Self {
-        Self {
-            pose,
-            v_WB_B: Vector3::zeros(),
-            w_WB_B: Vector3::zeros(),
-        }
+        Self { pose, v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros() }
     }
 
     /// Velocity over ground in world axes, m/s.
@@ -126,10 +119,7 @@ mod tests {
     fn roll_and_pitch_are_two_of_the_euler_angles() {
         let mut random = Stream::new(1, "test", "attitudes");
         let same = |R_WB: UnitQuaternion<f64>| {
-            let pose = Pose {
-                p_WB: Vector3::zeros(),
-                R_WB,
-            };
+            let pose = Pose { p_WB: Vector3::zeros(), R_WB };
             let ((roll, pitch), plain) = (pose.roll_pitch(), R_WB.euler_angles());
             let plain = (plain.0.to_bits(), plain.1.to_bits());
             assert_eq!((roll.to_bits(), pitch.to_bits()), plain, "{R_WB:?}");

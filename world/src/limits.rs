@@ -39,12 +39,7 @@ impl Range {
             return None;
         }
         let space = if unit.is_empty() { "" } else { " " };
-        Some(format!(
-            "must be from {} to {}{space}{unit}, got {}",
-            shown(*low),
-            shown(*high),
-            shown(v)
-        ))
+        Some(format!("must be from {} to {}{space}{unit}, got {}", shown(*low), shown(*high), shown(v)))
     }
 }
 
@@ -86,11 +81,7 @@ impl<T: Limited> Limited for (T, T) {
 impl<T: Limited> Limited for (T, T, T) {
     type Raw = (T::Raw, T::Raw, T::Raw);
     fn limited((a, b, c): Self::Raw, range: &Range) -> Result<Self, String> {
-        Ok((
-            T::limited(a, range)?,
-            T::limited(b, range)?,
-            T::limited(c, range)?,
-        ))
+        Ok((T::limited(a, range)?, T::limited(b, range)?, T::limited(c, range)?))
     }
 }
 
@@ -98,11 +89,7 @@ impl<T: Limited> Limited for (T, T, T) {
 #[must_use]
 pub fn shown(v: f64) -> String {
     let size = v.abs();
-    if size != 0.0 && !(1e-4..1e7).contains(&size) {
-        format!("{v:e}")
-    } else {
-        format!("{v}")
-    }
+    if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{v:e}") } else { format!("{v}") }
 }
 
 macro_rules! limits {
@@ -284,10 +271,7 @@ mod tests {
         let speed = |v: f64| NonNegative::limited(v, &SPEED).map(NonNegative::get);
         assert_eq!(speed(0.0), Ok(0.0));
         assert_eq!(speed(15.0), Ok(15.0));
-        assert_eq!(
-            speed(1e6),
-            Err("must be from 0 to 15 m/s, got 1000000".into())
-        );
+        assert_eq!(speed(1e6), Err("must be from 0 to 15 m/s, got 1000000".into()));
         assert_eq!(speed(f64::NAN), Err("must be >= 0, got NaN".into()));
     }
 

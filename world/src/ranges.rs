@@ -1,9 +1,6 @@
 //! Numbers that must lie in a legal range. The reader points at the place in the file and states the range.
 
-#![allow(
-    clippy::manual_range_contains,
-    reason = "`contains` cannot be called where a constant is made"
-)]
+#![allow(clippy::manual_range_contains, reason = "`contains` cannot be called where a constant is made")]
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -114,27 +111,12 @@ mod tests {
 
     #[test]
     fn what_powers_would_make_infinite_or_zero_is_refused_with_the_range() {
-        assert_eq!(
-            Positive::try_from(1e154),
-            Err("must be from 1e-18 to 1e18, got 1e154".into())
-        );
-        assert_eq!(
-            Positive::try_from(5e-324),
-            Err("must be from 1e-18 to 1e18, got 5e-324".into())
-        );
-        assert_eq!(
-            NonNegative::try_from(1e-300),
-            Err("must be 0 or from 1e-18 to 1e18, got 1e-300".into())
-        );
-        assert_eq!(
-            Finite::try_from(-1e39),
-            Err("must be from -1e18 to 1e18, got -1e39".into())
-        );
+        assert_eq!(Positive::try_from(1e154), Err("must be from 1e-18 to 1e18, got 1e154".into()));
+        assert_eq!(Positive::try_from(5e-324), Err("must be from 1e-18 to 1e18, got 5e-324".into()));
+        assert_eq!(NonNegative::try_from(1e-300), Err("must be 0 or from 1e-18 to 1e18, got 1e-300".into()));
+        assert_eq!(Finite::try_from(-1e39), Err("must be from -1e18 to 1e18, got -1e39".into()));
         assert_eq!(Positive::try_from(-1.0), Err("must be > 0, got -1".into()));
-        assert_eq!(
-            Positive::try_from(f64::NAN),
-            Err("must be > 0, got NaN".into())
-        );
+        assert_eq!(Positive::try_from(f64::NAN), Err("must be > 0, got NaN".into()));
         assert_eq!(NonNegative::try_from(0.0).map(NonNegative::get), Ok(0.0));
         assert_eq!(Finite::try_from(1e-300).map(Finite::get), Ok(1e-300));
     }

@@ -35,20 +35,14 @@ impl Key {
     /// The key of all runs without a secret.
     #[must_use]
     pub fn public() -> Self {
-        Self {
-            bytes: blake3::derive_key(OF_A_RUN, b""),
-            mark: None,
-        }
+        Self { bytes: blake3::derive_key(OF_A_RUN, b""), mark: None }
     }
 
     /// The key that a secret text gives. A short or common text can be guessed: take 20 random characters or more.
     #[must_use]
     pub fn secret(text: &str) -> Self {
         let mark = blake3::derive_key(OF_A_MARK, text.as_bytes());
-        Self {
-            bytes: blake3::derive_key(OF_A_RUN, text.as_bytes()),
-            mark: mark.first_chunk().copied(),
-        }
+        Self { bytes: blake3::derive_key(OF_A_RUN, text.as_bytes()), mark: mark.first_chunk().copied() }
     }
 
     /// What may be written of a secret key, to tell runs under different keys apart; `None` of the public one.
@@ -150,10 +144,7 @@ impl Stream {
     /// The stream of `entity` for `purpose` under the run's `seed`.
     #[must_use]
     pub fn new(seed: impl Into<Seed>, entity: &str, purpose: &str) -> Self {
-        Self {
-            rng: rand_chacha::ChaCha8Rng::from_seed(seed.into().hash(entity, purpose)),
-            spare: None,
-        }
+        Self { rng: rand_chacha::ChaCha8Rng::from_seed(seed.into().hash(entity, purpose)), spare: None }
     }
 
     /// Uniform in [0, 1).
@@ -231,15 +222,9 @@ mod tests {
         assert_ne!(open, keyed);
         assert_eq!((open.key().mark(), keyed.number()), (None, 7));
         assert_ne!(secret.mark(), Key::secret("another").mark());
-        let shown = format!(
-            "{keyed:?} {keyed} {}",
-            serde_json::to_string(&keyed).unwrap()
-        );
+        let shown = format!("{keyed:?} {keyed} {}", serde_json::to_string(&keyed).unwrap());
         let bytes: String = secret.bytes.iter().map(|b| format!("{b:02x}")).collect();
-        assert!(
-            !shown.contains(&bytes[..16]) && !shown.contains("horse"),
-            "{shown}"
-        );
+        assert!(!shown.contains(&bytes[..16]) && !shown.contains("horse"), "{shown}");
     }
 
     /// Known answer, so that a change of the hash, of its texts or of the generator cannot go unseen.
@@ -248,11 +233,7 @@ mod tests {
         let mut stream = Stream::new(1, "auv0", "lbl");
         assert_eq!(
             [key(1, "auv0", "lbl"), stream.bits(), stream.bits()],
-            [
-                13124532052829722062,
-                12648757074421929392,
-                4532425916095895845
-            ]
+            [13124532052829722062, 12648757074421929392, 4532425916095895845]
         );
     }
 

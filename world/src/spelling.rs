@@ -60,10 +60,7 @@ mod tests {
     fn only_a_near_name_is_proposed() {
         let legal = ["length_m", "width_m"];
         assert!(choose("lenght_m", &legal, "fields").starts_with("did you mean `length_m`?"));
-        assert_eq!(
-            choose("colour", &["length_m"], "fields"),
-            "fields here: length_m"
-        );
+        assert_eq!(choose("colour", &["length_m"], "fields"), "fields here: length_m");
         assert_eq!(nearest("lenght_m", &legal), Some("length_m"));
         assert_eq!(nearest("n", &["x", "y"]), None);
         assert_eq!(nearest("east", &["east_m", "east_n"]), None);

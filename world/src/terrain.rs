@@ -33,18 +33,8 @@ impl Terrain {
     #[must_use]
     pub fn sloping_over(area: &Area, shoreward: Heading, shallow_m: f64, deep_m: f64) -> Self {
         let u = shoreward.unit();
-        let reach = area
-            .corners()
-            .iter()
-            .map(|c| (c - area.centre).dot(&u))
-            .fold(0.0, f64::max);
-        Terrain::Slope {
-            middle: area.centre,
-            shoreward: u,
-            shallow_m,
-            deep_m,
-            run_m: 2.0 * reach,
-        }
+        let reach = area.corners().iter().map(|c| (c - area.centre).dot(&u)).fold(0.0, f64::max);
+        Terrain::Slope { middle: area.centre, shoreward: u, shallow_m, deep_m, run_m: 2.0 * reach }
     }
 
     /// Height of the bed (negative: below the still surface), m.
@@ -52,13 +42,7 @@ impl Terrain {
     pub fn bed_z(&self, x: f64, y: f64) -> f64 {
         match *self {
             Terrain::Level { depth_m } => -depth_m,
-            Terrain::Slope {
-                middle,
-                shoreward,
-                shallow_m,
-                deep_m,
-                run_m,
-            } => {
+            Terrain::Slope { middle, shoreward, shallow_m, deep_m, run_m } => {
                 let s = (Vector2::new(x, y) - middle).dot(&shoreward) / run_m + 0.5;
                 -(deep_m + (shallow_m - deep_m) * s.clamp(0.0, 1.0))
             }
@@ -85,13 +69,7 @@ impl Terrain {
         // The bed is flat between the lines where the slope begins and ends, so the height above it is linear along the
         // ray.
         let mut bends = [max_m; 3];
-        if let Terrain::Slope {
-            middle,
-            shoreward,
-            run_m,
-            ..
-        } = self
-        {
+        if let Terrain::Slope { middle, shoreward, run_m, .. } = self {
             let (at, pace) = ((from.xy() - middle).dot(shoreward), dir.xy().dot(shoreward));
             for (bend, edge) in bends.iter_mut().zip([-0.5 * run_m, 0.5 * run_m]) {
                 let way = (edge - at) / pace;
@@ -142,12 +120,8 @@ mod tests {
 
     #[test]
     fn slope_reaches_both_depths_at_the_edges() {
-        let area = Area {
-            centre: Vector2::new(5.0, -3.0),
-            length_m: 1094.0,
-            width_m: 367.0,
-            axis: Heading::from_deg(340.0),
-        };
+        let area =
+            Area { centre: Vector2::new(5.0, -3.0), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
         let t = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
         let shore = area.world(Vector2::new(0.0, -183.5));
         let sea = area.world(Vector2::new(0.0, 183.5));
@@ -192,9 +166,6 @@ mod tests {
             }
         }
         assert!(met.iter().all(|n| *n > 50), "{met:?}");
-        assert_eq!(
-            level.ray(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 5.0),
-            Some(0.0)
-        );
+        assert_eq!(level.ray(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 5.0), Some(0.0));
     }
 }

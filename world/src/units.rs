@@ -138,18 +138,7 @@ mod tests {
     fn within_a_turn_of_the_range_the_floor_is_known() {
         let plain = |a: f64| a - TAU * (a / TAU).floor();
         let same = |a: f64| assert_eq!(within_a_turn(a).to_bits(), plain(a).to_bits(), "{a:e}");
-        for edge in [
-            0.0,
-            1e-310,
-            1e-300,
-            1e-17,
-            1.0,
-            PI,
-            TAU,
-            2.0 * TAU,
-            3.0 * TAU,
-            1e17,
-        ] {
+        for edge in [0.0, 1e-310, 1e-300, 1e-17, 1.0, PI, TAU, 2.0 * TAU, 3.0 * TAU, 1e17] {
             let (mut down, mut up) = (edge, edge);
             for _ in 0..50 {
                 for a in [down, up, -down, -up] {

@@ -44,11 +44,7 @@ impl Span {
     /// The part of it that has passed at a time, from 0 to 1.
     pub(super) fn part(&self, now_s: f64) -> f32 {
         let whole = self.to_s - self.from_s;
-        if whole > 0.0 {
-            ((now_s - self.from_s) / whole).clamp(0.0, 1.0) as f32
-        } else {
-            1.0
-        }
+        if whole > 0.0 { ((now_s - self.from_s) / whole).clamp(0.0, 1.0) as f32 } else { 1.0 }
     }
 }
 
@@ -77,13 +73,7 @@ pub(super) struct Bands {
 impl Bands {
     /// From `start_s` on, in steps of at most `longest_s`. The longest step divides `flow_s`, the period at which the
     /// flow is renewed, unless that is 0. The last steps end at `end_s`.
-    pub(super) fn new(
-        start_s: f64,
-        end_s: f64,
-        longest_s: f64,
-        flow_s: f64,
-        one_step: bool,
-    ) -> Self {
+    pub(super) fn new(start_s: f64, end_s: f64, longest_s: f64, flow_s: f64, one_step: bool) -> Self {
         let mut most_s = longest_s.min(end_s - start_s);
         if !one_step {
             most_s = most_s.min(LONGEST_S);
@@ -97,18 +87,8 @@ impl Bands {
             shortest_s *= 0.5;
             halvings += 1;
         }
-        let at = Span {
-            from_s: start_s,
-            to_s: start_s,
-        };
-        Self {
-            start_s,
-            end_s,
-            shortest_s,
-            halvings,
-            tick: 0,
-            spans: [at; MOST],
-        }
+        let at = Span { from_s: start_s, to_s: start_s };
+        Self { start_s, end_s, shortest_s, halvings, tick: 0, spans: [at; MOST] }
     }
 
     /// A single band that takes a single step.
@@ -268,12 +248,7 @@ mod tests {
         while bands.next_s() < 45.0 {
             let (due, t) = (bands.due(), bands.next_s());
             bands.pass();
-            for (band, reached) in reached
-                .iter_mut()
-                .enumerate()
-                .take(bands.last() + 1)
-                .skip(due)
-            {
+            for (band, reached) in reached.iter_mut().enumerate().take(bands.last() + 1).skip(due) {
                 let span = bands.span(band);
                 assert_eq!((span.from_s, t), (*reached, t));
                 assert!(span.to_s == 45.0 || span.to_s - span.from_s == bands.step_s(band));
@@ -284,14 +259,7 @@ mod tests {
             }
         }
         assert!(reached[..=bands.last()].iter().all(|r| *r == 45.0));
-        assert_eq!(
-            Span {
-                from_s: 2.0,
-                to_s: 4.0
-            }
-            .part(2.5),
-            0.25
-        );
+        assert_eq!(Span { from_s: 2.0, to_s: 4.0 }.part(2.5), 0.25);
     }
 
     #[test]
@@ -307,11 +275,7 @@ mod tests {
             }
         }
         assert_eq!(ends.len(), 6);
-        assert!(
-            ends.iter()
-                .zip([0.2, 0.4, 0.6, 0.8, 1.0, 1.02])
-                .all(|(a, b)| (a - b).abs() < 1e-9)
-        );
+        assert!(ends.iter().zip([0.2, 0.4, 0.6, 0.8, 1.0, 1.02]).all(|(a, b)| (a - b).abs() < 1e-9));
         let mut long = Bands::new(0.0, 9.0, 1.0, 0.0, false);
         long.pass();
         assert_eq!(long.carries(2, 0.0), Some(long.span(2)));
@@ -320,23 +284,13 @@ mod tests {
     #[test]
     fn only_old_filaments_in_gentle_water_take_long_steps() {
         let size = Size::new(&ReleaseSpec::default());
-        let duck = Scales {
-            fastest_m_s: 0.3,
-            k_h_m2_s: 0.01,
-            k_z_m2_s: 2e-3,
-            reach_m: 20.0,
-        };
+        let duck = Scales { fastest_m_s: 0.3, k_h_m2_s: 0.01, k_z_m2_s: 2e-3, reach_m: 20.0 };
         let ages = [0.3125, 1.25, 5.0].map(|step_s| duck.age_s(&size, step_s));
-        assert!(
-            ages[0] < 20.0 && ages[1] < 60.0 && ages[2] < 250.0,
-            "{ages:?}"
-        );
+        assert!(ages[0] < 20.0 && ages[1] < 60.0 && ages[2] < 250.0, "{ages:?}");
         assert!(ages[0] < ages[1] && ages[1] < ages[2]);
         assert!(duck.age_s(&size, 40.0).is_infinite());
-        let never = Size::new(&ReleaseSpec {
-            vertical_size_limit_m: Some(Positive::new(0.05)),
-            ..ReleaseSpec::default()
-        });
+        let never =
+            Size::new(&ReleaseSpec { vertical_size_limit_m: Some(Positive::new(0.05)), ..ReleaseSpec::default() });
         assert!(duck.age_s(&never, 5.0).is_infinite());
     }
 }

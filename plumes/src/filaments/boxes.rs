@@ -29,10 +29,7 @@ pub(super) struct Boxes {
 impl Boxes {
     /// The first of these, at most [`BOXES`].
     pub(super) fn new(ends: impl Iterator<Item = Ends>) -> Self {
-        let mut new = Self {
-            lo: [[f32::MAX; BOXES]; 3],
-            hi: [[f32::MIN; BOXES]; 3],
-        };
+        let mut new = Self { lo: [[f32::MAX; BOXES]; 3], hi: [[f32::MIN; BOXES]; 3] };
         for (l, ends) in ends.enumerate().take(BOXES) {
             for (d, [lo, hi]) in ends.into_iter().enumerate() {
                 (new.lo[d][l], new.hi[d][l]) = (lo, hi);
@@ -88,10 +85,7 @@ fn hold_avx512(boxes: &Boxes, p: [f32; 3]) -> u32 {
 /// From the least to the greatest of both. What is no number does not count.
 #[inline(always)]
 pub(super) fn wider([lo, hi]: [f32; 2], [low, high]: [f32; 2]) -> [f32; 2] {
-    [
-        if low < lo { low } else { lo },
-        if high > hi { high } else { hi },
-    ]
+    [if low < lo { low } else { lo }, if high > hi { high } else { hi }]
 }
 
 /// The places of the bits that are set, the least first.

@@ -117,14 +117,7 @@ impl Carrier {
     }
 
     /// Carries a block by its `dt`.
-    pub(super) fn carry(
-        &self,
-        path: Path,
-        lookup: &Lookup,
-        grid: &FlowGrid,
-        block: &mut Block,
-        way: &mut Way,
-    ) {
+    pub(super) fn carry(&self, path: Path, lookup: &Lookup, grid: &FlowGrid, block: &mut Block, way: &mut Way) {
         match path {
             Path::Portable => self.body(lookup, grid, block, way),
             // SAFETY: this variant is only made after the feature was detected.
@@ -150,15 +143,7 @@ impl Carrier {
 
     #[inline(always)]
     fn body(&self, lookup: &Lookup, grid: &FlowGrid, b: &mut Block, way: &mut Way) {
-        let Way {
-            column,
-            level,
-            part,
-            rate,
-            to,
-            fits,
-            gone,
-        } = way;
+        let Way { column, level, part, rate, to, fits, gone } = way;
         for l in 0..BLOCK {
             let c = lookup.column(b.x[l], b.y[l]);
             (column[l], part[0][l], part[1][l]) = (c.at, c.f, c.g);
@@ -249,10 +234,7 @@ impl Carrier {
 
     /// Carries one filament from cell to cell.
     #[inline(never)]
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "where one filament of a block is"
-    )]
+    #[expect(clippy::too_many_arguments, reason = "where one filament of a block is")]
     fn far(
         &self,
         lookup: &Lookup,
@@ -270,20 +252,9 @@ impl Carrier {
         }
         let v = lookup.level(b.z[l], -1.0 / b.bed[l]);
         let across = self.n[1] + 1;
-        let cell = [
-            column as usize / across,
-            column as usize % across,
-            level as usize,
-        ];
+        let cell = [column as usize / across, column as usize % across, level as usize];
         let start = [c.f, c.g, v.part].map(f64::from);
-        let end = self.path(
-            Inside {
-                cell,
-                part: start,
-                left: false,
-            },
-            f64::from(b.dt[l]),
-        );
+        let end = self.path(Inside { cell, part: start, left: false }, f64::from(b.dt[l]));
         gone[l] = u32::from(end.left);
         let went = |d: usize| {
             let cells = end.cell[d] as f64 - cell[d] as f64 + end.part[d] - start[d];
@@ -306,21 +277,13 @@ impl Carrier {
             let r = self.of(at.cell).map(f64::from);
             let still = self.still_bed && at.cell[2] == 0;
             // Speeds at the lower faces and their growth; over a no-slip bed, in the current's own time.
-            let growth = [
-                r[1] - r[0],
-                r[3] - r[2],
-                (r[5] - r[4]) * if still { 0.5 } else { 1.0 },
-            ];
+            let growth = [r[1] - r[0], r[3] - r[2], (r[5] - r[4]) * if still { 0.5 } else { 1.0 }];
             let speed = [0, 1, 2].map(|d| {
                 let low = if still && d == 2 { 0.0 } else { r[2 * d] };
                 low + growth[d] * at.part[d]
             });
             let (h, f) = (growth[2], at.part[2]);
-            let counted = if still {
-                2.0 * f * left_s * logarithm(-2.0 * h * f * left_s)
-            } else {
-                left_s
-            };
+            let counted = if still { 2.0 * f * left_s * logarithm(-2.0 * h * f * left_s) } else { left_s };
             let (mut first, mut through) = (counted, None);
             for d in 0..3 {
                 let to = if speed[d] > 0.0 { 1.0 } else { 0.0 };
@@ -341,17 +304,12 @@ impl Carrier {
                 }
             }
             for d in 0..3 {
-                at.part[d] =
-                    (at.part[d] + speed[d] * first * expansion(growth[d] * first)).clamp(0.0, 1.0);
+                at.part[d] = (at.part[d] + speed[d] * first * expansion(growth[d] * first)).clamp(0.0, 1.0);
             }
             let Some((d, to)) = through else {
                 return at;
             };
-            let passed = if still {
-                0.5 / f * first * expansion(-h * first)
-            } else {
-                first
-            };
+            let passed = if still { 0.5 / f * first * expansion(-h * first) } else { first };
             left_s = (left_s - passed).max(0.0);
             at.part[d] = 1.0 - to;
             if to > 0.5 {

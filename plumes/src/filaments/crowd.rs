@@ -67,8 +67,7 @@ impl Crowd {
     /// The members of a group in an order, of which those that are released last come last.
     pub(super) fn new(asked: &Asked, order: &[u16]) -> Self {
         let mut ends = [EMPTY; WORDS * BOXES];
-        let (mut leaflets, mut walled) =
-            (Vec::with_capacity(order.len() / LEAFLET + 2), Vec::new());
+        let (mut leaflets, mut walled) = (Vec::with_capacity(order.len() / LEAFLET + 2), Vec::new());
         let (mut moving, mut leaf) = (Moving::default(), Leaf::default());
         let open = asked.spot.room.is_open();
         for members in order.chunks(LEAF) {
@@ -95,20 +94,11 @@ impl Crowd {
             }
         }
         let boxes = |word: usize| Boxes::new(ends.into_iter().skip(word * BOXES));
-        Self {
-            boxes: std::array::from_fn(boxes),
-            leaflets,
-            walled,
-        }
+        Self { boxes: std::array::from_fn(boxes), leaflets, walled }
     }
 
     /// The sum of their contributions at a point, in quanta. Those that feel a wall need to know what is `asked`.
-    pub(super) fn felt<'a>(
-        &self,
-        path: Path,
-        p: [f32; 3],
-        asked: impl FnOnce() -> Asked<'a>,
-    ) -> i64 {
+    pub(super) fn felt<'a>(&self, path: Path, p: [f32; 3], asked: impl FnOnce() -> Asked<'a>) -> i64 {
         let mut hits = [0; WORDS];
         let total = match path {
             // SAFETY: these instructions are part of every machine of the target.
@@ -132,12 +122,7 @@ impl Crowd {
 
 impl Images {
     /// Of no filament.
-    const NONE: Self = Self {
-        surface: f32::MIN,
-        bed: f32::MIN,
-        reach: 0.0,
-        highest_bed: f32::MIN,
-    };
+    const NONE: Self = Self { surface: f32::MIN, bed: f32::MIN, reach: 0.0, highest_bed: f32::MIN };
 
     /// Adds those of a filament at a height over a bed, of a vertical size, m.
     fn add(&mut self, z: f32, bed: f32, size: f32) {
@@ -170,12 +155,7 @@ impl Leaflet {
     /// Adds what they contribute at a point.
     #[inline(always)]
     fn add(&self, p: [f32; 3], total: &mut Whole) {
-        let Images {
-            surface,
-            bed,
-            reach,
-            highest_bed,
-        } = self.images;
+        let Images { surface, bed, reach, highest_bed } = self.images;
         match (reach > -highest_bed, -p[2] <= surface, p[2] <= bed) {
             (true, ..) => self.add_with::<true, true, true>(p, total),
             (_, true, true) => self.add_with::<true, true, false>(p, total),
@@ -186,11 +166,7 @@ impl Leaflet {
     }
 
     #[inline(always)]
-    fn add_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
-        &self,
-        p: [f32; 3],
-        total: &mut Whole,
-    ) {
+    fn add_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(&self, p: [f32; 3], total: &mut Whole) {
         let mut felt = [0.0; LEAFLET];
         for (l, felt) in felt.iter_mut().enumerate() {
             let at = [self.p[0][l], self.p[1][l], self.p[2][l], self.bed[l]];

@@ -52,13 +52,7 @@ pub fn cut_off(
 }
 
 /// What is wrong with the n-th source, if anything is.
-pub(super) fn problem(
-    grid: &FlowGrid,
-    room: &Room,
-    lookup: &Lookup,
-    n: usize,
-    source: &Source,
-) -> Option<PlumeError> {
+pub(super) fn problem(grid: &FlowGrid, room: &Room, lookup: &Lookup, n: usize, source: &Source) -> Option<PlumeError> {
     let at = room.place(lookup, grid.local(&source.p_W))?;
     let free = room.open(lookup, &at, true);
     if free.is_some_and(|free| free.q == at.q) {

@@ -41,11 +41,7 @@ pub(crate) struct MixingProfile {
 impl MixingProfile {
     /// At heights above the bed (m), from 0 upwards to the depth.
     pub(crate) fn new(height: Vec<f64>, k: Vec<f64>) -> Self {
-        Self {
-            depth: *height.last().expect("a grid has two levels"),
-            height,
-            k,
-        }
+        Self { depth: *height.last().expect("a grid has two levels"), height, k }
     }
 
     /// Whether all of its numbers are finite.
@@ -56,9 +52,7 @@ impl MixingProfile {
     /// Greatest |K''| at a level, from the slopes on both sides, 1/s.
     pub(crate) fn sharpest(&self) -> f64 {
         let slope = |n: usize| (self.k[n] - self.k[n - 1]) / (self.height[n] - self.height[n - 1]);
-        let bend = |n: usize| {
-            2.0 * (slope(n + 1) - slope(n)).abs() / (self.height[n + 1] - self.height[n - 1])
-        };
+        let bend = |n: usize| 2.0 * (slope(n + 1) - slope(n)).abs() / (self.height[n + 1] - self.height[n - 1]);
         (1..self.k.len() - 1).map(bend).fold(0.0, f64::max)
     }
 
@@ -69,9 +63,7 @@ impl MixingProfile {
         let gained = self.gained(dt_s, cell);
         let mut off = vec![0.0; CELLS];
         // Exchange between two cells, 1/s.
-        let per: Vec<f64> = (1..CELLS)
-            .map(|n| self.at(n as f64 * cell).0 / (cell * cell))
-            .collect();
+        let per: Vec<f64> = (1..CELLS).map(|n| self.at(n as f64 * cell).0 / (cell * cell)).collect();
         let first = lasts_s * (GROWTH - 1.0) / (GROWTH.powi(STEPS) - 1.0);
         for n in 0..STEPS {
             spread(&mut off, &per, &gained, first * GROWTH.powi(n));
@@ -103,11 +95,7 @@ impl MixingProfile {
             for ((m, h), (k, slope)) in moved.iter_mut().zip(&starts).zip(&here) {
                 let kick = (2.0 * k * dt_s).sqrt() * x;
                 let there = self.at(self.folded(h + kick)).0;
-                let secant = if kick.abs() > 1e-5 * self.depth {
-                    (there - k) / kick
-                } else {
-                    *slope
-                };
+                let secant = if kick.abs() > 1e-5 * self.depth { (there - k) / kick } else { *slope };
                 *m = (h + kick, 0.25 * dt_s * (slope + secant));
             }
             for y in nodes(0) {
@@ -158,11 +146,7 @@ fn spread(r: &mut [f64], per: &[f64], q: &[f64], dt: f64) {
     for i in 0..n {
         let low = if i > 0 { per[i - 1] * dt } else { 0.0 };
         let up = per.get(i).map_or(0.0, |p| p * dt);
-        let (carried, before) = if i > 0 {
-            (above[i - 1], r[i - 1])
-        } else {
-            (0.0, 0.0)
-        };
+        let (carried, before) = if i > 0 { (above[i - 1], r[i - 1]) } else { (0.0, 0.0) };
         let whole = 1.0 + low + up - low * carried;
         above[i] = up / whole;
         r[i] = (r[i] + q[i] * dt + low * before) / whole;
@@ -181,11 +165,7 @@ struct Sums {
 
 impl Sums {
     fn new(cell: f64) -> Self {
-        Self {
-            cell,
-            rise: vec![0.0; CELLS + 2],
-            shift: vec![0.0; CELLS + 2],
-        }
+        Self { cell, rise: vec![0.0; CELLS + 2], shift: vec![0.0; CELLS + 2] }
     }
 
     /// A mass between two heights.

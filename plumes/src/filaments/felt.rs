@@ -53,11 +53,7 @@ pub(super) fn quanta(kg: f64, smallest: [f32; 2], largest: [f32; 2]) -> f64 {
 pub(super) fn reach(q: &Question, sizes: [f32; 2]) -> [f32; 3] {
     let [flat, high] = sizes.map(|size| CUT_SIGMAS * 1.000_1 * size);
     // The kernel of a filament near a wall ends at its cut along each of two horizontal axes.
-    let flat = if q.room.is_open() {
-        flat
-    } else {
-        std::f32::consts::SQRT_2 * flat
-    };
+    let flat = if q.room.is_open() { flat } else { std::f32::consts::SQRT_2 * flat };
     // A filament is mirrored at the bed below it, which over a slope may be higher than the point.
     [flat, flat, high + 2.0 * q.room.steepest as f32 * flat]
 }
@@ -122,10 +118,7 @@ mod tests {
             assert_eq!(per.to_bits() << 12, 0, "a power of two");
             let weak = peak(5e-6, [f64::from(largest), f64::from(largest.min(0.5))]) * per;
             let strong = peak(5e-6, [f64::from(smallest); 2]) * per;
-            assert!(
-                strong <= f64::from(MOST) && weak >= 2_f64.powi(6),
-                "{weak} {strong}"
-            );
+            assert!(strong <= f64::from(MOST) && weak >= 2_f64.powi(6), "{weak} {strong}");
             assert!(weak >= 2_f64.powi(29) || strong >= 2_f64.powi(47));
         }
     }

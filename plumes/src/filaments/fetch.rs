@@ -21,12 +21,7 @@ pub(super) struct Columns {
 
 impl Columns {
     pub(super) fn new() -> Self {
-        Self {
-            at: [0; BLOCK],
-            f: [0.0; BLOCK],
-            g: [0.0; BLOCK],
-            weight: [[0.0; BLOCK]; 4],
-        }
+        Self { at: [0; BLOCK], f: [0.0; BLOCK], g: [0.0; BLOCK], weight: [[0.0; BLOCK]; 4] }
     }
 
     #[inline(always)]
@@ -65,10 +60,7 @@ pub(super) struct Levels {
 
 impl Levels {
     pub(super) fn new() -> Self {
-        Self {
-            below: [0; BLOCK],
-            part: [0.0; BLOCK],
-        }
+        Self { below: [0; BLOCK], part: [0.0; BLOCK] }
     }
 
     /// Stores a level. Returns the part that is not stored: the reciprocal of the distance between the levels.
@@ -221,30 +213,10 @@ pub(super) unsafe fn trilinear<P: Pair>(
 /// # Safety
 /// As there.
 #[inline(always)]
-unsafe fn one<P: Pair>(
-    cells: &Lookup,
-    nodes: &[[f32; 4]],
-    column: &Columns,
-    level: &Levels,
-    l: usize,
-) -> (Quad, Quad) {
-    let weight = [
-        column.weight[0][l],
-        column.weight[1][l],
-        column.weight[2][l],
-        column.weight[3][l],
-    ];
+unsafe fn one<P: Pair>(cells: &Lookup, nodes: &[[f32; 4]], column: &Columns, level: &Levels, l: usize) -> (Quad, Quad) {
+    let weight = [column.weight[0][l], column.weight[1][l], column.weight[2][l], column.weight[3][l]];
     // SAFETY: as the caller promises.
-    unsafe {
-        trilinear::<P>(
-            cells,
-            nodes,
-            column.at[l],
-            weight,
-            level.below[l],
-            level.part[l],
-        )
-    }
+    unsafe { trilinear::<P>(cells, nodes, column.at[l], weight, level.below[l], level.part[l]) }
 }
 
 /// A node and the one above it. A function of its own and not a closure, because only a function is certain to become

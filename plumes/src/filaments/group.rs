@@ -115,13 +115,7 @@ impl Group {
         total as f64 * self.per_quantum
     }
 
-    fn asked_by<'a>(
-        &self,
-        q: &'a Question,
-        spot: &'a Spot,
-        s: &'a Store,
-        band: usize,
-    ) -> Asked<'a> {
+    fn asked_by<'a>(&self, q: &'a Question, spot: &'a Spot, s: &'a Store, band: usize) -> Asked<'a> {
         Asked {
             p: spot.p,
             spot,

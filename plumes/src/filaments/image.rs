@@ -46,14 +46,7 @@ pub(super) struct Spot<'a> {
 impl<'a> Spot<'a> {
     /// `None` if no water is near.
     pub(super) fn new(room: &'a Room, lookup: &'a Lookup, p: [f32; 3], reach: f64) -> Option<Self> {
-        let mut query = Self {
-            room,
-            lookup,
-            p,
-            at: None,
-            reach,
-            ends: OnceCell::new(),
-        };
+        let mut query = Self { room, lookup, p, at: None, reach, ends: OnceCell::new() };
         if room.is_open() {
             return Some(query);
         }
@@ -77,26 +70,14 @@ impl<'a> Spot<'a> {
 
 impl Felt {
     /// A filament of `kg` at `p` with horizontal and vertical sizes (m), if a wall is near enough to matter.
-    pub(super) fn new(
-        room: &Room,
-        lookup: &Lookup,
-        p: [f32; 3],
-        sizes: [f32; 2],
-        kg: f64,
-    ) -> Option<Self> {
+    pub(super) fn new(room: &Room, lookup: &Lookup, p: [f32; 3], sizes: [f32; 2], kg: f64) -> Option<Self> {
         let sizes = sizes.map(f64::from);
         let reach = f64::from(CUT_SIGMAS) * sizes[0];
         if room.is_open() || !room.near(lookup, p, reach) {
             return None;
         }
         let at = room.place(lookup, p)?;
-        Some(Self {
-            at,
-            sizes,
-            kg,
-            along: room.along(&at, 0, reach),
-            up: room.along(&at, 2, reach),
-        })
+        Some(Self { at, sizes, kg, along: room.along(&at, 0, reach), up: room.along(&at, 2, reach) })
     }
 
     /// Its contribution at a point, kg/m³.
@@ -179,16 +160,10 @@ mod tests {
             for fixed in [0.0, 0.01, 0.4, 1.0] {
                 let n = 2000;
                 let sum = |f: &dyn Fn(f64) -> f64| -> f64 {
-                    (0..n)
-                        .map(|k| f((f64::from(k) + 0.5) / f64::from(n)))
-                        .sum::<f64>()
-                        / f64::from(n)
+                    (0..n).map(|k| f((f64::from(k) + 0.5) / f64::from(n))).sum::<f64>() / f64::from(n)
                 };
                 let ends = [0.0, 1.0];
-                for total in [
-                    sum(&|x| density(x, fixed, size, ends)),
-                    sum(&|from| density(fixed, from, size, ends)),
-                ] {
+                for total in [sum(&|x| density(x, fixed, size, ends)), sum(&|from| density(fixed, from, size, ends))] {
                     assert!((total - 1.0).abs() < 1e-4, "{size} {fixed}: {total}");
                 }
             }

@@ -153,11 +153,6 @@ impl Question<'_> {
             let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
             axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
         }
-        Groups {
-            all,
-            axes,
-            asked: Count::default(),
-            boxes: OnceLock::new(),
-        }
+        Groups { all, axes, asked: Count::default(), boxes: OnceLock::new() }
     }
 }

@@ -95,14 +95,7 @@ impl Work {
 
 /// Moves all filaments of the block, each by its `dt`. Of a block with few filaments only the first places are worked
 /// on, with the same bits.
-pub(super) fn step(
-    path: Path,
-    cells: &Lookup,
-    nodes: &[[f32; 4]],
-    key: [u32; 2],
-    block: &mut Block,
-    work: &mut Work,
-) {
+pub(super) fn step(path: Path, cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
     match block.used {
         0..=32 => step_first::<32>(path, cells, nodes, key, block, work),
         33..=64 => step_first::<64>(path, cells, nodes, key, block, work),
@@ -134,26 +127,14 @@ fn step_first<const N: usize>(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn body_avx512<const N: usize>(
-    cells: &Lookup,
-    nodes: &[[f32; 4]],
-    key: [u32; 2],
-    block: &mut Block,
-    work: &mut Work,
-) {
+fn body_avx512<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
     unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn body_avx2<const N: usize>(
-    cells: &Lookup,
-    nodes: &[[f32; 4]],
-    key: [u32; 2],
-    block: &mut Block,
-    work: &mut Work,
-) {
+fn body_avx2<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
     unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
 }
@@ -161,10 +142,7 @@ fn body_avx2<const N: usize>(
 /// # Safety
 /// The machine must have the instructions of `P`.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "one index into many arrays is what becomes vector code"
-)]
+#[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
 unsafe fn body<P: Pair, const N: usize>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
@@ -172,17 +150,7 @@ unsafe fn body<P: Pair, const N: usize>(
     b: &mut Block,
     work: &mut Work,
 ) {
-    let Work {
-        noise,
-        column,
-        level,
-        up,
-        slope,
-        kick,
-        extra,
-        here,
-        there,
-    } = work;
+    let Work { noise, column, level, up, slope, kick, extra, here, there } = work;
 
     for l in 0..N {
         column.set(l, cells.column(b.x[l], b.y[l]));

@@ -21,10 +21,7 @@ impl Flow for Calm {
         Vector3::new(u.x, u.y, if self.rises { u.z } else { 0.0 })
     }
     fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
-        Mixing {
-            k_z_m2_s: 0.0,
-            ..Swirl.mixing(p, t_s)
-        }
+        Mixing { k_z_m2_s: 0.0, ..Swirl.mixing(p, t_s) }
     }
 }
 
@@ -33,10 +30,7 @@ impl Flow for Swirl {
         Vector3::new(0.1 - 0.01 * p.y, 0.01 * p.x, 1e-3 * p.z)
     }
     fn mixing(&self, p: &Vector3<f64>, _: f64) -> Mixing {
-        Mixing {
-            k_h_m2_s: 0.01 + 1e-4 * p.x.abs(),
-            k_z_m2_s: 1e-3 * -p.z,
-        }
+        Mixing { k_h_m2_s: 0.01 + 1e-4 * p.x.abs(), k_z_m2_s: 1e-3 * -p.z }
     }
 }
 
@@ -45,12 +39,7 @@ fn scene(shape: GridShape) -> (FlowGrid, Lookup) {
 }
 
 fn scene_in(flow: &dyn Flow, shape: GridShape) -> (FlowGrid, Lookup) {
-    let area = Area {
-        centre: Vector2::new(3.0, -2.0),
-        length_m: 100.0,
-        width_m: 60.0,
-        axis: Heading::from_deg(340.0),
-    };
+    let area = Area { centre: Vector2::new(3.0, -2.0), length_m: 100.0, width_m: 60.0, axis: Heading::from_deg(340.0) };
     let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
     let mut grid = FlowGrid::new(&area, &terrain, shape);
     grid.refresh(flow, 0.0);
@@ -81,10 +70,7 @@ fn block(cells: &Lookup) -> Block {
 #[test]
 fn cells_read_the_grid_as_the_grid_reads_itself() {
     for stretch in [0.0, 0.8] {
-        let (grid, cells) = scene(GridShape {
-            stretch,
-            ..GridShape::default()
-        });
+        let (grid, cells) = scene(GridShape { stretch, ..GridShape::default() });
         let b = block(&cells);
         for l in 0..BLOCK {
             let c = cells.column(b.x[l], b.y[l]);
@@ -191,15 +177,7 @@ fn few_filaments_in_a_block_move_as_in_a_full_one() {
 
 #[test]
 fn folding_mirrors_at_bed_and_surface() {
-    for (z, want) in [
-        (-1.0, -1.0),
-        (0.5, -0.5),
-        (-4.5, -3.5),
-        (4.5, -3.5),
-        (-8.5, -0.5),
-        (-8.0, 0.0),
-        (9.0, -1.0),
-    ] {
+    for (z, want) in [(-1.0, -1.0), (0.5, -0.5), (-4.5, -3.5), (4.5, -3.5), (-8.5, -0.5), (-8.0, 0.0), (9.0, -1.0)] {
         assert!((folded(z, -4.0, 0.25) - want).abs() < 1e-5, "{z}");
     }
 }

@@ -83,15 +83,7 @@ impl Labels {
 
     /// Writes all of it.
     pub(super) fn keep(&self, to: &mut Writer) {
-        let Self {
-            patterns: _,
-            at,
-            number,
-            source,
-            source_number,
-            since_s,
-            source_m_s,
-        } = self;
+        let Self { patterns: _, at, number, source, source_number, since_s, source_m_s } = self;
         to.words(at.as_flattened());
         to.words(number);
         to.words(source.as_flattened());
@@ -102,9 +94,7 @@ impl Labels {
 
     /// Reads what [`Self::keep`] wrote of so many filaments.
     pub(super) fn recall(&mut self, n: usize, from: &mut Reader<'_>) -> Result<(), Unreadable> {
-        let places = |flat: Vec<f32>| -> Vec<[f32; 3]> {
-            flat.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()
-        };
+        let places = |flat: Vec<f32>| -> Vec<[f32; 3]> { flat.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect() };
         self.at = places(from.exactly(3 * n * self.patterns)?).into();
         self.number = from.exactly(n * self.patterns)?.into();
         self.source = places(from.exactly(3 * self.patterns)?);
@@ -116,18 +106,10 @@ impl Labels {
     }
 
     /// Brings the coordinates of the water at the source to a time.
-    fn pass_source(
-        &mut self,
-        small: &Small,
-        flow: &dyn Flow,
-        (p_W, local): (Vector3<f64>, [f32; 3]),
-        t_s: f64,
-    ) {
+    fn pass_source(&mut self, small: &Small, flow: &dyn Flow, (p_W, local): (Vector3<f64>, [f32; 3]), t_s: f64) {
         let u = flow.velocity(&p_W, t_s).map(|v| v as f32);
         let passed = (t_s - self.since_s) as f32;
-        for ((at, number), life) in
-            (self.source.iter_mut().zip(&mut self.source_number)).zip(small.lives(t_s))
-        {
+        for ((at, number), life) in (self.source.iter_mut().zip(&mut self.source_number)).zip(small.lives(t_s)) {
             if *number == life.number {
                 for d in 0..3 {
                     at[d] -= passed * u[d];
@@ -180,13 +162,7 @@ pub(super) fn carry(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn moved_avx2(
-    labels: &mut Labels,
-    small: &Small,
-    store: &mut Store,
-    range: Range<usize>,
-    span: Span,
-) {
+fn moved_avx2(labels: &mut Labels, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
     unsafe { moved::<Avx>(labels, small, store, range, span) };
 }
@@ -196,13 +172,7 @@ fn moved_avx2(
 /// # Safety
 /// The machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn moved<P: Pair>(
-    labels: &mut Labels,
-    small: &Small,
-    store: &mut Store,
-    range: Range<usize>,
-    span: Span,
-) {
+unsafe fn moved<P: Pair>(labels: &mut Labels, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
     let middle = (middle_s, &*lives);
@@ -246,13 +216,7 @@ unsafe fn moved<P: Pair>(
 /// Works out what moves a filament at a time (s, and the patterns then), and asks the processor for it. Not a closure,
 /// which would not be compiled for the caller's instructions.
 #[inline(always)]
-fn ready(
-    labels: &mut Labels,
-    small: &Small,
-    store: &Store,
-    n: usize,
-    (t_s, lives): (f64, &[Life]),
-) -> Weights {
+fn ready(labels: &mut Labels, small: &Small, store: &Store, n: usize, (t_s, lives): (f64, &[Life])) -> Weights {
     let age_s = t_s - store.born_s[n];
     let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
     let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], lives);

@@ -110,11 +110,7 @@ impl Leaf {
     /// Concentration at a point in the water, in quanta.
     #[inline]
     pub(super) fn at(&self, path: Path, p: [f32; 3]) -> i64 {
-        let images = [
-            -p[2] <= self.reach,
-            p[2] - self.highest_bed <= self.reach,
-            self.reach > -self.highest_bed,
-        ];
+        let images = [-p[2] <= self.reach, p[2] - self.highest_bed <= self.reach, self.reach > -self.highest_bed];
         match path {
             Path::Portable => sum(self, images, p),
             // SAFETY: this variant is only made after the feature was detected.
@@ -189,14 +185,8 @@ fn sum(leaf: &Leaf, images: [bool; 3], p: [f32; 3]) -> i64 {
 }
 
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "one index into many arrays is what becomes vector code"
-)]
-fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
-    leaf: &Leaf,
-    p: [f32; 3],
-) -> i64 {
+#[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
+fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(leaf: &Leaf, p: [f32; 3]) -> i64 {
     let mut felt = [0.0; LEAF];
     let used = leaf.count.next_multiple_of(LANES).min(LEAF);
     for n in 0..used {
@@ -272,14 +262,7 @@ impl Whole {
 #[inline(always)]
 pub(super) fn falling(w: f32) -> f32 {
     // Interpolates exp(−w) at the Chebyshev points of [0, 1].
-    const C: [f32; 6] = [
-        0.999_999_5,
-        -0.999_967_9,
-        0.499_620_87,
-        -0.165_012_72,
-        0.038_338_923,
-        -0.005_099_728,
-    ];
+    const C: [f32; 6] = [0.999_999_5, -0.999_967_9, 0.499_620_87, -0.165_012_72, 0.038_338_923, -0.005_099_728];
     let q = C[0] + w * (C[1] + w * (C[2] + w * (C[3] + w * (C[4] + w * C[5]))));
     let (q2, inside) = (q * q, w <= 1.0);
     let q4 = q2 * q2;
@@ -295,10 +278,7 @@ mod tests {
         for k in 0..=1000 {
             let w = f64::from(k) / 1000.0;
             let exact = world::math::exp(-8.0 * w);
-            assert!(
-                (f64::from(falling(w as f32)) / exact - 1.0).abs() < 1e-5,
-                "{w}"
-            );
+            assert!((f64::from(falling(w as f32)) / exact - 1.0).abs() < 1e-5, "{w}");
         }
         assert_eq!(falling(1.001), 0.0);
     }

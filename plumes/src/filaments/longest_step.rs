@@ -67,19 +67,11 @@ fn times(until_s: f64) -> impl Iterator<Item = f64> {
 impl SharpestMixing {
     /// The sharpest columns of an area from time 0 to `until_s`, as a plume on a grid of this shape sees them.
     #[must_use]
-    pub fn of(
-        flow: &dyn Flow,
-        area: &Area,
-        terrain: &Terrain,
-        shape: &GridShape,
-        until_s: f64,
-    ) -> Self {
+    pub fn of(flow: &dyn Flow, area: &Area, terrain: &Terrain, shape: &GridShape, until_s: f64) -> Self {
         let mut columns: Vec<Column> = Vec::new();
         let mut slowest_m_s = f64::INFINITY;
         for t_s in times(until_s) {
-            let all: Vec<Column> = places(area)
-                .map(|place| column(flow, place, terrain, shape, t_s))
-                .collect();
+            let all: Vec<Column> = places(area).map(|place| column(flow, place, terrain, shape, t_s)).collect();
             slowest_m_s = all.iter().map(|c| c.speed_m_s).fold(slowest_m_s, f64::min);
             let sharpest = all
                 .into_iter()
@@ -89,10 +81,7 @@ impl SharpestMixing {
             columns.extend(sharpest.filter(|s| columns.iter().all(|c| c.profile != s.profile)));
         }
         let across_m = Vector2::new(area.length_m, area.width_m).norm();
-        Self {
-            columns,
-            stay_s: across_m / slowest_m_s,
-        }
+        Self { columns, stay_s: across_m / slowest_m_s }
     }
 
     /// How steps of `dt_s` disturb mixed water within `lasts_s`, or for as long as it stays in the area. `None` if K_z
@@ -144,17 +133,10 @@ fn places(area: &Area) -> impl Iterator<Item = Vector2<f64>> {
     let part = |n: usize| n as f64 / (PLACES - 1) as f64 - 0.5;
     let along = move |i: usize| part(i) * area.length_m;
     let across = move |j: usize| part(j) * area.width_m;
-    (0..PLACES * PLACES)
-        .map(move |n| area.world(Vector2::new(along(n / PLACES), across(n % PLACES))))
+    (0..PLACES * PLACES).map(move |n| area.world(Vector2::new(along(n / PLACES), across(n % PLACES))))
 }
 
-fn column(
-    flow: &dyn Flow,
-    place: Vector2<f64>,
-    terrain: &Terrain,
-    shape: &GridShape,
-    t_s: f64,
-) -> Column {
+fn column(flow: &dyn Flow, place: Vector2<f64>, terrain: &Terrain, shape: &GridShape, t_s: f64) -> Column {
     let depth = -terrain.bed_z(place.x, place.y);
     let heights: Vec<f64> = (0..shape.levels).map(|k| depth * shape.level(k)).collect();
     let z: Vec<f64> = heights.iter().map(|h| h - depth).collect();
@@ -162,10 +144,5 @@ fn column(
     flow.column(place, &z, t_s, &mut out);
     let k = out.iter().map(|(_, mixing)| mixing.k_z_m2_s).collect();
     let sum: Vector3<f64> = out.iter().map(|(velocity, _)| velocity).sum();
-    Column {
-        place,
-        t_s,
-        profile: MixingProfile::new(heights, k),
-        speed_m_s: sum.xy().norm() / out.len() as f64,
-    }
+    Column { place, t_s, profile: MixingProfile::new(heights, k), speed_m_s: sum.xy().norm() / out.len() as f64 }
 }

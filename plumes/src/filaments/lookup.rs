@@ -74,10 +74,7 @@ impl Lookup {
         let per = |axis: [f32; 2], spacing: f32| axis.map(|v| v / spacing);
         Self {
             origin: grid.origin,
-            axes: [
-                per(grid.along, grid.spacing[0]),
-                per(grid.across, grid.spacing[1]),
-            ],
+            axes: [per(grid.along, grid.spacing[0]), per(grid.across, grid.spacing[1])],
             last: [(nx - 1) as f32, (ny - 1) as f32],
             dims: [nx as i32, ny as i32, nz as i32],
             stretch: grid.stretch,
@@ -115,12 +112,7 @@ impl Lookup {
         let (i, f) = split(c, self.last[0], self.dims[0]);
         let (j, g) = split(d, self.last[1], self.dims[1]);
         let inside = (c >= 0.0) & (c <= self.last[0]) & (d >= 0.0) & (d <= self.last[1]);
-        Column {
-            at: (i * self.dims[1] + j) as u32,
-            f,
-            g,
-            outside: !inside,
-        }
+        Column { at: (i * self.dims[1] + j) as u32, f, g, outside: !inside }
     }
 
     /// Position of a height among the levels; `up` is the reciprocal of the depth.
@@ -130,21 +122,13 @@ impl Lookup {
         let a = self.stretch;
         let b = 1.0 - a;
         let last = (self.dims[2] - 1) as f32;
-        let (k, _) = split(
-            2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last,
-            last,
-            self.dims[2],
-        );
+        let (k, _) = split(2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last, last, self.dims[2]);
         let h = 1.0 / last;
         let xi = k as f32 * h;
         let s0 = xi * (b + a * xi);
         let per = 1.0 / (h * (b + a * (2.0 * xi + h)));
         // Rounding of the square root may give the neighbouring level; the clamp keeps the result continuous.
-        Level {
-            below: k as u32,
-            part: clamped((s - s0) * per, 1.0),
-            per_m: per * up,
-        }
+        Level { below: k as u32, part: clamped((s - s0) * per, 1.0), per_m: per * up }
     }
 
     /// Height of the bed, m (negative).
@@ -222,12 +206,7 @@ fn bilinear(nodes: &[f32], nx: usize, ny: usize) -> Vec<Bilinear> {
     for i in 0..nx - 1 {
         for j in 0..ny - 1 {
             let n = |a: usize, b: usize| nodes[(i + a) * ny + j + b];
-            cells[i * ny + j] = [
-                n(0, 0),
-                n(1, 0) - n(0, 0),
-                n(0, 1) - n(0, 0),
-                n(1, 1) - n(1, 0) - n(0, 1) + n(0, 0),
-            ];
+            cells[i * ny + j] = [n(0, 0), n(1, 0) - n(0, 0), n(0, 1) - n(0, 0), n(1, 1) - n(1, 0) - n(0, 1) + n(0, 0)];
         }
     }
     cells

@@ -84,12 +84,7 @@ impl Moving {
     pub(super) fn fill(&self, path: Path, size: &Size, moment: &Moment, leaf: &mut Leaf) {
         let (parts, count) = self.parts(moment);
         leaf.count = count;
-        let way = Way {
-            moving: self,
-            parts,
-            size,
-            now_s: moment.now_s,
-        };
+        let way = Way { moving: self, parts, size, now_s: moment.now_s };
         match path {
             Path::Portable => fill(&way, leaf),
             // SAFETY: this variant is only made after the feature was detected.
@@ -138,17 +133,9 @@ pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
 
 /// Places, beds and sizes, eight at a time; what is in empty places does not count.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "one index into many arrays is what becomes vector code"
-)]
+#[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
 fn fill(way: &Way, leaf: &mut Leaf) {
-    let Way {
-        moving: m,
-        parts,
-        size,
-        now_s,
-    } = way;
+    let Way { moving: m, parts, size, now_s } = way;
     for from in eights(leaf.count) {
         let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z];
         for (d, to) in places.into_iter().enumerate() {
@@ -196,11 +183,7 @@ mod tests {
             let a = l as f32;
             new.start = add(new.start, l, [400.0 + 0.3 * a, -200.0 - 0.2 * a, -3.0]);
             new.end = add(new.end, l, [403.0 + 0.25 * a, -202.0, -3.5]);
-            new.born_s[l] = if l < 27 {
-                -60.0 + f64::from(l as u16)
-            } else {
-                1.0 + 0.5 * (l - 27) as f64
-            };
+            new.born_s[l] = if l < 27 { -60.0 + f64::from(l as u16) } else { 1.0 + 0.5 * (l - 27) as f64 };
         }
         new
     }

@@ -81,17 +81,10 @@ fn sin_cos_turn(bits: u32) -> (f32, f32) {
     let s = x
         * (1.0
             + q * (-1.0 / 6.0
-                + q * (1.0 / 120.0
-                    + q * (-1.0 / 5040.0 + q * (1.0 / 362_880.0 - q * (1.0 / 39_916_800.0))))));
-    let c = 1.0
-        + q * (-0.5
-            + q * (1.0 / 24.0
-                + q * (-1.0 / 720.0 + q * (1.0 / 40_320.0 - q * (1.0 / 3_628_800.0)))));
+                + q * (1.0 / 120.0 + q * (-1.0 / 5040.0 + q * (1.0 / 362_880.0 - q * (1.0 / 39_916_800.0))))));
+    let c = 1.0 + q * (-0.5 + q * (1.0 / 24.0 + q * (-1.0 / 720.0 + q * (1.0 / 40_320.0 - q * (1.0 / 3_628_800.0)))));
     let sign = (bits & 0x80_0000) << 8;
-    (
-        f32::from_bits(s.to_bits() ^ sign),
-        f32::from_bits(c.to_bits() ^ sign),
-    )
+    (f32::from_bits(s.to_bits() ^ sign), f32::from_bits(c.to_bits() ^ sign))
 }
 
 #[cfg(test)]
@@ -127,24 +120,12 @@ mod tests {
                 before = z;
             }
         }
-        assert!(
-            (squares / n - 1.0).abs() < 4.5e-3,
-            "squares: {}",
-            squares / n
-        );
+        assert!((squares / n - 1.0).abs() < 4.5e-3, "squares: {}", squares / n);
         for d in 0..4 {
             assert!((m[d][0] / n).abs() < 1.6e-3, "mean {d}: {}", m[d][0] / n);
-            assert!(
-                (m[d][1] / n - 1.0).abs() < 2.3e-3,
-                "variance {d}: {}",
-                m[d][1] / n
-            );
+            assert!((m[d][1] / n - 1.0).abs() < 2.3e-3, "variance {d}: {}", m[d][1] / n);
             assert!((m[d][2] / n).abs() < 6.2e-3, "third {d}: {}", m[d][2] / n);
-            assert!(
-                (m[d][3] / n - 3.0).abs() < 1.6e-2,
-                "fourth {d}: {}",
-                m[d][3] / n
-            );
+            assert!((m[d][3] / n - 3.0).abs() < 1.6e-2, "fourth {d}: {}", m[d][3] / n);
             for r in [cross[d], serial[d], neighbour[d]] {
                 assert!((r / n).abs() < 1.6e-3, "correlation {d}: {}", r / n);
             }
@@ -170,10 +151,7 @@ mod tests {
             let r = (-2.0 * world::math::ln(u)).sqrt();
             // Near u = 1 the half is rounded away in f32: u has an error of up to 2⁻²⁵, the radius one of half that
             // over r.
-            assert!(
-                (f64::from(radius(bits)) - r).abs() < 1e-6 * r + 6e-8 / r,
-                "{u}"
-            );
+            assert!((f64::from(radius(bits)) - r).abs() < 1e-6 * r + 6e-8 / r, "{u}");
             let (s, c) = sin_cos_turn(bits);
             let half = f64::from((bits & 0x7f_ffff) as i32 - 0x40_0000) + 0.5;
             let turn = half / 16_777_216.0 + if bits & 0x80_0000 == 0 { 0.0 } else { 0.5 };

@@ -46,10 +46,7 @@ impl Room {
     /// solid.
     pub(super) fn is_free(&self, p: &Place) -> bool {
         let Some(cells) = &self.cells else {
-            return self
-                .solids
-                .containing(&self.horizontal(p.q).push(p.z()))
-                .is_none();
+            return self.solids.containing(&self.horizontal(p.q).push(p.z())).is_none();
         };
         cells.open[cells.cell(p.cell)]
     }
@@ -66,9 +63,7 @@ impl Room {
             return self.place(lookup, out.map(|v| v as f32).into());
         };
         let eye = self.horizontal(p.q).push(p.z());
-        let seen = |cell: [usize; 3]| {
-            !looking || self.solids.is_empty() || self.sees(cells, lookup, &eye, p, cell)
-        };
+        let seen = |cell: [usize; 3]| !looking || self.solids.is_empty() || self.sees(cells, lookup, &eye, p, cell);
         if self.is_free(p) && seen(p.cell) {
             return Some(*p);
         }
@@ -104,14 +99,7 @@ impl Room {
     }
 
     /// Whether the centre of a cell is visible from a point. Obstacles that contain the point do not count.
-    fn sees(
-        &self,
-        cells: &Cells,
-        lookup: &Lookup,
-        eye: &Vector3<f64>,
-        from: &Place,
-        cell: [usize; 3],
-    ) -> bool {
+    fn sees(&self, cells: &Cells, lookup: &Lookup, eye: &Vector3<f64>, from: &Place, cell: [usize; 3]) -> bool {
         let middle = [0, 1].map(|d| (cell[d] as f64 + 0.5) * self.spacing[d]);
         let Some(at) = self.moved(lookup, from, middle) else {
             return false;
@@ -122,13 +110,7 @@ impl Room {
     }
 
     /// Distance (m) from a place to a cell, and the place mirrored into the cell at its nearest side.
-    fn mirrored(
-        &self,
-        cells: &Cells,
-        lookup: &Lookup,
-        p: &Place,
-        cell: [usize; 3],
-    ) -> (f64, Place) {
+    fn mirrored(&self, cells: &Cells, lookup: &Lookup, p: &Place, cell: [usize; 3]) -> (f64, Place) {
         let mut q = p.q;
         let mut away = 0.0_f64;
         for d in 0..3 {

@@ -38,11 +38,7 @@ fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3], sides: Ends
     }
     // Coordinate in 22 bits, number in 10 bits: plain numbers without ties are fast to select from.
     let [lo, hi] = sides[d];
-    let scale = if hi > lo {
-        4_194_300.0 / (hi - lo)
-    } else {
-        0.0
-    };
+    let scale = if hi > lo { 4_194_300.0 / (hi - lo) } else { 0.0 };
     for m in &mut *members {
         // Where two differ by less than the unit, one may lie just beyond the side.
         let key = ((ends[d][*m as usize] - lo) * scale).min(4_194_300.0);

@@ -51,10 +51,7 @@ pub struct PlumeSettings {
 
 impl Default for PlumeSettings {
     fn default() -> Self {
-        Self {
-            grid: GridShape::default(),
-            refresh_s: 5.0,
-        }
+        Self { grid: GridShape::default(), refresh_s: 5.0 }
     }
 }
 
@@ -122,14 +119,8 @@ impl Plume {
                 .iter()
                 .map(|s| ReleaseTimes::new(s.release.rate_hz.get(), s.release.poisson, seed, &s.id))
                 .collect(),
-            keys: sources
-                .iter()
-                .map(|s| seeds::key(seed, &s.id, "drift"))
-                .collect(),
-            stores: sources
-                .iter()
-                .map(|s| Store::new(Size::new(&s.release), s.filament_kg))
-                .collect(),
+            keys: sources.iter().map(|s| seeds::key(seed, &s.id, "drift")).collect(),
+            stores: sources.iter().map(|s| Store::new(Size::new(&s.release), s.filament_kg)).collect(),
             sources,
             bands: Bands::single(0.0, 0.0),
             cells: Lookup::new(&grid),
@@ -208,8 +199,7 @@ impl Plume {
         self.room.lead_round(cells.clone());
         self.carrier = Some(Carrier::new(blocked));
         for (n, source) in self.sources.iter().enumerate() {
-            if let Some(problem) = cut_off::problem(&self.grid, &self.room, &self.cells, n, source)
-            {
+            if let Some(problem) = cut_off::problem(&self.grid, &self.room, &self.cells, n, source) {
                 return Err(problem);
             }
         }

@@ -36,11 +36,7 @@ pub(super) fn folded(x: f64, [low, high]: [f64; 2]) -> f64 {
     }
     let long = high - low;
     let passed = (x - low).abs() % (2.0 * long);
-    let back = if passed > long {
-        2.0 * long - passed
-    } else {
-        passed
-    };
+    let back = if passed > long { 2.0 * long - passed } else { passed };
     (low + back).clamp(low, high)
 }
 
@@ -79,25 +75,15 @@ impl Room {
     ) -> Turned {
         let went = [0, 1, 2].map(|d| f64::from(to[d]) - f64::from(from[d]));
         let [along, across] = self.parts(Vector2::new(went[0], went[1]));
-        let gone = Turned {
-            p: to,
-            met: false,
-            left: true,
-        };
+        let gone = Turned { p: to, met: false, left: true };
         let Some(start) = self.place(lookup, from) else {
             return gone;
         };
         let Some(cells) = &self.cells else {
-            return self
-                .round_obstacles(lookup, start, [along, across, went[2]])
-                .unwrap_or(gone);
+            return self.round_obstacles(lookup, start, [along, across, went[2]]).unwrap_or(gone);
         };
         let Some(start) = self.open(lookup, &start, false) else {
-            return Turned {
-                p: from,
-                met: true,
-                left: false,
-            };
+            return Turned { p: from, met: true, left: false };
         };
         let mut p = start;
         let ends = self.along(&p, 2, 0.0);
@@ -113,18 +99,11 @@ impl Room {
                 None => return gone,
             }
         }
-        self.settled(cells, lookup, p, z).map_or(
-            Turned {
-                p: from,
-                met: true,
-                left: false,
-            },
-            |p| Turned {
-                p,
-                met,
-                left: false,
-            },
-        )
+        self.settled(cells, lookup, p, z).map_or(Turned { p: from, met: true, left: false }, |p| Turned {
+            p,
+            met,
+            left: false,
+        })
     }
 
     /// Milstein's step as in `kernel`, between two ends, m.
@@ -136,25 +115,13 @@ impl Room {
         let way = (2.0 * f64::from(here.k_z) * dt).sqrt() * one;
         let there = grid.at(x, y, folded(p.z() + way, ends) as f32);
         let slope = f64::from(here.dk_dz);
-        let secant = if way.abs() > -1e-5 * p.bed {
-            f64::from(there.k_z - here.k_z) / way
-        } else {
-            slope
-        };
+        let secant = if way.abs() > -1e-5 * p.bed { f64::from(there.k_z - here.k_z) / way } else { slope };
         way + 0.25 * dt * (slope + secant) * (one * one + two * two)
     }
 
     /// Moves along one axis at a constant height, from cell to cell. Returns whether it was reflected; `None` if it
     /// left the grid.
-    fn walked(
-        &self,
-        cells: &Cells,
-        lookup: &Lookup,
-        p: &mut Place,
-        z: f64,
-        d: usize,
-        way: f64,
-    ) -> Option<bool> {
+    fn walked(&self, cells: &Cells, lookup: &Lookup, p: &mut Place, z: f64, d: usize, way: f64) -> Option<bool> {
         let h = cells.d[d];
         let (mut to, mut met) = (p.q[d] + way, false);
         for _ in 0..IN_A_ROW {
@@ -237,11 +204,7 @@ impl Room {
             point = self.solids.way_out(&at).map(|v| v as f32).into();
             met = true;
         }
-        Some(Turned {
-            p: point,
-            met,
-            left: false,
-        })
+        Some(Turned { p: point, met, left: false })
     }
 }
 

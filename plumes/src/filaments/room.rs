@@ -143,10 +143,7 @@ impl Room {
             return None;
         }
         let cell = [0, 1].map(|d| (to[d] / self.spacing[d]).max(0.0) as usize);
-        let last = self
-            .cells
-            .as_ref()
-            .map_or([usize::MAX; 2], |c| [c.n[0] - 1, c.n[1] - 1]);
+        let last = self.cells.as_ref().map_or([usize::MAX; 2], |c| [c.n[0] - 1, c.n[1] - 1]);
         Some(Place {
             q,
             bed: f64::from(lookup.bed(xy.x as f32, xy.y as f32)),
@@ -244,11 +241,7 @@ impl Room {
     /// The free way along an axis on both sides of a place: coordinates of its ends, m; infinite where no wall was
     /// found within `reach`. Upwards the ends are always known.
     pub(super) fn along(&self, p: &Place, d: usize, reach: f64) -> [f64; 2] {
-        let mut ends = if d == 2 {
-            [p.bed, 0.0]
-        } else {
-            [f64::NEG_INFINITY, f64::INFINITY]
-        };
+        let mut ends = if d == 2 { [p.bed, 0.0] } else { [f64::NEG_INFINITY, f64::INFINITY] };
         if d == 1
             && let Some(sides) = self.sides
         {
@@ -260,17 +253,9 @@ impl Room {
         } else if !self.solids.is_empty() {
             let xy = self.horizontal(p.q);
             let from = xy.push(p.z());
-            let axis = if d == 2 {
-                Vector3::z()
-            } else {
-                self.axes[d].push(0.0)
-            };
+            let axis = if d == 2 { Vector3::z() } else { self.axes[d].push(0.0) };
             let here = p.on(d);
-            let way = |end: f64| {
-                (end - here)
-                    .abs()
-                    .min(if d == 2 { f64::MAX } else { reach })
-            };
+            let way = |end: f64| (end - here).abs().min(if d == 2 { f64::MAX } else { reach });
             if let Some(t) = self.solids.ray(&from, &-axis, way(ends[0])) {
                 ends[0] = here - t;
             }
@@ -285,11 +270,7 @@ impl Room {
     fn through(&self, cells: &Cells, p: &Place, d: usize, reach: f64) -> [f64; 2] {
         let here = p.on(d);
         let at = |f: usize| {
-            if d == 2 {
-                p.bed * (1.0 - cells.s[f])
-            } else {
-                f as f64 * self.spacing[d]
-            }
+            if d == 2 { p.bed * (1.0 - cells.s[f]) } else { f as f64 * self.spacing[d] }
         };
         let far = |f: usize| d < 2 && (at(f) - here).abs() > reach;
         let mut face = p.cell;

@@ -103,16 +103,7 @@ mod tests {
 
     #[test]
     fn rows_are_removed_by_their_places() {
-        for gone in [
-            &[][..],
-            &[0],
-            &[1],
-            &[6],
-            &[0, 1],
-            &[2, 3],
-            &[0, 3, 6],
-            &[0, 1, 2, 3, 4, 5, 6],
-        ] {
+        for gone in [&[][..], &[0], &[1], &[6], &[0, 1], &[2, 3], &[0, 3, 6], &[0, 1, 2, 3, 4, 5, 6]] {
             for each in [1, 3] {
                 let row = |n: &usize| n / each;
                 let list: Vec<usize> = (0..7 * each).collect();

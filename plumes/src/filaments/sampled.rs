@@ -135,9 +135,6 @@ impl Sampled {
 
     /// The scales of the water in the evaluated columns, with the distance over which it changes, m.
     pub(super) fn scales(&self, reach_m: f64) -> Scales {
-        Scales {
-            reach_m,
-            ..self.scales
-        }
+        Scales { reach_m, ..self.scales }
     }
 }

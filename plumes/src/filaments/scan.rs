@@ -22,9 +22,7 @@ type Near = [u32; RUNS];
 
 /// The sum of the contributions of a group of `n`, in quanta. Only these `runs` of it (a bit each) may be near.
 pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
-    let Asked {
-        s, from, moment, ..
-    } = asked;
+    let Asked { s, from, moment, .. } = asked;
     // Those that are released within the step come last, each on a way of its own. Few of them are not near.
     let born_s = &s.born_s[*from..from + n];
     let late = (born_s.iter().rev()).take_while(|b| **b > moment.span.from_s);

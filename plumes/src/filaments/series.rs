@@ -23,8 +23,7 @@ pub(super) fn current_time(x: f32) -> f32 {
 /// (e^x − 1)/x.
 pub(super) fn expansion(x: f64) -> f64 {
     if x.abs() < 1e-2 {
-        return 1.0
-            + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x / 720.0))));
+        return 1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x / 720.0))));
     }
     (math::exp(x) - 1.0) / x
 }
@@ -32,8 +31,7 @@ pub(super) fn expansion(x: f64) -> f64 {
 /// ln(1 + x)/x; infinite at −1 and below, which is never reached.
 pub(super) fn logarithm(x: f64) -> f64 {
     if x.abs() < 1e-2 {
-        return 1.0
-            - x * (0.5 - x * (1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0 - x / 7.0)))));
+        return 1.0 - x * (0.5 - x * (1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0 - x / 7.0)))));
     }
     if x <= -1.0 {
         return f64::INFINITY;

@@ -96,11 +96,7 @@ fn runs_avx512(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
 #[inline(always)]
 fn side([start, end]: Ways) -> Side {
     const LANES: usize = 8;
-    let mut side = Side {
-        lo: [f32::MAX; RUNS],
-        hi: [f32::MIN; RUNS],
-        all: [f32::MAX, f32::MIN],
-    };
+    let mut side = Side { lo: [f32::MAX; RUNS], hi: [f32::MIN; RUNS], all: [f32::MAX, f32::MIN] };
     for (run, (start, end)) in start.chunks(RUN).zip(end.chunks(RUN)).enumerate() {
         let (mut lo, mut hi) = ([f32::MAX; LANES], [f32::MIN; LANES]);
         let mut last = [f32::NAN; RUN];
@@ -165,10 +161,7 @@ mod tests {
             let ways: [[Vec<f32>; 2]; 3] = std::array::from_fn(|_| [way(), way()]);
             let between = |d: usize, range: std::ops::Range<usize>, p: f32, reach: f32| {
                 let all = || ways[d].iter().flat_map(|way| &way[range.clone()]).copied();
-                let (lo, hi) = (
-                    all().fold(f32::MAX, f32::min),
-                    all().fold(f32::MIN, f32::max),
-                );
+                let (lo, hi) = (all().fold(f32::MAX, f32::min), all().fold(f32::MIN, f32::max));
                 p >= lo - reach && p <= hi + reach
             };
             let reach = [0.7, 0.3, 1.2];
@@ -180,17 +173,10 @@ mod tests {
                     for from in (0..GROUP).step_by(RUN) {
                         let range = from.min(n)..(from + RUN).min(n);
                         let want = (0..3).all(|d| between(d, range.clone(), p[d], reach[d]));
-                        assert_eq!(
-                            got >> (from / RUN) & 1 == 1,
-                            want,
-                            "{path:?} {n} {k} {from}"
-                        );
+                        assert_eq!(got >> (from / RUN) & 1 == 1, want, "{path:?} {n} {k} {from}");
                     }
                     for d in 0..3 {
-                        assert_eq!(
-                            sides[d].near(p[d], reach[d]),
-                            between(d, 0..n, p[d], reach[d])
-                        );
+                        assert_eq!(sides[d].near(p[d], reach[d]), between(d, 0..n, p[d], reach[d]));
                     }
                 }
             }

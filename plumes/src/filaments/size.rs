@@ -40,9 +40,7 @@ impl Size {
         Self {
             r0_squared: r0 * r0,
             growth: release.growth_m2_s.get(),
-            vertical_limit: release
-                .vertical_size_limit_m
-                .map_or(f32::MAX, |v| v.get() as f32),
+            vertical_limit: release.vertical_size_limit_m.map_or(f32::MAX, |v| v.get() as f32),
             eddies: release.eddy_size_m.map(|l| InEddies {
                 start: power(r0),
                 end: power(l.get()).max(power(r0)),
@@ -60,12 +58,7 @@ impl Size {
 
     /// What [`Self::stirred_by`] has made of the newest diffusivity; the rest follows from the release.
     pub(super) fn stirred(&self) -> Option<f64> {
-        let Self {
-            r0_squared: _,
-            growth: _,
-            vertical_limit: _,
-            eddies,
-        } = self;
+        let Self { r0_squared: _, growth: _, vertical_limit: _, eddies } = self;
         eddies.map(|e| e.per_s)
     }
 

@@ -23,11 +23,7 @@ impl Solids {
         let datum = datum.push(0.0);
         let bounds = |o: &Obstacle| <[_; 2]>::from(o.bounds()).map(|p| p - datum);
         let boxes = obstacles.0.iter().map(bounds).collect();
-        Self {
-            obstacles,
-            datum,
-            boxes,
-        }
+        Self { obstacles, datum, boxes }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -35,13 +31,8 @@ impl Solids {
     }
 
     /// Obstacles whose boxes overlap another box.
-    fn meeting(
-        &self,
-        low: Vector3<f64>,
-        high: Vector3<f64>,
-    ) -> impl Iterator<Item = &Obstacle> + '_ {
-        let met =
-            move |b: &[Vector3<f64>; 2]| (0..3).all(|d| low[d] <= b[1][d] && high[d] >= b[0][d]);
+    fn meeting(&self, low: Vector3<f64>, high: Vector3<f64>) -> impl Iterator<Item = &Obstacle> + '_ {
+        let met = move |b: &[Vector3<f64>; 2]| (0..3).all(|d| low[d] <= b[1][d] && high[d] >= b[0][d]);
         let all = self.boxes.iter().zip(&self.obstacles.0);
         all.filter(move |(b, _)| met(b)).map(|(_, o)| o)
     }
@@ -64,8 +55,7 @@ impl Solids {
         let to = from + along * most;
         let hits = self.meeting(from.inf(&to), from.sup(&to));
         let from = from + self.datum;
-        hits.filter_map(|o| o.ray(&from, along, most))
-            .min_by(f64::total_cmp)
+        hits.filter_map(|o| o.ray(&from, along, most)).min_by(f64::total_cmp)
     }
 
     /// Whether one point is visible from another; obstacles that contain the first point do not count.
@@ -74,9 +64,7 @@ impl Solids {
         let far = way.norm();
         let eye = from + self.datum;
         far == 0.0
-            || self
-                .meeting(from.inf(to), from.sup(to))
-                .all(|o| o.contains(&eye) || o.ray(&eye, &way, far).is_none())
+            || self.meeting(from.inf(to), from.sup(to)).all(|o| o.contains(&eye) || o.ray(&eye, &way, far).is_none())
     }
 
     /// The obstacle that contains a point.
@@ -117,31 +105,15 @@ mod tests {
     fn nobody_is_in_a_solid_and_nobody_is_lost() {
         let m = Positive::new;
         let bed = Terrain::Level { depth_m: 6.0 };
-        let block = ShapeSpec::Box(BoxShape {
-            size_m: (m(4.0), m(20.0), m(4.0)),
-        });
-        let pile = ShapeSpec::Cylinder(CylinderShape {
-            radius_m: m(2.0),
-            height_m: m(6.0),
-        });
-        let solids: Vec<Obstacle> = [
-            solid("block", block, -60.0, 60.0),
-            solid("pile", pile, -40.0, 90.0),
-        ]
-        .iter()
-        .map(|s| Obstacle::build(s, &bed, Path::new(".")).unwrap())
-        .collect();
+        let block = ShapeSpec::Box(BoxShape { size_m: (m(4.0), m(20.0), m(4.0)) });
+        let pile = ShapeSpec::Cylinder(CylinderShape { radius_m: m(2.0), height_m: m(6.0) });
+        let solids: Vec<Obstacle> = [solid("block", block, -60.0, 60.0), solid("pile", pile, -40.0, 90.0)]
+            .iter()
+            .map(|s| Obstacle::build(s, &bed, Path::new(".")).unwrap())
+            .collect();
         let water = Given(|_| 0.3, |_| (0.05, 0.002));
-        let mut plume = plume(source(2.0, 20.0, 0.001, 0.03), &bed)
-            .with_obstacles(Obstacles(solids.clone()))
-            .unwrap();
-        pour(&mut plume, 4000, -6.0, |k| {
-            [
-                -70.0,
-                (k % 100) as f64 * 0.2 - 10.0,
-                -0.1 - (k / 100) as f64 * 0.14,
-            ]
-        });
+        let mut plume = plume(source(2.0, 20.0, 0.001, 0.03), &bed).with_obstacles(Obstacles(solids.clone())).unwrap();
+        pour(&mut plume, 4000, -6.0, |k| [-70.0, (k % 100) as f64 * 0.2 - 10.0, -0.1 - (k / 100) as f64 * 0.14]);
         for step in 0..300 {
             let t = f64::from(step) * 0.5;
             plume.drift(&water, t, t + 0.5);
@@ -158,14 +130,9 @@ mod tests {
     #[test]
     fn a_source_in_a_solid_is_refused() {
         let bed = Terrain::Level { depth_m: 6.0 };
-        let shape = ShapeSpec::Cylinder(CylinderShape {
-            radius_m: Positive::new(2.0),
-            height_m: Positive::new(6.0),
-        });
-        let pile =
-            Obstacle::build(&solid("pile", shape, -90.0, 90.0), &bed, Path::new(".")).unwrap();
-        let refused =
-            plume(source(2.0, 5.0, 0.001, 0.03), &bed).with_obstacles(Obstacles(vec![pile]));
+        let shape = ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(2.0), height_m: Positive::new(6.0) });
+        let pile = Obstacle::build(&solid("pile", shape, -90.0, 90.0), &bed, Path::new(".")).unwrap();
+        let refused = plume(source(2.0, 5.0, 0.001, 0.03), &bed).with_obstacles(Obstacles(vec![pile]));
         assert_eq!(
             refused.unwrap_err().to_string(),
             "sources[0]: source \"s1\" stands inside obstacle \"pile\"; bring it outside"

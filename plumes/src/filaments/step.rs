@@ -75,10 +75,7 @@ impl Plume {
     /// If the pace ends before `t_s`: a mistake in the code; or if the flow returns NaN.
     pub fn advance(&mut self, flow: &dyn Flow, t_s: f64) -> bool {
         let end_s = self.bands.end_s();
-        assert!(
-            t_s <= end_s + 1e-9,
-            "the plume's pace ends at {end_s} s, before {t_s} s: set another pace first"
-        );
+        assert!(t_s <= end_s + 1e-9, "the plume's pace ends at {end_s} s, before {t_s} s: set another pace first");
         let mut met = false;
         while self.bands.next_s() < t_s - 1e-9 {
             met |= self.bands.due() == 0;
@@ -102,10 +99,7 @@ impl Plume {
     /// # Panics
     /// If a filament would begin a step before that time: a mistake in the code.
     pub fn look_at(&mut self, t_s: f64) {
-        assert!(
-            self.rests_until(t_s),
-            "the plume takes a step before {t_s} s: advance it"
-        );
+        assert!(self.rests_until(t_s), "the plume takes a step before {t_s} s: advance it");
         if self.now_s != t_s {
             self.now_s = t_s;
             self.index.forget();
@@ -118,10 +112,7 @@ impl Plume {
     /// # Panics
     /// If time does not increase, or if the flow returns NaN.
     pub fn drift(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
-        assert!(
-            t1_s > t0_s,
-            "plume drift needs growing time, got {t0_s} s to {t1_s} s: check the drift period"
-        );
+        assert!(t1_s > t0_s, "plume drift needs growing time, got {t0_s} s to {t1_s} s: check the drift period");
         self.bands = Bands::single(t0_s, t1_s);
         self.join(t0_s);
         self.take_steps(flow);

@@ -103,11 +103,7 @@ impl Store {
 
     /// The filaments of a band.
     pub(super) fn band(&self, band: usize, bands: &Bands) -> Range<usize> {
-        let end = if band < bands.last() {
-            self.first[band + 1]
-        } else {
-            self.len()
-        };
+        let end = if band < bands.last() { self.first[band + 1] } else { self.len() };
         self.first[band]..end
     }
 
@@ -153,25 +149,14 @@ impl Store {
             return None;
         };
         let on = |start: f32, end: f32| {
-            if part < 1.0 {
-                start + part * (end - start)
-            } else {
-                end
-            }
+            if part < 1.0 { start + part * (end - start) } else { end }
         };
-        Some([
-            on(self.start[0][n], self.x[n]),
-            on(self.start[1][n], self.y[n]),
-            on(self.start[2][n], self.z[n]),
-        ])
+        Some([on(self.start[0][n], self.x[n]), on(self.start[1][n], self.y[n]), on(self.start[2][n], self.z[n])])
     }
 
     /// The band of a filament.
     pub(super) fn band_of(&self, n: usize, bands: &Bands) -> usize {
-        (1..=bands.last())
-            .rev()
-            .find(|b| n >= self.first[*b])
-            .unwrap_or(0)
+        (1..=bands.last()).rev().find(|b| n >= self.first[*b]).unwrap_or(0)
     }
 
     /// The arrays of f32: ends and beds, then starts.

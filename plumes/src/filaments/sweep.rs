@@ -91,13 +91,7 @@ struct Chunk<'a> {
 impl Sweep<'_> {
     /// Moves a range of the store. Filaments released within the step move from their release on. Those that leave are
     /// removed. `first` of later bands is corrected. Without `threads`, `desk` is used.
-    pub(super) fn over(
-        &self,
-        store: &mut Store,
-        band: Range<usize>,
-        threads: bool,
-        desk: &mut Desk,
-    ) -> Swept {
+    pub(super) fn over(&self, store: &mut Store, band: Range<usize>, threads: bool, desk: &mut Desk) -> Swept {
         // A single thread moves them down as it goes.
         let many = if threads { CHUNK } else { band.len() };
         let mut chunks = chunks(store, band.clone(), many);
@@ -130,11 +124,7 @@ impl Sweep<'_> {
     }
 
     fn through(&self, c: &mut Chunk, desk: &mut Desk) {
-        let Desk {
-            block: b,
-            work,
-            way,
-        } = desk;
+        let Desk { block: b, work, way } = desk;
         b.kicked.fill(1.0);
         let Span { from_s, to_s } = self.span;
         let (total, mut to) = (c.x.len(), 0);
@@ -228,11 +218,7 @@ impl Sweep<'_> {
             if !room.by_walls(cells, start, end) {
                 continue;
             }
-            let kick = Kick {
-                noise: upward_normals(b.number[l], self.key),
-                dt_s: b.dt[l],
-                part: b.kicked[l],
-            };
+            let kick = Kick { noise: upward_normals(b.number[l], self.key), dt_s: b.dt[l], part: b.kicked[l] };
             let to = room.turn_back(cells, self.grid, start, end, Some(kick));
             turned += u64::from(to.met);
             [b.x[l], b.y[l], b.z[l]] = to.p;
@@ -274,16 +260,7 @@ fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> 
     let size = store.size;
     let [sx, sy, sz] = &mut store.start;
     let mut rest = (
-        [
-            &mut store.x,
-            &mut store.y,
-            &mut store.z,
-            &mut store.bed,
-            sx,
-            sy,
-            sz,
-        ]
-        .map(|v| &mut v[band.clone()]),
+        [&mut store.x, &mut store.y, &mut store.z, &mut store.bed, sx, sy, sz].map(|v| &mut v[band.clone()]),
         &mut store.number[band.clone()],
         &mut store.born_s[band],
     );
@@ -300,17 +277,7 @@ fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> 
         let (born_s, borns) = std::mem::take(&mut rest.2).split_at_mut(n);
         (rest.1, rest.2) = (numbers, borns);
         let [x, y, z, bed, sx, sy, sz] = heads;
-        all.push(Chunk {
-            x,
-            y,
-            z,
-            start: [sx, sy, sz],
-            bed,
-            number,
-            born_s,
-            size,
-            swept: Swept::default(),
-        });
+        all.push(Chunk { x, y, z, start: [sx, sy, sz], bed, number, born_s, size, swept: Swept::default() });
     }
     all
 }
@@ -318,11 +285,7 @@ fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> 
 impl Chunk<'_> {
     /// Writes `n` filaments of a block, from its place `l` on, to `to`. They were at `from`, where their step starts.
     fn put(&mut self, b: &Block, l: usize, from: usize, to: usize, n: usize) {
-        let ends = [
-            (&mut *self.x, &b.x),
-            (&mut *self.y, &b.y),
-            (&mut *self.z, &b.z),
-        ];
+        let ends = [(&mut *self.x, &b.x), (&mut *self.y, &b.y), (&mut *self.z, &b.z)];
         for ((end, moved), start) in ends.into_iter().zip(&mut self.start) {
             start[to..to + n].copy_from_slice(&end[from..from + n]);
             end[to..to + n].copy_from_slice(&moved[l..l + n]);

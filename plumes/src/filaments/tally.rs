@@ -92,9 +92,7 @@ impl Plume {
     /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked
     /// water, cells may leave a part of an obstacle open; a filament in it is shown at the nearest free place.
     pub fn iter(&self) -> impl Iterator<Item = [f64; 5]> + '_ {
-        self.stores
-            .iter()
-            .flat_map(move |s| (0..self.count(s)).map(move |n| self.filament(s, n)))
+        self.stores.iter().flat_map(move |s| (0..self.count(s)).map(move |n| self.filament(s, n)))
     }
 
     /// Every k-th filament of each source, with the smallest k that leaves at most `max_n` (but at least one of each
@@ -102,11 +100,7 @@ impl Plume {
     /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
     #[must_use]
     pub fn decimated(&self, max_n: usize) -> Vec<[f64; 6]> {
-        let shown = |every: usize| -> usize {
-            (self.stores.iter())
-                .map(|s| self.count(s).div_ceil(every))
-                .sum()
-        };
+        let shown = |every: usize| -> usize { (self.stores.iter()).map(|s| self.count(s).div_ceil(every)).sum() };
         let longest = self.stores.iter().map(|s| self.count(s)).max().unwrap_or(0);
         let mut every = self.len().div_ceil(max_n.max(1)).max(1);
         while shown(every) > max_n && every < longest {
@@ -137,11 +131,7 @@ impl Plume {
     /// Takes the whole state into a digest: every filament at the end of the step that it takes.
     pub fn digest_into(&self, digest: &mut Digest) {
         for (s, r) in self.stores.iter().zip(&self.releases) {
-            digest.f64s(&[
-                s.released as f64,
-                s.left as f64,
-                r.next_s().unwrap_or(f64::NEG_INFINITY),
-            ]);
+            digest.f64s(&[s.released as f64, s.left as f64, r.next_s().unwrap_or(f64::NEG_INFINITY)]);
             for v in [&s.x, &s.y, &s.z] {
                 digest.f32s(v);
             }
@@ -152,9 +142,7 @@ impl Plume {
     #[cfg(test)]
     pub(super) fn all(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let of = |s: &Store, n: usize| [s.x[n], s.y[n], s.z[n]];
-        self.stores
-            .iter()
-            .flat_map(move |s| (0..s.len()).map(move |n| of(s, n)))
+        self.stores.iter().flat_map(move |s| (0..s.len()).map(move |n| of(s, n)))
     }
 
     #[cfg(test)]

@@ -15,10 +15,7 @@ use world::terrain::Terrain;
 const LONGEST_S: [f64; 3] = [0.5, 5.0, 10.0];
 
 fn plume(rate_hz: f64, terrain: &Terrain) -> Plume {
-    let settings = super::PlumeSettings {
-        refresh_s: 10.0,
-        ..Default::default()
-    };
+    let settings = super::PlumeSettings { refresh_s: 10.0, ..Default::default() };
     let spec = source(20.0, rate_hz, 0.001, 0.1);
     Plume::new(&[spec], &basin(), terrain, 11, settings).expect("a legal source")
 }
@@ -32,10 +29,7 @@ fn digest(plume: &Plume) -> String {
 /// The water off Duck, and a source that releases so many filaments a second.
 fn begun_off_duck(rate_hz: f64) -> (Water, Plume) {
     let water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = super::PlumeSettings {
-        refresh_s: 10.0,
-        grid: GridShape::fitting(&duck_area()),
-    };
+    let settings = super::PlumeSettings { refresh_s: 10.0, grid: GridShape::fitting(&duck_area()) };
     let spec = source(0.2, rate_hz, 0.001, 0.03);
     let plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
     (water, plume)
@@ -139,11 +133,7 @@ fn the_columns_around_filaments_hold_the_flow_of_the_period() {
     }
     let all = plume.grid.bed.len();
     let evaluated = plume.sampled.evaluated();
-    assert!(
-        evaluated >= seen.len() && evaluated < all / 4,
-        "{} of {evaluated} of {all}",
-        seen.len()
-    );
+    assert!(evaluated >= seen.len() && evaluated < all / 4, "{} of {evaluated} of {all}", seen.len());
 }
 
 /// y²/(2K·age) has mean 1 with a relative standard error of √(2/n), at the end of a step of any length. In the middle
@@ -161,10 +151,7 @@ fn spread_is_2kt_in_all_bands_at_once() {
             let n = p.len() as f64;
             let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
             let slack = 5.0 * (2.0 / n).sqrt();
-            assert!(
-                mean - 1.0 < slack && mean - 1.0 > -lacks - slack,
-                "{longest_s} s, at {t_s} s: {mean}"
-            );
+            assert!(mean - 1.0 < slack && mean - 1.0 > -lacks - slack, "{longest_s} s, at {t_s} s: {mean}");
             // Carried for exactly their age: within 6 sigma of the kicks.
             for (f, b) in p.iter().zip(&born) {
                 let age = t_s - b;
@@ -192,10 +179,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
         // about three times.
         let n = across.len() as f64 / 3.0;
         let (_, v) = moments(across.into_iter());
-        assert!(
-            (v / 12.0 - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
-            "{longest_s} s: {v}"
-        );
+        assert!((v / 12.0 - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "{longest_s} s: {v}");
     }
 }
 

@@ -33,19 +33,12 @@ const PLACES: [[f64; 2]; 3] = [[0.0, 0.0], [500_000.0, 4_649_776.0], [-1e7, 1.9e
 
 fn currents(case: Case) -> Vec<CurrentSpec> {
     let (speed_m_s, heading_deg) = (NonNegative::new(0.2), HeadingDeg::new(90.0));
-    let uniform = CurrentSpec::new(UniformSpec {
-        speed_m_s,
-        heading_deg,
-    });
+    let uniform = CurrentSpec::new(UniformSpec { speed_m_s, heading_deg });
     match case {
         Case::Flume => vec![CurrentSpec::new(channel_spec(0.05, 0.0))],
         Case::Solids | Case::Blocked => vec![uniform],
         Case::Open => {
-            let layer = |density| LayerSpec {
-                speed_m_s,
-                heading_deg,
-                density_kg_m3: Positive::new(density),
-            };
+            let layer = |density| LayerSpec { speed_m_s, heading_deg, density_kg_m3: Positive::new(density) };
             let layers = LayeredSpec {
                 layers: vec![layer(1020.0), layer(1024.0)],
                 interfaces: vec![InterfaceSpec {
@@ -67,23 +60,10 @@ fn currents(case: Case) -> Vec<CurrentSpec> {
                 cell_m: Positive::new(5.0),
                 diffusivity_m2_s: None,
             };
-            let train = TrainSpec {
-                height_m: Positive::new(0.2),
-                period_s: Positive::new(4.0),
-                heading_deg,
-                phase_deg: None,
-            };
-            let waves = WavesSpec {
-                trains: vec![train],
-                spectrum: None,
-                stokes: true,
-                mixing: NonNegative::new(0.0),
-            };
-            vec![
-                CurrentSpec::new(layers),
-                CurrentSpec::new(meander),
-                CurrentSpec::new(waves),
-            ]
+            let train =
+                TrainSpec { height_m: Positive::new(0.2), period_s: Positive::new(4.0), heading_deg, phase_deg: None };
+            let waves = WavesSpec { trains: vec![train], spectrum: None, stokes: true, mixing: NonNegative::new(0.0) };
+            vec![CurrentSpec::new(layers), CurrentSpec::new(meander), CurrentSpec::new(waves)]
         }
     }
 }
@@ -91,17 +71,8 @@ fn currents(case: Case) -> Vec<CurrentSpec> {
 /// Filaments about the middle of the area, and what is felt beside some of them.
 fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>) {
     let flume = case == Case::Flume;
-    let (length_m, width_m, depth_m) = if flume {
-        (2.5, 1.07, 0.2)
-    } else {
-        (40.0, 20.0, 5.0)
-    };
-    let area = Area {
-        centre,
-        length_m,
-        width_m,
-        axis: Heading::from_deg(90.0),
-    };
+    let (length_m, width_m, depth_m) = if flume { (2.5, 1.07, 0.2) } else { (40.0, 20.0, 5.0) };
+    let area = Area { centre, length_m, width_m, axis: Heading::from_deg(90.0) };
     let bed = Terrain::Level { depth_m };
     let m = Positive::new;
     let blockage = (case == Case::Blocked).then(|| BlockageSpec {
@@ -110,20 +81,14 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         margin_m: NonNegative::new(5.0),
         ..BlockageSpec::default()
     });
-    let mut spec = WaterSpec {
-        currents: currents(case),
-        blockage: blockage.clone(),
-        ..WaterSpec::default()
-    };
+    let mut spec = WaterSpec { currents: currents(case), blockage: blockage.clone(), ..WaterSpec::default() };
     if !flume {
         spec.mixing.horizontal_m2_s = NonNegative::new(0.005);
     }
     let block = ObstacleSpec {
         surface: Default::default(),
         id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(3.0), m(4.0), m(5.0)),
-        }),
+        shape: ShapeSpec::Box(BoxShape { size_m: (m(3.0), m(4.0), m(5.0)) }),
         east_m: Finite::new(centre.x - 10.0),
         north_m: Finite::new(centre.y + 0.5),
         base: Default::default(),
@@ -141,10 +106,7 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         north_m: Finite::new(centre.y),
         ..source(if flume { 0.1 } else { 2.5 }, 5.0, 0.0005, 0.02)
     };
-    let settings = PlumeSettings {
-        grid,
-        refresh_s: 2.0,
-    };
+    let settings = PlumeSettings { grid, refresh_s: 2.0 };
     let mut plume = Plume::new(&[nozzle], &area, &bed, 5, settings)
         .unwrap()
         .carried_by(water.small())
@@ -157,14 +119,8 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         water.advance(t_s);
         plume.drift(&water, t_s, t_s + 0.25);
     }
-    let all: Vec<Vector3<f64>> = plume
-        .iter()
-        .map(|f| Vector3::new(f[0], f[1], f[2]))
-        .collect();
-    let felt = all
-        .iter()
-        .step_by(20)
-        .map(|p| plume.at(&(p + Vector3::new(0.01, 0.02, 0.0))));
+    let all: Vec<Vector3<f64>> = plume.iter().map(|f| Vector3::new(f[0], f[1], f[2])).collect();
+    let felt = all.iter().step_by(20).map(|p| plume.at(&(p + Vector3::new(0.01, 0.02, 0.0))));
     let felt = felt.collect();
     let local = all.iter().map(|p| p - centre.push(0.0)).collect();
     (plume.left(), local, felt)
@@ -174,30 +130,16 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
 fn a_plume_does_not_depend_on_where_the_datum_is() {
     for case in [Case::Open, Case::Solids, Case::Blocked, Case::Flume] {
         let [here, near, far] = PLACES.map(|p| cloud(case, p.into()));
-        assert!(
-            here.1.len() > 100 && here.2.iter().any(|c| *c > 0.0),
-            "{case:?}"
-        );
+        assert!(here.1.len() > 100 && here.2.iter().any(|c| *c > 0.0), "{case:?}");
         for there in [near, far] {
             // Places of 1e7 m are doubles of 2e-9 m, so that some filaments are another float, and a few of those turn
             // at a wall where the others pass.
             let n = here.1.len();
-            assert!(
-                there.1.len().abs_diff(n) * 100 <= n && there.0.abs_diff(here.0) * 100 <= n as u64,
-                "{case:?}"
-            );
-            let off = (here.1.iter().zip(&there.1))
-                .filter(|(a, b)| (*a - *b).norm() > 1e-3)
-                .count();
-            assert!(
-                off * 50 <= n,
-                "{case:?}: {off} of {n} filaments are elsewhere"
-            );
+            assert!(there.1.len().abs_diff(n) * 100 <= n && there.0.abs_diff(here.0) * 100 <= n as u64, "{case:?}");
+            let off = (here.1.iter().zip(&there.1)).filter(|(a, b)| (*a - *b).norm() > 1e-3).count();
+            assert!(off * 50 <= n, "{case:?}: {off} of {n} filaments are elsewhere");
             let sum = |felt: &[f64]| felt.iter().sum::<f64>();
-            assert!(
-                (sum(&there.2) / sum(&here.2) - 1.0).abs() < 0.02,
-                "{case:?}"
-            );
+            assert!((sum(&there.2) / sum(&here.2) - 1.0).abs() < 0.02, "{case:?}");
         }
     }
 }

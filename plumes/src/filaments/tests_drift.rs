@@ -18,10 +18,7 @@ fn spread_is_2kt_whatever_the_step() {
     let n = 50_000;
     let water = Given(|_| 0.5, |_| (0.02, 0.005));
     for dt in STEPS_S {
-        let mut p = plume(
-            source(1.0, NONE_HZ, 0.0, 0.1),
-            &Terrain::Level { depth_m: 40.0 },
-        );
+        let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
         pour(&mut p, n, -40.0, |_| [-90.0, 0.0, -20.0]);
         for k in 0..(100.0 / dt) as usize {
             p.drift(&water, k as f64 * dt, (k + 1) as f64 * dt);
@@ -30,14 +27,8 @@ fn spread_is_2kt_whatever_the_step() {
         for (d, mean, k) in [(0, -40.0, 0.02), (1, 0.0, 0.02), (2, -20.0, 0.005)] {
             let (m, v) = moments(all.iter().map(|f| f[d]));
             let exact = 2.0 * k * 100.0;
-            assert!(
-                (v / exact - 1.0).abs() < 0.0316,
-                "axis {d}, step {dt}: {v} for {exact}"
-            );
-            assert!(
-                (m - mean).abs() < 5.0 * (exact / n as f64).sqrt() + 1e-3,
-                "axis {d}, step {dt}: mean {m}"
-            );
+            assert!((v / exact - 1.0).abs() < 0.0316, "axis {d}, step {dt}: {v} for {exact}");
+            assert!((m - mean).abs() < 5.0 * (exact / n as f64).sqrt() + 1e-3, "axis {d}, step {dt}: mean {m}");
         }
     }
 }
@@ -47,10 +38,7 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
     // Each filament's y²/(2K·age) has mean 1, relative standard error √(2/n).
     let water = Given(|_| 0.5, |_| (0.02, 0.0));
     for dt in STEPS_S {
-        let mut p = plume(
-            source(20.0, 200.0, 0.0, 0.1),
-            &Terrain::Level { depth_m: 40.0 },
-        );
+        let mut p = plume(source(20.0, 200.0, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
         for k in 0..(100.0 / dt) as usize {
             p.drift(&water, k as f64 * dt, (k + 1) as f64 * dt);
         }
@@ -58,10 +46,7 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
         let born = p.stores_mut()[0].born_s.clone();
         let ratio = |(f, b): ([f64; 5], &f64)| f[1].powi(2) / (0.04 * (100.0 - b));
         let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
-        assert!(
-            (mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
-            "step {dt}: {mean}"
-        );
+        assert!((mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "step {dt}: {mean}");
         // Carried for exactly their age: x + 90 = U·age within 6σ of the kicks.
         for (f, b) in p.iter().zip(&born) {
             let age = 100.0 - b;
@@ -77,26 +62,17 @@ fn shear_stretches_a_cloud_by_its_exact_law_whatever_the_step() {
     let (n, shear, k, t) = (50_000.0_f64, 0.02, 0.01, 100.0);
     let water = Given(|z: f64| shear * (z + 20.0), |_| (0.0, k));
     for dt in STEPS_S {
-        let mut p = plume(
-            source(1.0, NONE_HZ, 0.0, 0.1),
-            &Terrain::Level { depth_m: 40.0 },
-        );
+        let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
         pour(&mut p, n as usize, -40.0, |_| [0.0, 0.0, -20.0]);
         for i in 0..(t / dt) as usize {
             p.drift(&water, i as f64 * dt, (i + 1) as f64 * dt);
         }
         let (_, v) = moments(p.iter().map(|f| f[0]).collect::<Vec<_>>().into_iter());
         let exact = 2.0 / 3.0 * k * shear * shear * t * t * t;
-        assert!(
-            (v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
-            "step {dt}: {v} for {exact}"
-        );
+        assert!((v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "step {dt}: {v} for {exact}");
         let c = p.iter().map(|f| f[0] * (f[2] + 20.0)).sum::<f64>() / n;
         let exact = k * shear * t * t;
-        assert!(
-            (c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(),
-            "step {dt}: {c} for {exact}"
-        );
+        assert!((c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(), "step {dt}: {c} for {exact}");
     }
 }
 
@@ -110,10 +86,7 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
             nalgebra::Vector3::new(0.8, 0.05 * p.x / 90.0, 0.2 * math::sin(p.x))
         }
         fn mixing(&self, _: &nalgebra::Vector3<f64>, _: f64) -> world::fields::Mixing {
-            world::fields::Mixing {
-                k_h_m2_s: 0.5,
-                k_z_m2_s: 0.5,
-            }
+            world::fields::Mixing { k_h_m2_s: 0.5, k_z_m2_s: 0.5 }
         }
     }
     let mut p = plume(source(0.0, 50.0, 0.001, 0.03), &terrain);
@@ -126,10 +99,7 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
             assert!(f[2] <= 0.0 && f[2] >= bed - 1e-5, "{f:?} over {bed}");
             // Where the bed bends, at the edges of the area, the grid spreads the bend over a cell of 20 m.
             let true_bed = terrain.bed_z(f[0], f[1]);
-            assert!(
-                f[1].abs() > 40.0 || f[2] >= true_bed - 1e-4,
-                "{f:?} over {true_bed}"
-            );
+            assert!(f[1].abs() > 40.0 || f[2] >= true_bed - 1e-4, "{f:?} over {true_bed}");
         }
         assert_eq!(p.released(), p.len() as u64 + p.left());
         assert!(p.left() >= seen_left);

@@ -33,19 +33,9 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(
-        spec: &WaterSpec,
-        area: &Area,
-        bed: &Terrain,
-        solids: &Obstacles,
-        density: f64,
-        frame: usize,
-    ) -> Self {
+    fn new(spec: &WaterSpec, area: &Area, bed: &Terrain, solids: &Obstacles, density: f64, frame: usize) -> Self {
         let water = spec.build_round(area, bed, solids, 5).unwrap();
-        let settings = PlumeSettings {
-            grid: spec.blockage.as_ref().unwrap().grid_shape(),
-            refresh_s: 5.0,
-        };
+        let settings = PlumeSettings { grid: spec.blockage.as_ref().unwrap().grid_shape(), refresh_s: 5.0 };
         let mut nozzle = source(0.5, 1e-6, 0.001, 0.1);
         let corner = area.world(Vector2::new(0.49 * area.length_m, 0.49 * area.width_m));
         nozzle.east_m = Finite::new(corner.x);
@@ -56,13 +46,7 @@ impl Scene {
             .unwrap()
             .led_round(water.blocked())
             .unwrap();
-        let mut scene = Self {
-            water,
-            plume,
-            rng: Stream::new(4, "test", "even"),
-            density,
-            frame,
-        };
+        let mut scene = Self { water, plume, rng: Stream::new(4, "test", "even"), density, frame };
         scene.pour(|_, _| true);
         scene
     }
@@ -114,9 +98,7 @@ impl Scene {
         let cells = self.cells();
         let keep: Vec<[f32; 4]> = {
             let s = &self.plume.stores_mut()[0];
-            (0..s.len())
-                .map(|n| [s.x[n], s.y[n], s.z[n], s.bed[n]])
-                .collect()
+            (0..s.len()).map(|n| [s.x[n], s.y[n], s.z[n], s.bed[n]]).collect()
         };
         let grid = self.plume.grid().clone();
         let store = &mut self.plume.stores_mut()[0];
@@ -129,9 +111,8 @@ impl Scene {
                 store.push([x, y, z], bed, 0.0);
             }
         }
-        let frame: Vec<bool> = (0..cells.n[0] * cells.n[1])
-            .map(|c| self.in_frame(&cells, c / cells.n[1], c % cells.n[1]))
-            .collect();
+        let frame: Vec<bool> =
+            (0..cells.n[0] * cells.n[1]).map(|c| self.in_frame(&cells, c / cells.n[1], c % cells.n[1])).collect();
         self.pour(|i, j| frame[i * cells.n[1] + j]);
         self.water.advance(t + dt);
         self.plume.drift(&self.water, t, t + dt);
@@ -152,12 +133,7 @@ impl Scene {
 
     /// Number of filaments over the number for even dye, in each pool of open cells outside the frame. No filament may
     /// be in a closed cell.
-    fn ratios(
-        &self,
-        counts: &[f64],
-        shots: f64,
-        pool: impl Fn([usize; 3]) -> usize,
-    ) -> Vec<[f64; 2]> {
+    fn ratios(&self, counts: &[f64], shots: f64, pool: impl Fn([usize; 3]) -> usize) -> Vec<[f64; 2]> {
         let cells = self.cells();
         let mut pools: Vec<[f64; 2]> = Vec::new();
         for i in 0..cells.n[0] {
@@ -195,11 +171,7 @@ impl Scene {
 /// the part beyond four times its noise.
 fn worst(pools: &[[f64; 2]]) -> f64 {
     let off = |[got, even]: &[f64; 2]| {
-        let noise = if *even < 6000.0 {
-            4.0 / even.sqrt()
-        } else {
-            0.0
-        };
+        let noise = if *even < 6000.0 { 4.0 / even.sqrt() } else { 0.0 };
         (got / even - 1.0).abs() - noise
     };
     pools.iter().map(off).fold(0.0, f64::max)
@@ -215,13 +187,7 @@ struct Shots {
 
 /// Drifts and counts; each pool of cells must be even, and there must be at least so many pools.
 #[track_caller]
-fn stays_even(
-    mut scene: Scene,
-    dt: f64,
-    shots: Shots,
-    pool: impl Fn([usize; 3]) -> usize,
-    least: usize,
-) {
+fn stays_even(mut scene: Scene, dt: f64, shots: Shots, pool: impl Fn([usize; 3]) -> usize, least: usize) {
     let (mut counts, mut n) = (Vec::new(), 0);
     for shot in 0..shots.count {
         while n < shots.first + shot * shots.then {
@@ -234,12 +200,7 @@ fn stays_even(
     let off = worst(&ratios);
     let uneven = |[got, even]: &[f64; 2]| (got / even - 1.0).abs();
     ratios.sort_by(|a, b| uneven(b).total_cmp(&uneven(a)));
-    assert!(
-        off < 0.05 && ratios.len() >= least,
-        "{off} of {}: {:?}",
-        ratios.len(),
-        &ratios[..5]
-    );
+    assert!(off < 0.05 && ratios.len() >= least, "{off} of {}: {:?}", ratios.len(), &ratios[..5]);
 }
 
 /// Pools of so many columns each way and so many levels.
@@ -259,30 +220,8 @@ fn behind_a_block() {
     let bed = Terrain::Level { depth_m: 6.0 };
     let solids = solids(&[(block([6.0, 16.0, 6.0]), 1.0, -7.0, 90.0)], &bed);
     for (cell, frame, per_cell, size, dt, shots) in [
-        (
-            2.0,
-            2,
-            600.0,
-            [40.0, 36.0],
-            4.0,
-            Shots {
-                first: 10,
-                then: 6,
-                count: 6,
-            },
-        ),
-        (
-            1.0,
-            3,
-            600.0,
-            [28.0, 26.0],
-            3.0,
-            Shots {
-                first: 10,
-                then: 4,
-                count: 6,
-            },
-        ),
+        (2.0, 2, 600.0, [40.0, 36.0], 4.0, Shots { first: 10, then: 6, count: 6 }),
+        (1.0, 3, 600.0, [28.0, 26.0], 3.0, Shots { first: 10, then: 4, count: 6 }),
     ] {
         let spec = eastward(0.3, spec(cell, 2, 0.0));
         let density = per_cell / (cell * cell * 6.0);
@@ -307,25 +246,8 @@ fn in_still_water() {
     );
     let mut spec = eastward(0.0, spec(2.0, 4, 0.0));
     mixing(&mut spec, 0.2, 0.02);
-    let scene = Scene::new(
-        &spec,
-        &area(28.0, 30.0, 20.0),
-        &bed,
-        &solids,
-        1000.0 / 6.0,
-        3,
-    );
-    stays_even(
-        scene,
-        5.0,
-        Shots {
-            first: 4,
-            then: 2,
-            count: 5,
-        },
-        blocks_of(1, 2),
-        50,
-    );
+    let scene = Scene::new(&spec, &area(28.0, 30.0, 20.0), &bed, &solids, 1000.0 / 6.0, 3);
+    stays_even(scene, 5.0, Shots { first: 4, then: 2, count: 5 }, blocks_of(1, 2), 50);
 }
 
 /// A meander, a log law, a sloping bed (1 in 9) and a block that the stream passes over. 40 filaments per m³, pooled
@@ -343,21 +265,8 @@ fn in_unsteady_water_over_a_slope() {
         cell_m: Positive::new(9.0),
         diffusivity_m2_s: None,
     }));
-    spec.bed = Some(BedSpec {
-        roughness_m: Positive::new(0.001),
-        thickness_m: Positive::new(2.0),
-    });
+    spec.bed = Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) });
     mixing(&mut spec, 0.01, 1e-3);
     let scene = Scene::new(&spec, &area, &bed, &solids, 40.0, 2);
-    stays_even(
-        scene,
-        1.0,
-        Shots {
-            first: 40,
-            then: 8,
-            count: 12,
-        },
-        blocks_of(2, 2),
-        90,
-    );
+    stays_even(scene, 1.0, Shots { first: 40, then: 8, count: 12 }, blocks_of(2, 2), 90);
 }

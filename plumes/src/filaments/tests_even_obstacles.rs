@@ -21,19 +21,12 @@ fn beside_an_obstacle_without_blockage() {
     mixing(&mut spec, 0.08, 0.01);
     let water = spec.build(&area, &bed, 1).unwrap();
     let settings = PlumeSettings {
-        grid: crate::flow::GridShape {
-            cell_m: 4.0,
-            margin_m: 2.0,
-            ..Default::default()
-        },
+        grid: crate::flow::GridShape { cell_m: 4.0, margin_m: 2.0, ..Default::default() },
         refresh_s: 1e9,
     };
     let mut nozzle = source(0.5, 1e-6, 0.001, 0.1);
     (nozzle.east_m, nozzle.north_m) = (Finite::new(-3.0), Finite::new(-13.0));
-    let mut plume = Plume::new(&[nozzle], &area, &bed, 3, settings)
-        .unwrap()
-        .with_obstacles(solids.clone())
-        .unwrap();
+    let mut plume = Plume::new(&[nozzle], &area, &bed, 3, settings).unwrap().with_obstacles(solids.clone()).unwrap();
     let mut rng = Stream::new(8, "test", "rings");
     let mut drawn = |low: f64, high: f64| low + (high - low) * rng.uniform();
     // Rings outside: [0, 5) and [5, 25) cm, at the middle height of the sides.

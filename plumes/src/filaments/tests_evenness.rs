@@ -46,10 +46,7 @@ fn what_a_step_does_is_foretold() {
     fn check(what: &str, dt_s: f64, k_z: &(dyn Fn(f64) -> f64 + Send + Sync)) {
         let said = sharpest(k_z).uneven(dt_s, 600.0).unwrap().part;
         let got = sampled(k_z, dt_s, 600.0);
-        assert!(
-            (said - got).abs() < NOISE + 0.15 * got,
-            "{what}, {dt_s} s: {said} for {got}"
-        );
+        assert!((said - got).abs() < NOISE + 0.15 * got, "{what}, {dt_s} s: {said} for {got}");
     }
     for dt_s in [2.0, 5.0] {
         check("parabola", dt_s, &parabola(0.02));
@@ -73,10 +70,7 @@ fn at_the_longest_step_water_is_even_and_beyond_it_no_more() {
         assert!(at < EVEN + NOISE, "{thickness_m} m, {longest_s} s: {at}");
         // A step ten times as long is several times as wrong, and filaments show it.
         let beyond = sampled(k_z(), 10.0 * longest_s, 600.0);
-        assert!(
-            beyond > 3.0 * EVEN,
-            "{thickness_m} m, {longest_s} s: {beyond}"
-        );
+        assert!(beyond > 3.0 * EVEN, "{thickness_m} m, {longest_s} s: {beyond}");
     }
 }
 
@@ -112,10 +106,7 @@ fn sharp_interfaces_need_short_steps_and_gentle_mixing_does_not() {
     assert!((0.25..0.5).contains(&part(5.0)), "{}", part(5.0));
     let longest_s = sharp.longest_step_s(5.0, 600.0).unwrap();
     assert!((0.3..1.0).contains(&longest_s), "{longest_s}");
-    assert_eq!(
-        sharpest(parabola(0.006)).longest_step_s(5.0, 600.0),
-        Some(5.0)
-    );
+    assert_eq!(sharpest(parabola(0.006)).longest_step_s(5.0, 600.0), Some(5.0));
     // With the same mixing everywhere, no step is too long; the sums over starts and kicks are accurate to 0.2 %.
     assert!(sharpest(|_| 1e-2).uneven(60.0, 600.0).unwrap().part < 2e-3);
 }

@@ -33,10 +33,7 @@ fn nozzle() -> SourceSpec {
         rate_g_s: Positive::new(0.032557),
         release: ReleaseSpec {
             eddy_size_m: Some(Positive::new(0.008)),
-            nozzle: Some(NozzleSpec {
-                diameter_m: Positive::new(0.0042),
-                speed_m_s: Positive::new(0.05),
-            }),
+            nozzle: Some(NozzleSpec { diameter_m: Positive::new(0.0042), speed_m_s: Positive::new(0.05) }),
             ..ReleaseSpec::default()
         },
     }
@@ -44,10 +41,7 @@ fn nozzle() -> SourceSpec {
 
 fn of(source: SourceSpec, length_m: f64, seed: u64) -> Plume {
     let area = flume(length_m);
-    let settings = PlumeSettings {
-        grid: GridShape::fitting(&area),
-        refresh_s: 1e6,
-    };
+    let settings = PlumeSettings { grid: GridShape::fitting(&area), refresh_s: 1e6 };
     Plume::new(&[source], &area, &BED, seed, settings).unwrap()
 }
 
@@ -57,11 +51,7 @@ fn nobody_leaves_but_down_stream_and_mass_is_kept() {
     for n in 0..480 {
         let t = 0.25 * f64::from(n);
         plume.drift(&water, t, t + 0.25);
-        assert!(
-            plume
-                .iter()
-                .all(|f| f[1].abs() <= 0.535_001 && (-0.2..=0.0).contains(&f[2]))
-        );
+        assert!(plume.iter().all(|f| f[1].abs() <= 0.535_001 && (-0.2..=0.0).contains(&f[2])));
     }
     // d/4 = 1.05 mm at 5 cm/s: one filament every 21 ms.
     assert_eq!(plume.released(), (120.0_f64 / 0.021).floor() as u64);
@@ -92,10 +82,7 @@ fn mixed(water: &Water, seed: u64, dt_s: f64) -> Vec<[f64; 5]> {
         plume.drift(water, t, t + dt_s);
     }
     // Only the poured filaments: they have no kernel of their own. Those of the source lie behind the middle part.
-    plume
-        .iter()
-        .filter(|f| (2.0..7.0).contains(&f[0]))
-        .collect()
+    plume.iter().filter(|f| (2.0..7.0).contains(&f[0])).collect()
 }
 
 #[test]
@@ -113,9 +100,7 @@ fn mixed_water_stays_mixed() {
             let even = cloud.len() as f64 / bins as f64;
             // Poisson counts of about 2500 have 2 % of noise; four of these, plus 3 % for the divergence of the
             // trilinear look-up.
-            let worst = counts
-                .iter()
-                .fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
+            let worst = counts.iter().fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
             assert!(worst < 0.11, "dt {dt}, axis {axis}: {worst}: {counts:?}");
         }
         // Nor do they gather in small places: the counts of cubes of 5 cm scatter as those of a Poisson process.
@@ -142,11 +127,7 @@ fn spread_is_that_of_open_channels() {
     let mut start = Vec::new();
     pour(&mut plume, n, -0.2, |_| {
         start.push(0.4 * (r.uniform() - 0.5));
-        [
-            4.0 * r.uniform(),
-            *start.last().unwrap(),
-            -0.2 * r.uniform(),
-        ]
+        [4.0 * r.uniform(), *start.last().unwrap(), -0.2 * r.uniform()]
     });
     let mut variance = [0.0; 2];
     for (k, until) in [80, 160].into_iter().enumerate() {
@@ -164,10 +145,5 @@ fn spread_is_that_of_open_channels() {
     assert!((0.5..2.0).contains(&ratio), "K_y {k}, {ratio} of Fischer's");
     // While it remembers its velocity, a filament keeps it: variance below 2Kt.
     assert!(variance[0] < 2.0 * k * 20.0, "{variance:?}");
-    assert!(
-        water
-            .mixing(&nalgebra::Vector3::new(1.0, 0.0, -0.1), 0.0)
-            .k_h_m2_s
-            < 0.5 * k
-    );
+    assert!(water.mixing(&nalgebra::Vector3::new(1.0, 0.0, -0.1), 0.0).k_h_m2_s < 0.5 * k);
 }

@@ -16,18 +16,11 @@ const BED: Terrain = Terrain::Level { depth_m: 4.0 };
 fn plume(spec: &WaterSpec, solids: &Obstacles) -> (Water, Plume) {
     let area = area(24.0, 24.0, 60.0);
     let water = spec.build_round(&area, &BED, solids, 1).unwrap();
-    let grid = spec.blockage.as_ref().map_or(
-        GridShape {
-            cell_m: 2.0,
-            margin_m: 0.0,
-            ..GridShape::default()
-        },
-        |b| b.grid_shape(),
-    );
-    let settings = PlumeSettings {
-        grid,
-        refresh_s: 1e9,
-    };
+    let grid = spec
+        .blockage
+        .as_ref()
+        .map_or(GridShape { cell_m: 2.0, margin_m: 0.0, ..GridShape::default() }, |b| b.grid_shape());
+    let settings = PlumeSettings { grid, refresh_s: 1e9 };
     let mut nozzle = source(0.5, 1e-9, 0.0, 0.6);
     let p = area.world(Vector2::new(-11.9, -11.9));
     (nozzle.east_m, nozzle.north_m) = (Finite::new(p.x), Finite::new(p.y));
@@ -42,9 +35,7 @@ fn plume(spec: &WaterSpec, solids: &Obstacles) -> (Water, Plume) {
 
 /// In an area's own axes, m from its middle.
 fn at(along: f64, across: f64, z: f64) -> Vector3<f64> {
-    area(24.0, 24.0, 60.0)
-        .world(Vector2::new(along, across))
-        .push(z)
+    area(24.0, 24.0, 60.0).world(Vector2::new(along, across)).push(z)
 }
 
 fn put(plume: &mut Plume, p: &Vector3<f64>) {
@@ -122,10 +113,7 @@ fn even_dye_reads_the_same_at_walls_and_corners() {
         let want = even(&mut plume, |p| solids.containing(p).is_none());
         for [a, b, z] in PLACES {
             let got = plume.at(&at(a, b, z)) / want;
-            assert!(
-                (got - 1.0).abs() < if thin { 0.005 } else { 0.02 },
-                "{a} {b} {z} blocked {thin}: {got}"
-            );
+            assert!((got - 1.0).abs() < if thin { 0.005 } else { 0.02 }, "{a} {b} {z} blocked {thin}: {got}");
         }
     }
 }
@@ -155,8 +143,7 @@ fn mass(plume: &Plume, p: [f64; 3], solids: &Obstacles) -> f64 {
     for i in -reach..reach {
         for j in -reach..reach {
             for k in 0..32 {
-                let [a, b] =
-                    [(p[0], i), (p[1], j)].map(|(c, v)| ((c / h).round() + f64::from(v) + 0.5) * h);
+                let [a, b] = [(p[0], i), (p[1], j)].map(|(c, v)| ((c / h).round() + f64::from(v) + 0.5) * h);
                 let q = at(a, b, -(f64::from(k) + 0.5) * h);
                 if solids.containing(&q).is_none() {
                     sum += plume.at(&q);
@@ -176,11 +163,7 @@ fn all_of_a_filament_is_in_the_water() {
             put(&mut plume, &at(p[0], p[1], p[2]));
             let total = mass(&plume, p, &solids);
             // The 2 cm of the thin wall are water for the cells: 1.3 % of a filament beside it.
-            assert!(
-                (total - 1.0).abs() < 0.02,
-                "{p:?} {}: {total}",
-                spec.blockage.is_some()
-            );
+            assert!((total - 1.0).abs() < 0.02, "{p:?} {}: {total}", spec.blockage.is_some());
         }
     }
 }
@@ -233,11 +216,7 @@ impl Flow for Walled {
     }
 
     fn walls(&self) -> Option<SideWalls> {
-        Some(SideWalls {
-            centre: Vector2::new(0.0, 1.0),
-            across: Vector2::new(0.0, -1.0),
-            half_width_m: 2.0,
-        })
+        Some(SideWalls { centre: Vector2::new(0.0, 1.0), across: Vector2::new(0.0, -1.0), half_width_m: 2.0 })
     }
 }
 
@@ -246,10 +225,7 @@ impl Flow for Walled {
 #[test]
 fn side_walls_mirror_the_kernel() {
     for size in [0.6, 2.0] {
-        let settings = PlumeSettings {
-            grid: GridShape::default(),
-            refresh_s: 1e9,
-        };
+        let settings = PlumeSettings { grid: GridShape::default(), refresh_s: 1e9 };
         let mut nozzle = source(0.5, 1e-9, 0.0, size);
         nozzle.north_m = Finite::new(1.0);
         let mut plume = Plume::new(&[nozzle], &basin(), &BED, 3, settings).unwrap();
@@ -280,10 +256,7 @@ fn a_source_where_no_water_comes_by_is_refused() {
     let area = area(24.0, 24.0, 60.0);
     let spec = eastward(0.2, spec(4.0, 3, 0.0));
     let water = spec.build_round(&area, &BED, &solids, 1).unwrap();
-    let settings = PlumeSettings {
-        grid: spec.blockage.as_ref().unwrap().grid_shape(),
-        refresh_s: 5.0,
-    };
+    let settings = PlumeSettings { grid: spec.blockage.as_ref().unwrap().grid_shape(), refresh_s: 5.0 };
     let mut nozzle = source(0.5, 1.0, 0.001, 0.1);
     let p = at(0.1, 0.1, 0.0);
     (nozzle.east_m, nozzle.north_m) = (Finite::new(p.x), Finite::new(p.y));
@@ -294,10 +267,8 @@ fn a_source_where_no_water_comes_by_is_refused() {
         .led_round(water.blocked());
     let said = refused.unwrap_err().to_string();
     assert!(
-        said.starts_with(
-            "sources[0]: source \"s1\" lies in a cell of the blocked water that an obstacle closes"
-        ) && said
-            .contains("take a smaller water.blockage.cell_m, or bring it to open water, say east"),
+        said.starts_with("sources[0]: source \"s1\" lies in a cell of the blocked water that an obstacle closes")
+            && said.contains("take a smaller water.blockage.cell_m, or bring it to open water, say east"),
         "{said}"
     );
 }

@@ -31,12 +31,7 @@ impl Scene {
     }
 
     fn over(n: usize, bed: &Terrain) -> Self {
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m: 400.0,
-            width_m: 400.0,
-            axis: Heading::from_deg(90.0),
-        };
+        let area = Area { centre: Vector2::zeros(), length_m: 400.0, width_m: 400.0, axis: Heading::from_deg(90.0) };
         let grid = FlowGrid::new(&area, bed, GridShape::default());
         let mut s = Store::new(Size::new(&ReleaseSpec::default()), 1e-6);
         let mut r = Stream::new(5, "test", "cloud");
@@ -52,23 +47,12 @@ impl Scene {
         }
         let mut bands = Bands::single(-4.0, 4.0);
         bands.pass();
-        Self {
-            room: Room::new(&grid),
-            lookup: Lookup::new(&grid),
-            stores: [s],
-            bands,
-        }
+        Self { room: Room::new(&grid), lookup: Lookup::new(&grid), stores: [s], bands }
     }
 
     fn at(&self, index: &Index, path: Path, now_s: f64, p: &Vector3<f64>) -> f64 {
-        let query = Question {
-            stores: &self.stores,
-            bands: &self.bands,
-            room: &self.room,
-            lookup: &self.lookup,
-            path,
-            now_s,
-        };
+        let query =
+            Question { stores: &self.stores, bands: &self.bands, room: &self.room, lookup: &self.lookup, path, now_s };
         index.at(&query, p.map(|v| v as f32).into())
     }
 
@@ -104,11 +88,7 @@ fn fresh() -> Index {
 }
 
 fn somewhere(r: &mut Stream) -> Vector3<f64> {
-    Vector3::new(
-        110.0 * r.uniform(),
-        10.0 * r.uniform() - 5.0,
-        -6.0 * r.uniform(),
-    )
+    Vector3::new(110.0 * r.uniform(), 10.0 * r.uniform() - 5.0, -6.0 * r.uniform())
 }
 
 #[test]
@@ -156,17 +136,9 @@ fn answers_do_not_depend_on_what_was_asked_before() {
 
 #[test]
 fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
-    let area = Area {
-        centre: Vector2::new(55.0, 0.0),
-        length_m: 110.0,
-        width_m: 60.0,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::new(55.0, 0.0), length_m: 110.0, width_m: 60.0, axis: Heading::from_deg(90.0) };
     let steep = Terrain::sloping_over(&area, Heading::from_deg(70.0), 0.5, 9.0);
-    let (flat, deep) = (
-        Terrain::Level { depth_m: 1.2 },
-        Terrain::Level { depth_m: 6.0 },
-    );
+    let (flat, deep) = (Terrain::Level { depth_m: 1.2 }, Terrain::Level { depth_m: 6.0 });
     let mut r = Stream::new(8, "test", "probe");
     for (bed, n) in [(&steep, 5000), (&flat, 3000), (&deep, 40), (&deep, 3000)] {
         let scene = Scene::over(n, bed);

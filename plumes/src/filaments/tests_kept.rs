@@ -15,10 +15,7 @@ use world::fields::{Concentration, Flow};
 /// Water with meanders and layers off Duck, and clean water with a source.
 fn off_duck() -> (Water, Plume) {
     let water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = PlumeSettings {
-        refresh_s: 10.0,
-        grid: GridShape::fitting(&duck_area()),
-    };
+    let settings = PlumeSettings { refresh_s: 10.0, grid: GridShape::fitting(&duck_area()) };
     let spec = source(0.2, 100.0, 0.001, 0.03);
     let plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
     (water, plume)

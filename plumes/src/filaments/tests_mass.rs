@@ -8,10 +8,7 @@ use world::terrain::Terrain;
 
 /// Integral of the concentration of one filament of the given age over the whole water column, divided by its mass.
 fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
-    let mut p = plume(
-        source(0.5, 1.0, 0.001, 0.0316),
-        &Terrain::Level { depth_m: depth },
-    );
+    let mut p = plume(source(0.5, 1.0, 0.001, 0.0316), &Terrain::Level { depth_m: depth });
     pour(&mut p, 1, -depth, |_| [0.0, 0.0, z]);
     let still = Given(|_| 0.0, |_| (0.0, 0.0));
     // The source itself is far away, so that its own releases have no effect at the datum.
@@ -50,19 +47,13 @@ fn kernel_integrates_to_one_wherever_it_is() {
         (2000.0, 1.0, -0.5),
     ] {
         let total = integral(age, depth, z);
-        assert!(
-            (total - 1.0).abs() < 1e-3,
-            "age {age}, depth {depth}, z {z}: {total}"
-        );
+        assert!((total - 1.0).abs() < 1e-3, "age {age}, depth {depth}, z {z}: {total}");
     }
 }
 
 #[test]
 fn released_is_here_or_has_left() {
-    let mut p = plume(
-        source(1.0, 37.0, 0.001, 0.03),
-        &Terrain::Level { depth_m: 6.0 },
-    );
+    let mut p = plume(source(1.0, 37.0, 0.001, 0.03), &Terrain::Level { depth_m: 6.0 });
     let water = Given(|z| 0.8 + 0.05 * z, |_| (0.3, 0.01));
     for k in 0..1500 {
         p.drift(&water, 0.7 * f64::from(k), 0.7 * f64::from(k + 1));
@@ -72,11 +63,7 @@ fn released_is_here_or_has_left() {
         assert!((listed - here).abs() <= 1e-6 * here);
     }
     // 1 g/s for 1050 s, within five times the root of 38850 portions of 1/37 g.
-    assert!(
-        (p.mass_released_kg() - 1.05).abs() < 0.027,
-        "{}",
-        p.mass_released_kg()
-    );
+    assert!((p.mass_released_kg() - 1.05).abs() < 0.027, "{}", p.mass_released_kg());
     assert!(p.mass_left_kg() > 0.1 && p.mass_in_kg() > 0.1);
     // Fewer filaments stand for all of them: mass and number sum to the true total, however few are shown.
     for most in [1, 37, 500, 1_000_000] {
@@ -91,10 +78,7 @@ fn released_is_here_or_has_left() {
 
 #[test]
 fn a_copy_goes_on_like_the_original_asked_or_not() {
-    let mut a = plume(
-        source(1.0, 20.0, 0.001, 0.03),
-        &Terrain::Level { depth_m: 6.0 },
-    );
+    let mut a = plume(source(1.0, 20.0, 0.001, 0.03), &Terrain::Level { depth_m: 6.0 });
     let water = Given(|_| 0.3, |_| (0.05, 0.002));
     for k in 0..200 {
         a.drift(&water, f64::from(k), f64::from(k + 1));

@@ -31,24 +31,14 @@ fn gaussian(x: f64, y: f64, z: f64) -> f64 {
 
 #[test]
 fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() {
-    let mut p = plume(
-        source(HEIGHT, 200.0, 0.001, 0.0316),
-        &Terrain::Level { depth_m: DEPTH },
-    );
+    let mut p = plume(source(HEIGHT, 200.0, 0.001, 0.0316), &Terrain::Level { depth_m: DEPTH });
     let water = Given(|_| SPEED, |_| (K, K));
     let sections = [10.0, 40.0, 70.0];
     let points: Vec<Vector3<f64>> = sections
         .iter()
         .flat_map(|x| {
-            [
-                (0.0, -3.0),
-                (0.0, -3.9),
-                (0.0, -0.2),
-                (0.6, -2.5),
-                (-0.8, -3.4),
-                (0.3, -1.5),
-            ]
-            .map(|(y, z)| Vector3::new(x - 90.0, y, z))
+            [(0.0, -3.0), (0.0, -3.9), (0.0, -0.2), (0.6, -2.5), (-0.8, -3.4), (0.3, -1.5)]
+                .map(|(y, z)| Vector3::new(x - 90.0, y, z))
         })
         .collect();
     let mut at_points = vec![Vec::new(); points.len()];
@@ -80,10 +70,7 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
     let near = |seen: &Vec<f64>, exact: f64, what: &str| {
         let (mean, variance) = moments(seen.iter().copied());
         let slack = 5.0 * (variance / seen.len() as f64).sqrt() + 0.01 * exact;
-        assert!(
-            (mean - exact).abs() < slack,
-            "{what}: {mean} for {exact} ± {slack}"
-        );
+        assert!((mean - exact).abs() < slack, "{what}: {mean} for {exact} ± {slack}");
         slack / exact
     };
     for (x, seen) in sections.iter().zip(&through) {
@@ -105,15 +92,11 @@ fn gaps_of_a_random_release_are_poisson() {
     // average. Samples 0.5 s apart share no filament (6σ/U = 0.2 s), so the share of empty samples is binomial: 10⁴
     // samples, standard error √(p(1 − p)/10⁴), five of them allowed.
     let (rate, size) = (5.0, SPEED / 30.0);
-    let mut p = plume(
-        source(HEIGHT, rate, 0.0, size),
-        &Terrain::Level { depth_m: DEPTH },
-    );
+    let mut p = plume(source(HEIGHT, rate, 0.0, size), &Terrain::Level { depth_m: DEPTH });
     let water = Given(|_| SPEED, |_| (0.0, 0.0));
     let probe = Vector3::new(-70.0, 0.0, HEIGHT - DEPTH);
     // One filament alone at 3σ: a lower concentration means that none is nearer.
-    let alone = RATE / rate / (math::powf(std::f64::consts::TAU, 1.5) * size.powi(3) * 0.998_866)
-        * math::exp(-4.5);
+    let alone = RATE / rate / (math::powf(std::f64::consts::TAU, 1.5) * size.powi(3) * 0.998_866) * math::exp(-4.5);
     let (mut empty, mut faint, samples) = (0.0, 0.0, 10_000);
     for k in 0..samples + 200 {
         p.drift(&water, 0.5 * f64::from(k), 0.5 * f64::from(k + 1));
@@ -129,9 +112,6 @@ fn gaps_of_a_random_release_are_poisson() {
     let exact = math::exp(-1.0);
     let slack = 5.0 * (exact * (1.0 - exact) / f64::from(samples)).sqrt();
     let share = empty / f64::from(samples);
-    assert!(
-        (share - exact).abs() < slack,
-        "{share} for {exact} ± {slack}"
-    );
+    assert!((share - exact).abs() < slack, "{share} for {exact} ± {slack}");
     assert!(faint <= empty && faint > 0.5 * empty, "{faint} of {empty}");
 }

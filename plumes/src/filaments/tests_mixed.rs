@@ -25,9 +25,7 @@ fn start(water: &impl Flow, part: f64) -> Plume {
     let still = source(1.0, 1e-9, 0.0, 0.1);
     let mut p = plume(still, &Terrain::Level { depth_m: DEPTH });
     let mut r = Stream::new(4, "test", "mixed");
-    pour(&mut p, FILAMENTS, -DEPTH, |_| {
-        [0.0, 0.0, -DEPTH * (1.0 - part * r.uniform())]
-    });
+    pour(&mut p, FILAMENTS, -DEPTH, |_| [0.0, 0.0, -DEPTH * (1.0 - part * r.uniform())]);
     // Fills the grid; a nanosecond moves no filament.
     p.drift(water, -1e-9, 0.0);
     p
@@ -141,9 +139,7 @@ fn known_limit_a_wedge_as_narrow_as_one_kick_is_left_unmixed_by_less_than_a_fift
 fn part_above(p: &Plume, part: f64, t_s: f64) -> f64 {
     const CELLS: usize = 1200;
     let dz = DEPTH / CELLS as f64;
-    let faces: Vec<f64> = (1..CELLS)
-        .map(|n| f64::from(p.grid().at(0.0, 0.0, -(n as f64 * dz) as f32).k_z))
-        .collect();
+    let faces: Vec<f64> = (1..CELLS).map(|n| f64::from(p.grid().at(0.0, 0.0, -(n as f64 * dz) as f32).k_z)).collect();
     let stiffest = faces.iter().copied().fold(0.0, f64::max) / (dz * dz);
     let steps = (t_s * stiffest / 0.4).ceil();
     let per = t_s / steps / (dz * dz);
@@ -152,11 +148,7 @@ fn part_above(p: &Plume, part: f64, t_s: f64) -> f64 {
     for _ in 0..steps as usize {
         let mut from_above = 0.0;
         for n in 0..CELLS {
-            let down = if n + 1 < CELLS {
-                faces[n] * per * (c[n] - c[n + 1])
-            } else {
-                0.0
-            };
+            let down = if n + 1 < CELLS { faces[n] * per * (c[n] - c[n + 1]) } else { 0.0 };
             c[n] += from_above - down;
             from_above = down;
         }
@@ -177,10 +169,7 @@ fn mixing_goes_as_fast_as_the_diffusion_equation_says() {
             let all = depths(p.clone(), &water, 200.0, dt);
             let part = all.iter().filter(|d| **d < 1.8).count() as f64 / n;
             let slack = 5.0 * (exact * (1.0 - exact) / n).sqrt() + 0.02 * exact;
-            assert!(
-                (part - exact).abs() < slack,
-                "{what}, {dt}: {part} for {exact}"
-            );
+            assert!((part - exact).abs() < slack, "{what}, {dt}: {part} for {exact}");
         }
     }
     check("parabola", parabola(0.02));

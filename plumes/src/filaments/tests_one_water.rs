@@ -21,25 +21,16 @@ use world::units::Heading;
 const NONE_HZ: f64 = 1e-9;
 
 fn current(speed_m_s: f64) -> CurrentSpec {
-    CurrentSpec::new(UniformSpec {
-        speed_m_s: NonNegative::new(speed_m_s),
-        heading_deg: HeadingDeg::new(90.0),
-    })
+    CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(speed_m_s), heading_deg: HeadingDeg::new(90.0) })
 }
 
 fn rough(roughness_m: f64, thickness_m: f64) -> Option<BedSpec> {
-    Some(BedSpec {
-        roughness_m: Positive::new(roughness_m),
-        thickness_m: Positive::new(thickness_m),
-    })
+    Some(BedSpec { roughness_m: Positive::new(roughness_m), thickness_m: Positive::new(thickness_m) })
 }
 
 /// A plume in the basin on the grid that the water asks for.
 fn plume_in(spec: &WaterSpec, source: SourceSpec, area: &Area, bed: &Terrain) -> (Water, Plume) {
-    let settings = PlumeSettings {
-        grid: spec.grid_shape(area, bed.deepest_m()),
-        refresh_s: 1.0,
-    };
+    let settings = PlumeSettings { grid: spec.grid_shape(area, bed.deepest_m()), refresh_s: 1.0 };
     let water = spec.build(area, bed, 5).unwrap();
     let plume = Plume::new(&[source], area, bed, 11, settings).unwrap();
     (water, plume)
@@ -49,11 +40,7 @@ fn plume_in(spec: &WaterSpec, source: SourceSpec, area: &Area, bed: &Terrain) ->
 /// time, also not in the middle of a step.
 #[test]
 fn no_dye_lies_under_a_bed_that_bends() {
-    let area = Area {
-        length_m: 100.0,
-        width_m: 60.0,
-        ..basin()
-    };
+    let area = Area { length_m: 100.0, width_m: 60.0, ..basin() };
     let beach = Terrain::sloping_over(&area, Heading::from_deg(90.0), 0.5, 12.0);
     let spec = WaterSpec {
         currents: vec![current(0.1)],
@@ -74,11 +61,7 @@ fn no_dye_lies_under_a_bed_that_bends() {
         plume.advance(&water, t_s);
         for [x, y, z, ..] in plume.iter() {
             let bed = beach.bed_z(x, y);
-            assert!(
-                z >= bed - 1e-5,
-                "{:.3} m under the bed at east {x:.1} m",
-                bed - z
-            );
+            assert!(z >= bed - 1e-5, "{:.3} m under the bed at east {x:.1} m", bed - z);
             shallow += usize::from(x > 45.0);
             beyond += usize::from(x > 55.0);
         }
@@ -90,20 +73,10 @@ fn no_dye_lies_under_a_bed_that_bends() {
 /// every place, to rounding.
 #[test]
 fn dye_follows_the_bed_over_its_bends() {
-    let area = Area {
-        length_m: 100.0,
-        width_m: 60.0,
-        ..basin()
-    };
+    let area = Area { length_m: 100.0, width_m: 60.0, ..basin() };
     let beach = Terrain::sloping_over(&area, Heading::from_deg(90.0), 2.0, 12.0);
-    let spec = WaterSpec {
-        currents: vec![current(0.35)],
-        ..WaterSpec::default()
-    };
-    let dye = SourceSpec {
-        east_m: Finite::new(0.0),
-        ..source(1.0, NONE_HZ, 0.0, 0.1)
-    };
+    let spec = WaterSpec { currents: vec![current(0.35)], ..WaterSpec::default() };
+    let dye = SourceSpec { east_m: Finite::new(0.0), ..source(1.0, NONE_HZ, 0.0, 0.1) };
     let (water, mut plume) = plume_in(&spec, dye, &area, &beach);
     let part = |k: usize| 0.05 + 0.9 * (k as f64 / 99.0);
     let start = |k: usize| [-57.0 + 0.6 * k as f64, 5.0];
@@ -124,11 +97,7 @@ fn dye_follows_the_bed_over_its_bends() {
         let [from, _] = start(k);
         assert!((x - from - 52.5).abs() < 1e-2, "{x} from {from}");
         let at = z / beach.bed_z(x, y);
-        assert!(
-            (at - part(k)).abs() < 1e-4,
-            "{at} for {} at east {x} m",
-            part(k)
-        );
+        assert!((at - part(k)).abs() < 1e-4, "{at} for {} at east {x} m", part(k));
     }
 }
 
@@ -193,21 +162,12 @@ fn nothing_mixes_through_a_thin_interface() {
                 ..WaterSpec::default()
             };
             let (water, mut p) = plume_in(&spec, source(2.0, NONE_HZ, 0.0, 0.1), &basin(), &bed);
-            pour(&mut p, 2000, -20.0, |k| {
-                [
-                    -90.0,
-                    0.0,
-                    -20.0 + 0.0075 * k as f64 * (20.0 - depth_m) / 16.0,
-                ]
-            });
+            pour(&mut p, 2000, -20.0, |k| [-90.0, 0.0, -20.0 + 0.0075 * k as f64 * (20.0 - depth_m) / 16.0]);
             for n in 0..500 {
                 p.drift(&water, f64::from(n), f64::from(n + 1));
             }
             let top = p.iter().map(|f| f[2]).fold(f64::NEG_INFINITY, f64::max);
-            assert!(
-                top <= -depth_m + thickness_m,
-                "dye at {top} m, interface at -{depth_m} m"
-            );
+            assert!(top <= -depth_m + thickness_m, "dye at {top} m, interface at -{depth_m} m");
             assert!(top > -depth_m - 1.5, "dye stops at {top} m");
         }
     }
@@ -218,11 +178,7 @@ fn nothing_mixes_through_a_thin_interface() {
 fn dye_near_the_bed_moves_by_the_law_of_the_wall() {
     for depth_m in [2.0, 12.0, 200.0] {
         let bed = Terrain::Level { depth_m };
-        let spec = WaterSpec {
-            currents: vec![current(0.4)],
-            bed: rough(0.002, 5.0),
-            ..WaterSpec::default()
-        };
+        let spec = WaterSpec { currents: vec![current(0.4)], bed: rough(0.002, 5.0), ..WaterSpec::default() };
         let (water, mut p) = plume_in(&spec, source(1.0, 1.0, 0.0, 0.1), &basin(), &bed);
         p.drift(&water, 0.0, 1.0);
         for height_m in [0.003, 0.01, 0.02, 0.05, 0.1, 0.3, 1.0] {
@@ -230,10 +186,7 @@ fn dye_near_the_bed_moves_by_the_law_of_the_wall() {
             let want = water.velocity(&at, 0.0).x;
             let [x, y, z] = p.grid.local(&at);
             let got = f64::from(p.grid.at(x, y, z).velocity[0]);
-            assert!(
-                (got / want - 1.0).abs() < 0.03,
-                "{got} for {want}, {height_m} m over {depth_m} m"
-            );
+            assert!((got / want - 1.0).abs() < 0.03, "{got} for {want}, {height_m} m over {depth_m} m");
         }
     }
 }
@@ -251,10 +204,7 @@ fn a_filament_near_the_bed_goes_as_far_as_the_law_says() {
             Some([0.001, 12.0])
         }
     }
-    let mut p = plume(
-        source(1.0, NONE_HZ, 0.0, 0.1),
-        &Terrain::Level { depth_m: 12.0 },
-    );
+    let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 12.0 });
     let height = |k: usize| 0.002 + 0.002 * k as f64;
     pour(&mut p, 200, -12.0, |k| [-90.0, 0.0, height(k) - 12.0]);
     for n in 0..40 {
@@ -262,15 +212,8 @@ fn a_filament_near_the_bed_goes_as_far_as_the_law_says() {
     }
     for (k, f) in p.iter().enumerate() {
         let place = Vector2::new(0.0, 0.0);
-        let want = 40.0
-            * Wall
-                .velocity(&Vector3::new(place.x, place.y, height(k) - 12.0), 0.0)
-                .x;
+        let want = 40.0 * Wall.velocity(&Vector3::new(place.x, place.y, height(k) - 12.0), 0.0).x;
         let went = f[0] + 90.0;
-        assert!(
-            (went / want - 1.0).abs() < 0.02,
-            "{went} m for {want} m at {} m",
-            height(k)
-        );
+        assert!((went / want - 1.0).abs() < 0.02, "{went} m for {want} m at {} m", height(k));
     }
 }

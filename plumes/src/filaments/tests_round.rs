@@ -15,9 +15,7 @@ fn block(bed: &Terrain, heading_deg: f64) -> Obstacles {
     let spec = ObstacleSpec {
         surface: Default::default(),
         id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(6.0), m(10.0), m(5.0)),
-        }),
+        shape: ShapeSpec::Box(BoxShape { size_m: (m(6.0), m(10.0), m(5.0)) }),
         east_m: Finite::new(-60.0),
         north_m: Finite::new(1.0),
         base: Default::default(),
@@ -30,10 +28,7 @@ fn block(bed: &Terrain, heading_deg: f64) -> Obstacles {
 fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     let bed = Terrain::Level { depth_m: 5.0 };
     let solids = block(&bed, heading_deg);
-    let uniform = UniformSpec {
-        speed_m_s: NonNegative::new(0.3),
-        heading_deg: HeadingDeg::new(90.0),
-    };
+    let uniform = UniformSpec { speed_m_s: NonNegative::new(0.3), heading_deg: HeadingDeg::new(90.0) };
     let blockage = BlockageSpec {
         cell_m: Positive::new(1.0),
         levels: 6,
@@ -46,16 +41,9 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
         ..WaterSpec::default()
     };
     spec.mixing.horizontal_m2_s = NonNegative::new(k_h_m2_s);
-    let water = if blocked {
-        spec.build_round(&basin(), &bed, &solids, 1)
-    } else {
-        spec.build(&basin(), &bed, 1)
-    };
+    let water = if blocked { spec.build_round(&basin(), &bed, &solids, 1) } else { spec.build(&basin(), &bed, 1) };
     let water = water.unwrap();
-    let settings = PlumeSettings {
-        grid: blockage.grid_shape(),
-        refresh_s: 1e9,
-    };
+    let settings = PlumeSettings { grid: blockage.grid_shape(), refresh_s: 1e9 };
     let mut plume = Plume::new(&[source(2.5, 5.0, 0.001, 0.1)], &basin(), &bed, 1, settings)
         .unwrap()
         .with_obstacles(solids.clone())
@@ -82,17 +70,9 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
 /// step), and the corners of a turned wall beyond its staircase.
 #[test]
 fn filaments_go_round_a_block_by_themselves() {
-    for (heading_deg, k_h, part) in [
-        (90.0, 0.0, 0.0),
-        (90.0, 1e-3, 0.01),
-        (60.0, 0.0, 0.05),
-        (60.0, 1e-3, 0.05),
-    ] {
+    for (heading_deg, k_h, part) in [(90.0, 0.0, 0.0), (90.0, 1e-3, 0.01), (60.0, 0.0, 0.05), (60.0, 1e-3, 0.05)] {
         let run = |blocked| carried(blocked, heading_deg, k_h);
         let (with, without) = (run(true), run(false));
-        assert!(
-            without > 10_000 && with as f64 <= part * without as f64,
-            "{with} {without}"
-        );
+        assert!(without > 10_000 && with as f64 <= part * without as f64, "{with} {without}");
     }
 }

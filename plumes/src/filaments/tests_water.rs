@@ -30,12 +30,7 @@ where
 
 /// A basin of 200 m by 100 m, with its long side eastward, centred at the datum.
 pub(super) fn basin() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 200.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 200.0, width_m: 100.0, axis: Heading::from_deg(90.0) }
 }
 
 /// A source at the west end, east = −90 m.
@@ -60,10 +55,7 @@ pub(super) fn source(height_m: f64, rate_hz: f64, growth_m2_s: f64, size_m: f64)
 
 /// A plume of that source in the basin; the flow is evaluated once.
 pub(super) fn plume(spec: SourceSpec, terrain: &Terrain) -> Plume {
-    let settings = PlumeSettings {
-        grid: GridShape::default(),
-        refresh_s: 1e9,
-    };
+    let settings = PlumeSettings { grid: GridShape::default(), refresh_s: 1e9 };
     Plume::new(&[spec], &basin(), terrain, 11, settings).expect("a legal source")
 }
 
@@ -79,8 +71,5 @@ pub(super) fn pour(plume: &mut Plume, n: usize, bed: f64, mut at: impl FnMut(usi
 pub(super) fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let n = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / n;
-    (
-        mean,
-        values.map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0),
-    )
+    (mean, values.map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0))
 }

@@ -25,14 +25,8 @@ fn water(stokes: bool) -> Water {
     let mut waves = regular(vec![train(0.3, 4.0, 90.0)]);
     waves.stokes = stokes;
     waves.mixing = NonNegative::new(0.0);
-    let current = UniformSpec {
-        speed_m_s: NonNegative::new(0.05),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    let spec = WaterSpec {
-        currents: vec![CurrentSpec::new(current), CurrentSpec::new(waves)],
-        ..WaterSpec::default()
-    };
+    let current = UniformSpec { speed_m_s: NonNegative::new(0.05), heading_deg: HeadingDeg::new(90.0) };
+    let spec = WaterSpec { currents: vec![CurrentSpec::new(current), CurrentSpec::new(waves)], ..WaterSpec::default() };
     spec.build(&basin(), &BED, 1).unwrap()
 }
 
@@ -44,14 +38,8 @@ fn thread() -> SourceSpec {
 }
 
 fn plume(water: &Water, until_s: f64) -> Plume {
-    let settings = PlumeSettings {
-        grid: GridShape {
-            levels: 60,
-            stretch: 0.0,
-            ..GridShape::default()
-        },
-        refresh_s: 10.0,
-    };
+    let settings =
+        PlumeSettings { grid: GridShape { levels: 60, stretch: 0.0, ..GridShape::default() }, refresh_s: 10.0 };
     let mut plume = Plume::new(&[thread()], &basin(), &BED, 1, settings).unwrap();
     let steps = (until_s / 0.5) as u32;
     for n in 0..steps {
@@ -90,8 +78,7 @@ fn worst(stokes: bool) -> f64 {
         let mean = Vector3::new(store[n][0], store[n][1], store[n][2]).map(f64::from);
         let there = mean + water.displacement(&mean, 200.0).unwrap();
         // Released at most a tenth of a second apart, while the water moves at 16 cm/s at most.
-        let off =
-            [born(n), born(n) + 0.1].map(|from| (particle(&water, from, 200.0) - there).norm());
+        let off = [born(n), born(n) + 0.1].map(|from| (particle(&water, from, 200.0) - there).norm());
         worst = worst.max(off[0].min(off[1]));
     }
     worst

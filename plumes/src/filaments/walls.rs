@@ -16,13 +16,7 @@ use std::ops::Range;
 use world::fields::{Flow, SideWalls};
 
 /// Carries filaments with the eddies through a step, or from their release on.
-pub(super) fn carry(
-    flow: &dyn Flow,
-    datum: Vector2<f64>,
-    store: &mut Store,
-    range: Range<usize>,
-    span: Span,
-) {
+pub(super) fn carry(flow: &dyn Flow, datum: Vector2<f64>, store: &mut Store, range: Range<usize>, span: Span) {
     let mut dt = vec![(span.to_s - span.from_s) as f32; range.len()];
     // The newest filaments come last.
     for (dt, born) in dt.iter_mut().zip(&store.born_s[range.clone()]).rev() {
@@ -44,12 +38,7 @@ pub(super) fn fold(store: &mut Store, range: Range<usize>) {
 }
 
 /// Mirrors filaments that passed a wall back into the water.
-pub(super) fn keep_between(
-    walls: &SideWalls,
-    datum: Vector2<f64>,
-    store: &mut Store,
-    range: Range<usize>,
-) {
+pub(super) fn keep_between(walls: &SideWalls, datum: Vector2<f64>, store: &mut Store, range: Range<usize>) {
     let (ax, ay) = (walls.across.x as f32, walls.across.y as f32);
     let centre = walls.centre - datum;
     let (cx, cy) = (centre.x as f32, centre.y as f32);

@@ -44,9 +44,7 @@ impl BedSpec {
         if delta < 3.0 * z0 {
             return Err(PlumeError::Invalid {
                 field: format!("{field}.roughness_m"),
-                problem: format!(
-                    "must be > 0 and at most a third of thickness_m ({delta}), got {z0}"
-                ),
+                problem: format!("must be > 0 and at most a third of thickness_m ({delta}), got {z0}"),
             });
         }
         Ok(BoundaryLayer::new(z0, delta))
@@ -65,21 +63,13 @@ pub struct BoundaryLayer {
 impl BoundaryLayer {
     fn new(z0: f64, delta: f64) -> Self {
         let top = delta.max(3.0 * z0);
-        Self {
-            z0,
-            delta,
-            deep: (top, math::ln(top / z0)),
-        }
+        Self { z0, delta, deep: (top, math::ln(top / z0)) }
     }
 
     /// ln(top/z0).
     fn ln_top<N: Number>(&self, top_m: N) -> N {
         let (deep_m, ln_deep) = self.deep;
-        if top_m.value() == deep_m {
-            ln_deep.into()
-        } else {
-            (top_m / self.z0).ln()
-        }
+        if top_m.value() == deep_m { ln_deep.into() } else { (top_m / self.z0).ln() }
     }
 
     /// Height at which the free current is reached in water of this depth, m.
@@ -119,12 +109,7 @@ mod tests {
     use super::*;
 
     fn layer() -> BoundaryLayer {
-        BedSpec {
-            roughness_m: Positive::new(0.001),
-            thickness_m: Positive::new(1.0),
-        }
-        .build("water.bed")
-        .unwrap()
+        BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(1.0) }.build("water.bed").unwrap()
     }
 
     #[test]
@@ -149,10 +134,7 @@ mod tests {
 
     #[test]
     fn roughness_above_the_layer_is_refused() {
-        let bad = BedSpec {
-            roughness_m: Positive::new(0.5),
-            thickness_m: Positive::new(1.0),
-        };
+        let bad = BedSpec { roughness_m: Positive::new(0.5), thickness_m: Positive::new(1.0) };
         let said = bad.build("water.bed").unwrap_err().to_string();
         assert!(said.starts_with("water.bed.roughness_m: must be > 0 and at most"));
     }

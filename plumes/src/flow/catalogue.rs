@@ -34,10 +34,7 @@ pub struct Place<'a> {
 impl Place<'_> {
     /// A mistake of the current as a whole.
     pub(super) fn wrong<T>(&self, problem: &str) -> Result<T, PlumeError> {
-        Err(PlumeError::Invalid {
-            field: self.field.to_owned(),
-            problem: problem.to_owned(),
-        })
+        Err(PlumeError::Invalid { field: self.field.to_owned(), problem: problem.to_owned() })
     }
 }
 
@@ -74,11 +71,7 @@ pub struct InterfaceScale {
 
 impl Default for CurrentScales {
     fn default() -> Self {
-        Self {
-            shortest_m: f64::INFINITY,
-            shortest_s: f64::INFINITY,
-            interfaces: Vec::new(),
-        }
+        Self { shortest_m: f64::INFINITY, shortest_s: f64::INFINITY, interfaces: Vec::new() }
     }
 }
 
@@ -95,12 +88,7 @@ pub trait CurrentParams: Spec {
     ///
     /// # Errors
     /// As [`Self::join`].
-    fn join_carried(
-        &self,
-        _water: &mut Water,
-        _place: &Place,
-        _carrier: Vector2<f64>,
-    ) -> Result<(), PlumeError> {
+    fn join_carried(&self, _water: &mut Water, _place: &Place, _carrier: Vector2<f64>) -> Result<(), PlumeError> {
         Ok(())
     }
 

@@ -85,12 +85,7 @@ impl Listed for OpenChannelSpec {
 impl CurrentParams for OpenChannelSpec {
     fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
         let alone = water.flume.is_none() && water.bed.is_none();
-        let Place {
-            field,
-            area,
-            terrain,
-            seed,
-        } = *place;
+        let Place { field, area, terrain, seed } = *place;
         water.flume = Some(Flume::build(self, field, area, terrain, alone, seed)?);
         Ok(())
     }
@@ -131,16 +126,12 @@ impl OpenChannelSpec {
     /// # Errors
     /// If the roughness is not small compared with the depth, or if no friction velocity gives the wanted mean.
     pub fn build(&self, field: &str, depth_m: f64) -> Result<Channel, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid {
-            field: format!("{field}.{sub}"),
-            problem,
-        };
+        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let k_s = self.roughness_m.get();
         if k_s > 0.5 * depth_m {
             let most = 0.5 * depth_m;
-            let problem = format!(
-                "must be >= 0 and at most {most} (half the depth: beyond, there is no log law), got {k_s}"
-            );
+            let problem =
+                format!("must be >= 0 and at most {most} (half the depth: beyond, there is no log law), got {k_s}");
             return Err(bad("roughness_m", problem));
         }
         let nu = self.viscosity_m2_s.get();
@@ -251,11 +242,7 @@ mod tests {
     #[test]
     fn friction_velocity_gives_the_mean() {
         let c = channel(0.05, 0.0);
-        assert!(
-            (c.u_star_m_s / 0.0028 - 1.0).abs() < 0.05,
-            "{}",
-            c.u_star_m_s
-        );
+        assert!((c.u_star_m_s / 0.0028 - 1.0).abs() < 0.05, "{}", c.u_star_m_s);
         assert!((c.mean_of(|z| c.speed(z)) - 0.05).abs() < 1e-4);
         // 0.01 m of sand in fully rough flow: u/u_* = ln(30z/k_s)/κ.
         let rough = channel(0.5, 0.01);

@@ -40,10 +40,7 @@ impl NoiseStep {
         let w_d = omega * (1.0 - damping * damping).sqrt();
         let (s, c) = math::sin_cos(w_d * h);
         let q = damping * omega / w_d;
-        let phi = [
-            [decay * (c + q * s), decay * s / w_d],
-            [-decay * omega * omega * s / w_d, decay * (c - q * s)],
-        ];
+        let phi = [[decay * (c + q * s), decay * s / w_d], [-decay * omega * omega * s / w_d, decay * (c - q * s)]];
         let (px, pv) = (std * std, std * std * omega * omega);
         let cov = |a: [f64; 2], b: [f64; 2]| a[0] * px * b[0] + a[1] * pv * b[1];
         let q11 = (px - cov(phi[0], phi[0])).max(0.0);
@@ -52,12 +49,7 @@ impl NoiseStep {
         let l11 = q11.sqrt();
         let l21 = if l11 > 0.0 { q12 / l11 } else { 0.0 };
         let l22 = (q22 - l21 * l21).max(0.0).sqrt();
-        Self {
-            phi,
-            chol: [l11, l21, l22],
-            std,
-            omega,
-        }
+        Self { phi, chol: [l11, l21, l22], std, omega }
     }
 }
 

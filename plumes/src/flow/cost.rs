@@ -33,22 +33,10 @@ impl WaterSpec {
             cost.add(spec.cost(area, steady, times).under("water.blockage"));
         }
         let nodes: f64 = shape.nodes(area).iter().product();
-        let round_s = if self.blockage.is_some() {
-            ROUND_S
-        } else {
-            0.0
-        };
-        let part = if self.blockage.is_some() {
-            1.0
-        } else {
-            IN_PLUME
-        };
+        let round_s = if self.blockage.is_some() { ROUND_S } else { 0.0 };
+        let part = if self.blockage.is_some() { 1.0 } else { IN_PLUME };
         let each_s = NODE_S[0] + waves * NODE_S[1] + round_s;
-        let path = if self.blockage.is_some() {
-            "water.blockage.cell_m"
-        } else {
-            "area"
-        };
+        let path = if self.blockage.is_some() { "water.blockage.cell_m" } else { "area" };
         let nodes_of = Part::new(path, format!("{nodes:.1e} nodes of the plume's flow"))
             .holds(nodes * NODE_BYTES)
             .takes(nodes * part * each_s * times.sums());

@@ -37,19 +37,14 @@ impl Flume {
         alone: bool,
         seed: Seed,
     ) -> Result<Self, PlumeError> {
-        let bad = |problem: &str| PlumeError::Invalid {
-            field: field.to_owned(),
-            problem: problem.to_owned(),
-        };
+        let bad = |problem: &str| PlumeError::Invalid { field: field.to_owned(), problem: problem.to_owned() };
         if !alone {
             return Err(bad(
                 "an OpenChannel brings its own bed friction and there can be only one: leave out water.bed and any other OpenChannel",
             ));
         }
         let Terrain::Level { depth_m } = *terrain else {
-            return Err(bad(
-                "an OpenChannel needs a level bed: terrain: Level(depth_m: ...)",
-            ));
+            return Err(bad("an OpenChannel needs a level bed: terrain: Level(depth_m: ...)"));
         };
         let channel = spec.build(field, depth_m)?;
         let axis = area.axis.unit();
@@ -64,9 +59,7 @@ impl Flume {
                 ),
             });
         }
-        let eddies = (spec.eddies.as_ref())
-            .map(|e| e.build(field, area, &channel, seed))
-            .transpose()?;
+        let eddies = (spec.eddies.as_ref()).map(|e| e.build(field, area, &channel, seed)).transpose()?;
         let k_h = match &eddies {
             Some(eddies) => channel.mean_of(|z| Spectrum::beyond(&channel, z, eddies.finest())),
             None => TRANSVERSE * channel.u_star_m_s * depth_m,
@@ -76,12 +69,7 @@ impl Flume {
             across: Vector2::new(-channel.along.y, channel.along.x),
             half_width_m: area.width_m / 2.0,
         };
-        Ok(Self {
-            channel,
-            eddies,
-            walls,
-            k_h,
-        })
+        Ok(Self { channel, eddies, walls, k_h })
     }
 
     /// Diffusivity by which filaments of a size grow, m²/s: that of all unresolved eddies or, where small ones carry

@@ -97,14 +97,10 @@ impl FlowGrid {
         let n = shape.nodes(area).map(|n| n as usize);
         let spacing = [0, 1].map(|d| extent[d] / (n[d] - 1) as f64);
         let corner = Vector2::new(-extent[0] / 2.0, -extent[1] / 2.0);
-        let at = |i: usize, j: usize| {
-            area.world(corner + Vector2::new(i as f64 * spacing[0], j as f64 * spacing[1]))
-        };
+        let at = |i: usize, j: usize| area.world(corner + Vector2::new(i as f64 * spacing[0], j as f64 * spacing[1]));
         let ground = Ground::new(terrain);
         let columns = (0..n[0]).flat_map(|i| (0..n[1]).map(move |j| (i, j)));
-        let bed: Vec<f32> = columns
-            .map(|(i, j)| ground.floor(at(i, j)).z as f32)
-            .collect();
+        let bed: Vec<f32> = columns.map(|(i, j)| ground.floor(at(i, j)).z as f32).collect();
         let a = area.axis.unit();
         let r = area.axis.turned(std::f64::consts::FRAC_PI_2).unit();
         let o = at(0, 0) - area.centre;
@@ -132,15 +128,9 @@ impl FlowGrid {
     /// World position of a node, m.
     #[must_use]
     pub fn node(&self, i: usize, j: usize, k: usize) -> Vector3<f64> {
-        let (di, dj) = (
-            i as f64 * f64::from(self.spacing[0]),
-            j as f64 * f64::from(self.spacing[1]),
-        );
+        let (di, dj) = (i as f64 * f64::from(self.spacing[0]), j as f64 * f64::from(self.spacing[1]));
         let xy = |d: usize| {
-            self.datum[d]
-                + f64::from(self.origin[d])
-                + di * f64::from(self.along[d])
-                + dj * f64::from(self.across[d])
+            self.datum[d] + f64::from(self.origin[d]) + di * f64::from(self.along[d]) + dj * f64::from(self.across[d])
         };
         let b = f64::from(self.bed[i * self.dims[1] + j]);
         Vector3::new(xy(0), xy(1), b * (1.0 - f64::from(self.levels[k])))
@@ -166,21 +156,10 @@ impl FlowGrid {
     pub fn at(&self, x: f32, y: f32, z: f32) -> GridSample {
         let [nx, ny, nz] = self.dims;
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
-        let (i, fi) = split(
-            (dx * self.along[0] + dy * self.along[1]) / self.spacing[0],
-            nx,
-        );
-        let (j, fj) = split(
-            (dx * self.across[0] + dy * self.across[1]) / self.spacing[1],
-            ny,
-        );
+        let (i, fi) = split((dx * self.along[0] + dy * self.along[1]) / self.spacing[0], nx);
+        let (j, fj) = split((dx * self.across[0] + dy * self.across[1]) / self.spacing[1], ny);
         let column = i * ny + j;
-        let weights = [
-            (1.0 - fi) * (1.0 - fj),
-            (1.0 - fi) * fj,
-            fi * (1.0 - fj),
-            fi * fj,
-        ];
+        let weights = [(1.0 - fi) * (1.0 - fj), (1.0 - fi) * fj, fi * (1.0 - fj), fi * fj];
         let of = [column, column + 1, column + ny, column + ny + 1];
         let k_h = (0..4).map(|c| weights[c] * self.k_h[of[c]]).sum();
         let bed = self.near.z(x, y);
@@ -251,10 +230,7 @@ mod tests {
             Vector3::new(0.1 + 1e-3 * p.x, 2e-3 * p.y - 1e-3 * p.x, 0.01 * p.z)
         }
         fn mixing(&self, p: &Vector3<f64>, _t_s: f64) -> Mixing {
-            Mixing {
-                k_h_m2_s: 0.02,
-                k_z_m2_s: 1e-3 * (p.z + 9.0),
-            }
+            Mixing { k_h_m2_s: 0.02, k_z_m2_s: 1e-3 * (p.z + 9.0) }
         }
     }
 
@@ -319,10 +295,7 @@ mod tests {
         grid.refresh(&Linear, 0.0);
         let far = duck_area().world(Vector2::new(5000.0, 0.0));
         let edge = duck_area().world(Vector2::new(597.0, 0.0));
-        let (a, b) = (
-            grid.at(far.x as f32, far.y as f32, 5.0),
-            grid.at(edge.x as f32, edge.y as f32, 0.0),
-        );
+        let (a, b) = (grid.at(far.x as f32, far.y as f32, 5.0), grid.at(edge.x as f32, edge.y as f32, 0.0));
         for d in 0..3 {
             assert!((a.velocity[d] - b.velocity[d]).abs() < 1e-5);
         }

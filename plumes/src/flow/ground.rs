@@ -34,24 +34,10 @@ pub(crate) struct Ground {
 impl Ground {
     pub(crate) fn new(terrain: &Terrain) -> Self {
         match *terrain {
-            Terrain::Level { depth_m } => Self {
-                part: 0.0,
-                gradient: Vector2::zeros(),
-                z: [-depth_m; 2],
-            },
-            Terrain::Slope {
-                middle,
-                shoreward,
-                shallow_m,
-                deep_m,
-                run_m,
-            } => {
+            Terrain::Level { depth_m } => Self { part: 0.0, gradient: Vector2::zeros(), z: [-depth_m; 2] },
+            Terrain::Slope { middle, shoreward, shallow_m, deep_m, run_m } => {
                 let gradient = shoreward / run_m;
-                Self {
-                    part: 0.5 - middle.dot(&gradient),
-                    gradient,
-                    z: [-deep_m, -shallow_m],
-                }
+                Self { part: 0.5 - middle.dot(&gradient), gradient, z: [-deep_m, -shallow_m] }
             }
         }
     }
@@ -62,10 +48,7 @@ impl Ground {
         let on_slope = s.value() > 0.0 && s.value() < 1.0;
         let on_slope = if on_slope { rise } else { 0.0 };
         let z = s.within(N::from(0.0), N::from(1.0)) * rise + self.z[0];
-        Floor {
-            z: z.least(N::from(-SHALLOWEST_M)),
-            slope: still(self.gradient * on_slope),
-        }
+        Floor { z: z.least(N::from(-SHALLOWEST_M)), slope: still(self.gradient * on_slope) }
     }
 
     /// Steepest slope.
@@ -101,11 +84,7 @@ impl NearGround {
         let s = if s > 0.0 { s } else { 0.0 };
         let s = if s < 1.0 { s } else { 1.0 };
         let z = self.deep + self.rise * s;
-        if z < -(SHALLOWEST_M as f32) {
-            z
-        } else {
-            -(SHALLOWEST_M as f32)
-        }
+        if z < -(SHALLOWEST_M as f32) { z } else { -(SHALLOWEST_M as f32) }
     }
 }
 

@@ -151,10 +151,7 @@ impl LayeredSpec {
     /// Names the field: no layers or too many, the wrong number of interfaces, interfaces not in order of depth, or a
     /// density that does not increase downwards.
     pub fn build(&self, field: &str, seed: impl Into<Seed>) -> Result<Layered, PlumeError> {
-        let bad = |sub: String, problem: String| PlumeError::Invalid {
-            field: format!("{field}.{sub}"),
-            problem,
-        };
+        let bad = |sub: String, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let n = self.layers.len();
         if n == 0 || n > MAX_LAYERS {
             let problem = format!("needs from 1 to {MAX_LAYERS} layers, got {n}");
@@ -170,9 +167,7 @@ impl LayeredSpec {
             if upper > lower {
                 return Err(bad(
                     format!("layers[{}].density_kg_m3", i + 1),
-                    format!(
-                        "must be >= {upper}, that of the layer above (lighter water floats), got {lower}"
-                    ),
+                    format!("must be >= {upper}, that of the layer above (lighter water floats), got {lower}"),
                 ));
             }
         }
@@ -194,9 +189,7 @@ impl LayeredSpec {
         let mut rng = Stream::new(seed, field, "interface phases");
         let faces = self.interfaces.iter().map(|f| f.build(&mut rng)).collect();
         Ok(Layered {
-            u: (self.layers.iter())
-                .map(|l| l.heading_deg.heading().unit() * l.speed_m_s.get())
-                .collect(),
+            u: (self.layers.iter()).map(|l| l.heading_deg.heading().unit() * l.speed_m_s.get()).collect(),
             density: self.layers.iter().map(|l| l.density_kg_m3.get()).collect(),
             faces,
         })
@@ -261,11 +254,7 @@ pub struct Sheet<N = f64> {
 impl<N: Number> Sheet<N> {
     /// A level surface at rest.
     pub(super) fn level(z: f64) -> Self {
-        Self {
-            z: z.into(),
-            slope: still(Vector2::zeros()),
-            rate: 0.0.into(),
-        }
+        Self { z: z.into(), slope: still(Vector2::zeros()), rate: 0.0.into() }
     }
 }
 
@@ -293,17 +282,9 @@ pub struct LayeredColumn<'a, N = f64> {
 impl Layered {
     /// The layers over the floor at (east, north) `p` and time `t_s`.
     #[must_use]
-    pub fn column<N: Number>(
-        &self,
-        p: Vector2<N>,
-        floor: &Floor<N>,
-        t_s: N,
-    ) -> LayeredColumn<'_, N> {
-        let mut column = LayeredColumn {
-            of: self,
-            u: [still(Vector2::zeros()); MAX_LAYERS],
-            faces: [Sheet::level(0.0); MAX_FACES],
-        };
+    pub fn column<N: Number>(&self, p: Vector2<N>, floor: &Floor<N>, t_s: N) -> LayeredColumn<'_, N> {
+        let mut column =
+            LayeredColumn { of: self, u: [still(Vector2::zeros()); MAX_LAYERS], faces: [Sheet::level(0.0); MAX_FACES] };
         for (u, mean) in column.u.iter_mut().zip(&self.u) {
             *u = still(*mean);
         }
@@ -337,11 +318,7 @@ impl Layered {
                 None
             };
             if let Some(part) = part {
-                sheet = Sheet {
-                    z: part * floor.z,
-                    slope: floor.slope * part,
-                    rate: 0.0.into(),
-                };
+                sheet = Sheet { z: part * floor.z, slope: floor.slope * part, rate: 0.0.into() };
             }
             ceiling = sheet.z / floor.z;
             column.faces[i] = sheet;

@@ -43,17 +43,11 @@ pub struct MeanderSpec {
     #[schemars(transform = world::limits::schema::std_m_s)]
     pub std_m_s: NonNegative,
     /// Natural frequency of the noise, rad/s.
-    #[serde(
-        default = "farrell_omega",
-        deserialize_with = "world::limits::wander_rad_s"
-    )]
+    #[serde(default = "farrell_omega", deserialize_with = "world::limits::wander_rad_s")]
     #[schemars(transform = world::limits::schema::wander_rad_s)]
     pub omega_rad_s: Positive,
     /// Damping ratio of the noise, in (0, 1).
-    #[serde(
-        default = "farrell_damping",
-        deserialize_with = "world::limits::damping"
-    )]
+    #[serde(default = "farrell_damping", deserialize_with = "world::limits::damping")]
     #[schemars(transform = world::limits::schema::damping)]
     pub damping: Positive,
     /// Wanted spacing of the grid, m.
@@ -85,12 +79,7 @@ impl CurrentParams for MeanderSpec {
         Ok(())
     }
 
-    fn join_carried(
-        &self,
-        water: &mut Water,
-        place: &Place,
-        carrier: Vector2<f64>,
-    ) -> Result<(), PlumeError> {
+    fn join_carried(&self, water: &mut Water, place: &Place, carrier: Vector2<f64>) -> Result<(), PlumeError> {
         let meander = self.build(place.field, place.area, carrier, place.seed)?;
         water.meanders.push(meander);
         Ok(())
@@ -154,17 +143,8 @@ impl MeanderSpec {
     ///
     /// # Errors
     /// Names the field: damping not below 1, or a grid too fine.
-    pub fn build(
-        &self,
-        field: &str,
-        area: &Area,
-        carrier: Vector2<f64>,
-        seed: Seed,
-    ) -> Result<Meander, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid {
-            field: format!("{field}.{sub}"),
-            problem,
-        };
+    pub fn build(&self, field: &str, area: &Area, carrier: Vector2<f64>, seed: Seed) -> Result<Meander, PlumeError> {
+        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let (omega, damping) = (self.omega_rad_s.get(), self.damping.get());
         if damping >= 1.0 {
             let problem = format!("must be > 0 and < 1 (an oscillation), got {damping}");
@@ -250,9 +230,7 @@ impl MeanderSpec {
             .holds(levels * splines * 8.0)
             .takes(steps * splines * (4.0 * band * MULTIPLY_S + STEP_S))
             .by(omega, 1.0);
-        Cost {
-            parts: vec![matrix, kept],
-        }
+        Cost { parts: vec![matrix, kept] }
     }
 }
 
@@ -291,11 +269,8 @@ impl Meander {
         let k = (at.value() as usize).min(self.levels.len() - 2);
         let d = Vector2::new(p.x - self.centre.x, p.y - self.centre.y);
         let local = |n: usize| along(self.axes[n], d) + self.half[n];
-        let u = self.grid.velocity(
-            Vector2::new(local(0), local(1)),
-            [&self.levels[k], &self.levels[k + 1]],
-            at - k as f64,
-        );
+        let u =
+            self.grid.velocity(Vector2::new(local(0), local(1)), [&self.levels[k], &self.levels[k + 1]], at - k as f64);
         times(self.axes[0], u.x) + times(self.axes[1], u.y)
     }
 }
@@ -330,13 +305,7 @@ impl Carried {
     /// Implicit step along so many neighbouring grid lines (Thomas's algorithm) with given ends. The first begins at
     /// node `start`; the strides are from node to node in a line, and from line to line. No line waits for another, so
     /// the processor works on several at once.
-    fn sweep(
-        &mut self,
-        carrier: &[Vector2<f64>],
-        axis: usize,
-        [start, lines]: [usize; 2],
-        [stride, next]: [usize; 2],
-    ) {
+    fn sweep(&mut self, carrier: &[Vector2<f64>], axis: usize, [start, lines]: [usize; 2], [stride, next]: [usize; 2]) {
         let (n, h) = (self.cells[axis], self.h[axis]);
         let mut upper = vec![0.0; n * lines];
         for k in 1..n {

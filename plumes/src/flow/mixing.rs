@@ -76,10 +76,8 @@ mod tests {
     #[test]
     fn depth_mean_is_that_of_elder() {
         let (u_star, h, n) = (0.0028, 0.2, 1000);
-        let mean = (0..n)
-            .map(|i| parabolic(u_star, (f64::from(i) + 0.5) / f64::from(n) * h, h))
-            .sum::<f64>()
-            / f64::from(n);
+        let mean =
+            (0..n).map(|i| parabolic(u_star, (f64::from(i) + 0.5) / f64::from(n) * h, h)).sum::<f64>() / f64::from(n);
         assert!((mean / (u_star * h) - KARMAN / 6.0).abs() < 1e-6);
         assert_eq!(parabolic(u_star, 0.0, h), 0.0);
         assert_eq!(parabolic(u_star, -1.0, h), 0.0);

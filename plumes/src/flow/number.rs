@@ -52,20 +52,12 @@ pub trait Number:
 
     /// The smaller one.
     fn least(self, other: Self) -> Self {
-        if other.value() < self.value() {
-            other
-        } else {
-            self
-        }
+        if other.value() < self.value() { other } else { self }
     }
 
     /// The greater one.
     fn greatest(self, other: Self) -> Self {
-        if other.value() > self.value() {
-            other
-        } else {
-            self
-        }
+        if other.value() > self.value() { other } else { self }
     }
 
     /// Limited to a range.
@@ -124,19 +116,13 @@ impl Jet {
     /// A function of this number, given its value and its slope.
     #[inline]
     fn through(self, value: f64, slope: f64) -> Self {
-        Self {
-            value,
-            slopes: self.slopes.map(|s| s * slope),
-        }
+        Self { value, slopes: self.slopes.map(|s| s * slope) }
     }
 
     /// With slopes made from those of both.
     #[inline]
     fn joined(self, other: Self, value: f64, slope: impl Fn(f64, f64) -> f64) -> Self {
-        Self {
-            value,
-            slopes: std::array::from_fn(|k| slope(self.slopes[k], other.slopes[k])),
-        }
+        Self { value, slopes: std::array::from_fn(|k| slope(self.slopes[k], other.slopes[k])) }
     }
 }
 
@@ -156,11 +142,7 @@ impl Number for Jet {
 
     fn known<const K: usize>(value: f64, at: [Self; K], slopes: impl FnOnce() -> [f64; K]) -> Self {
         let slopes = slopes();
-        at.iter()
-            .zip(slopes)
-            .fold(Self::from(value), |sum, (at, slope)| {
-                sum + at.through(0.0, slope)
-            })
+        at.iter().zip(slopes).fold(Self::from(value), |sum, (at, slope)| sum + at.through(0.0, slope))
     }
 
     fn sin_cos(self) -> (Self, Self) {
@@ -208,10 +190,7 @@ impl Sub for Jet {
 impl Mul for Jet {
     type Output = Self;
 
-    #[expect(
-        clippy::suspicious_arithmetic_impl,
-        reason = "the rule of the product adds"
-    )]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the rule of the product adds")]
     #[inline]
     fn mul(self, other: Self) -> Self {
         let of_product = |a: f64, b: f64| a * other.value + self.value * b;

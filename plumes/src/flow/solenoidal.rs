@@ -33,10 +33,7 @@ pub(crate) struct Solenoidal {
 fn splines<N: Number>(t: N) -> ([N; 3], [N; 3]) {
     let one = N::from(1.0);
     let r = one - t;
-    (
-        [r * 0.5 * r, t * r + 0.5, t * 0.5 * t],
-        [-r, one - t * 2.0, t],
-    )
+    ([r * 0.5 * r, t * r + 0.5, t * 0.5 * t], [-r, one - t * 2.0, t])
 }
 
 /// Integral over a cell of unit length by three Gauss points, exact to the fifth degree.
@@ -61,10 +58,7 @@ fn shares(h: [f64; 2]) -> [[[f64; 2]; 4]; 9] {
         let a = [l / 3, l % 3];
         for (corner, share) in share.iter_mut().enumerate() {
             let (p, q) = (corner / 2, corner % 2);
-            *share = [
-                h[0] * value[a[0]][p] * slope[a[1]][q],
-                h[1] * slope[a[0]][p] * value[a[1]][q],
-            ];
+            *share = [h[0] * value[a[0]][p] * slope[a[1]][q], h[1] * slope[a[0]][p] * value[a[1]][q]];
         }
     }
     shares
@@ -132,11 +126,7 @@ impl Solenoidal {
                     .map(|(a, b)| a * b)
                     .sum();
                 let left = self.factor[ri + j] - dot;
-                self.factor[ri + j] = if i == j {
-                    left.sqrt()
-                } else {
-                    left / self.factor[rj + j]
-                };
+                self.factor[ri + j] = if i == j { left.sqrt() } else { left / self.factor[rj + j] };
                 if i != j {
                     self.below[j * w + i - j - 1] = self.factor[ri + j];
                 }
@@ -249,11 +239,7 @@ impl Solenoidal {
 mod tests {
     use super::*;
 
-    fn nodes(
-        cells: [usize; 2],
-        h: [f64; 2],
-        f: impl Fn(f64, f64) -> [f64; 2],
-    ) -> Vec<Vector2<f64>> {
+    fn nodes(cells: [usize; 2], h: [f64; 2], f: impl Fn(f64, f64) -> [f64; 2]) -> Vec<Vector2<f64>> {
         let n = (cells[0] + 1) * (cells[1] + 1);
         (0..n)
             .map(|k| {
@@ -318,9 +304,7 @@ mod tests {
         for cells in [[2, 2], [9, 7], [20, 6]] {
             let mut rng = world::seeds::Stream::new(4, "test", "field");
             let nodes = (cells[0] + 1) * (cells[1] + 1);
-            let field: Vec<_> = (0..nodes)
-                .map(|_| Vector2::new(rng.normal(), rng.normal()))
-                .collect();
+            let field: Vec<_> = (0..nodes).map(|_| Vector2::new(rng.normal(), rng.normal())).collect();
             let mut s = Solenoidal::new(cells, [10.0, 12.0]);
             let (w, row) = (s.band, s.band + 1);
             let mut rows = cell_by_cell(&s, &field);
@@ -352,9 +336,7 @@ mod tests {
     fn result_is_free_of_divergence_everywhere() {
         let (cells, h) = ([9, 7], [10.0, 12.0]);
         let mut rng = world::seeds::Stream::new(3, "test", "field");
-        let field: Vec<_> = (0..80)
-            .map(|_| Vector2::new(rng.normal(), rng.normal()))
-            .collect();
+        let field: Vec<_> = (0..80).map(|_| Vector2::new(rng.normal(), rng.normal())).collect();
         let s = Solenoidal::new(cells, h);
         let c = s.project(&field);
         let mut strongest: f64 = 0.0;

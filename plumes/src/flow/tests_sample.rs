@@ -48,17 +48,12 @@ fn sample_agrees_with_differences() {
             phase_deg: Finite::new(40.0),
         }],
     }));
-    tidal.currents.push(CurrentSpec::new(UniformSpec {
-        speed_m_s: NonNegative::new(0.2),
-        heading_deg: HeadingDeg::new(100.0),
-    }));
+    tidal
+        .currents
+        .push(CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(0.2), heading_deg: HeadingDeg::new(100.0) }));
     let mut layers_only = duck();
     layers_only.currents.pop();
-    for (spec, bed) in [
-        (&duck(), duck_bed()),
-        (&tidal, duck_bed()),
-        (&layers_only, Terrain::Level { depth_m: 6.0 }),
-    ] {
+    for (spec, bed) in [(&duck(), duck_bed()), (&tidal, duck_bed()), (&layers_only, Terrain::Level { depth_m: 6.0 })] {
         let mut w = spec.build(&duck_area(), &bed, 7).unwrap();
         w.add(Arc::new(Turning));
         // Between two levels of the meander, where its slope in time has no kink.
@@ -71,27 +66,15 @@ fn sample_agrees_with_differences() {
             assert_eq!((a.velocity, a.density_kg_m3), (b.velocity, b.density_kg_m3));
             // Differences over 2 mm: their truncation beside the interface and the bed, and at a kink half the step.
             let scale = 1e-5 * (1.0 + b.gradient.norm());
-            assert!(
-                (a.gradient - b.gradient).norm() < scale,
-                "{p}: {} {}",
-                a.gradient,
-                b.gradient
-            );
-            assert!(
-                (a.rate - b.rate).norm() < 1e-6,
-                "{p}: {} {}",
-                a.rate,
-                b.rate
-            );
+            assert!((a.gradient - b.gradient).norm() < scale, "{p}: {} {}", a.gradient, b.gradient);
+            assert!((a.rate - b.rate).norm() < 1e-6, "{p}: {} {}", a.rate, b.rate);
         }
     }
 }
 
 #[test]
 fn layers_are_numbers_however_far_from_a_thin_interface() {
-    for (depth_m, interface_m, thickness_m) in
-        [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)]
-    {
+    for (depth_m, interface_m, thickness_m) in [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)] {
         let layers = LayeredSpec {
             layers: vec![layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)],
             interfaces: vec![InterfaceSpec {
@@ -100,27 +83,17 @@ fn layers_are_numbers_however_far_from_a_thin_interface() {
                 waves: vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))],
             }],
         };
-        let spec = WaterSpec {
-            currents: vec![CurrentSpec::new(layers)],
-            ..WaterSpec::default()
-        };
+        let spec = WaterSpec { currents: vec![CurrentSpec::new(layers)], ..WaterSpec::default() };
         let bed = Terrain::Level { depth_m };
         let water = spec.build(&duck_area(), &bed, 7).unwrap();
         for k in 0..=1000 {
             let z = -depth_m * f64::from(k) / 1000.0;
             let s = water.sample(&Vector3::new(3.0, 4.0, z), 5.0);
-            let all =
-                (s.velocity.iter().chain(&s.gradient).chain(&s.rate)).chain([&s.density_kg_m3]);
-            assert!(
-                all.into_iter().all(|v| v.is_finite()),
-                "{s:?} at {z} m of {depth_m} m"
-            );
+            let all = (s.velocity.iter().chain(&s.gradient).chain(&s.rate)).chain([&s.density_kg_m3]);
+            assert!(all.into_iter().all(|v| v.is_finite()), "{s:?} at {z} m of {depth_m} m");
             let far = (z + interface_m).abs() > 1.0 + 10.0 * thickness_m;
             let density = if z > -interface_m { 1023.0 } else { 1026.0 };
-            assert!(
-                !far || (s.density_kg_m3 - density).abs() < 1e-9,
-                "{s:?} at {z} m"
-            );
+            assert!(!far || (s.density_kg_m3 - density).abs() < 1e-9, "{s:?} at {z} m");
         }
     }
 }

@@ -17,12 +17,7 @@ use crate::flow::waves::tests::{regular, train};
 const BED: Terrain = Terrain::Level { depth_m: 10.0 };
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 500.0,
-        width_m: 200.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 500.0, width_m: 200.0, axis: Heading::from_deg(90.0) }
 }
 
 fn tide() -> CurrentSpec {
@@ -44,10 +39,7 @@ fn waves() -> CurrentSpec {
 fn build(currents: Vec<CurrentSpec>) -> Water {
     let spec = WaterSpec {
         currents,
-        bed: Some(BedSpec {
-            roughness_m: Positive::new(0.001),
-            thickness_m: Positive::new(8.0),
-        }),
+        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(8.0) }),
         ..WaterSpec::default()
     };
     spec.build(&area(), &BED, 3).unwrap()
@@ -91,25 +83,13 @@ fn hull_feels_orbits_with_gradient_and_rate_and_the_plume_does_not() {
     assert!((out[1][0].0 - u).norm() < 1e-4);
     let stirred = waves.vertical(p.z);
     assert!(stirred > 1e-4 && (k.x - calm.mixing(&p, 500.0).k_z_m2_s - stirred).abs() < 1e-12);
-    assert_eq!(
-        rough.displacement(&p, 500.0),
-        Some(waves.displacement(&p, 500.0))
-    );
-    assert_eq!(
-        (calm.displacement(&p, 500.0), calm.head(&p, 500.0)),
-        (None, 0.0)
-    );
+    assert_eq!(rough.displacement(&p, 500.0), Some(waves.displacement(&p, 500.0)));
+    assert_eq!((calm.displacement(&p, 500.0), calm.head(&p, 500.0)), (None, 0.0));
 }
 
 #[test]
 fn a_second_sea_is_refused() {
-    let spec = WaterSpec {
-        currents: vec![waves(), waves()],
-        ..WaterSpec::default()
-    };
+    let spec = WaterSpec { currents: vec![waves(), waves()], ..WaterSpec::default() };
     let said = spec.build(&area(), &BED, 3).unwrap_err().to_string();
-    assert!(
-        said.starts_with("water.currents[1]: only one Waves can move the surface"),
-        "{said}"
-    );
+    assert!(said.starts_with("water.currents[1]: only one Waves can move the surface"), "{said}");
 }

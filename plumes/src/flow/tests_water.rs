@@ -18,12 +18,7 @@ use crate::flow::water::{Water, WaterSpec};
 
 /// The area off Duck (Pang 2009, section 6).
 pub(crate) fn duck_area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 1094.0,
-        width_m: 367.0,
-        axis: Heading::from_deg(340.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) }
 }
 
 pub(crate) fn duck_bed() -> Terrain {
@@ -38,13 +33,7 @@ pub(crate) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
     }
 }
 
-pub(crate) fn wave(
-    amplitude: f64,
-    length: f64,
-    period: f64,
-    heading: f64,
-    phase: Option<f64>,
-) -> WaveSpec {
+pub(crate) fn wave(amplitude: f64, length: f64, period: f64, heading: f64, phase: Option<f64>) -> WaveSpec {
     WaveSpec {
         amplitude_m: NonNegative::new(amplitude),
         length_m: Positive::new(length),
@@ -60,10 +49,7 @@ fn duck_layers() -> LayeredSpec {
         interfaces: vec![InterfaceSpec {
             depth_m: Positive::new(1.8),
             thickness_m: Positive::new(0.8),
-            waves: vec![
-                wave(0.3, 420.0, 1900.0, 250.0, None),
-                wave(0.15, 260.0, 1200.0, 310.0, Some(70.0)),
-            ],
+            waves: vec![wave(0.3, 420.0, 1900.0, 250.0, None), wave(0.15, 260.0, 1200.0, 310.0, Some(70.0))],
         }],
     }
 }
@@ -80,14 +66,8 @@ pub(crate) fn duck() -> WaterSpec {
                 diffusivity_m2_s: None,
             }),
         ],
-        bed: Some(BedSpec {
-            roughness_m: Positive::new(0.001),
-            thickness_m: Positive::new(2.0),
-        }),
-        mixing: MixingSpec {
-            horizontal_m2_s: NonNegative::new(0.01),
-            ..MixingSpec::default()
-        },
+        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) }),
+        mixing: MixingSpec { horizontal_m2_s: NonNegative::new(0.01), ..MixingSpec::default() },
         ..WaterSpec::default()
     }
 }
@@ -97,10 +77,7 @@ fn build(spec: &WaterSpec) -> Water {
 }
 
 fn said(currents: Vec<CurrentSpec>) -> String {
-    let spec = WaterSpec {
-        currents,
-        ..WaterSpec::default()
-    };
+    let spec = WaterSpec { currents, ..WaterSpec::default() };
     let e = spec.build(&duck_area(), &duck_bed(), 7);
     e.unwrap_err().to_string()
 }
@@ -126,10 +103,7 @@ fn by_default_the_water_is_still() {
 #[test]
 fn flow_is_tangent_to_the_bed_and_the_surface() {
     // Without friction, so that there is a flow at the bed that can be tangent.
-    let w = build(&WaterSpec {
-        bed: None,
-        ..duck()
-    });
+    let w = build(&WaterSpec { bed: None, ..duck() });
     for p in places(300) {
         let column = w.column(p, 0.0);
         let n = duck_bed().normal(p.x, p.y);
@@ -161,24 +135,17 @@ fn interface_moves_and_water_goes_with_it() {
         let (t, e) = (3.0, 0.1);
         let eta = height(p, t);
         let (dx, dy) = (Vector2::new(e, 0.0), Vector2::new(0.0, e));
-        let slope = Vector2::new(
-            height(p + dx, t) - height(p - dx, t),
-            height(p + dy, t) - height(p - dy, t),
-        ) / (2.0 * e);
+        let slope =
+            Vector2::new(height(p + dx, t) - height(p - dx, t), height(p + dy, t) - height(p - dy, t)) / (2.0 * e);
         let rate = (height(p, t + e) - height(p, t - e)) / (2.0 * e);
         let u = w.column(p, t).velocity(eta);
         // Error of the differences: e²/6 of a third derivative, below 1e-8.
         assert!((u.z - rate - u.xy().dot(&slope)).abs() < 1e-7);
     }
     let here = |t: u32| height(Vector2::zeros(), f64::from(t) * 20.0);
-    let (low, high) = (0..400)
-        .map(here)
-        .fold((0.0_f64, -9.0_f64), |(l, h), z| (l.min(z), h.max(z)));
+    let (low, high) = (0..400).map(here).fold((0.0_f64, -9.0_f64), |(l, h), z| (l.min(z), h.max(z)));
     // Sum of the amplitudes 0.45 m about −1.8 m.
-    assert!(
-        low >= -2.25 && high <= -1.35 && high - low > 0.6,
-        "{low} {high}"
-    );
+    assert!(low >= -2.25 && high <= -1.35 && high - low > 0.6, "{low} {high}");
 }
 
 #[test]
@@ -197,22 +164,14 @@ fn an_interface_keeps_off_bed_and_surface() {
     let mut layers = duck_layers();
     layers.interfaces[0].depth_m = Positive::new(5.9);
     layers.interfaces[0].waves[0].amplitude_m = NonNegative::new(1.0);
-    let w = build(&WaterSpec {
-        currents: vec![CurrentSpec::new(layers)],
-        ..duck()
-    });
+    let w = build(&WaterSpec { currents: vec![CurrentSpec::new(layers)], ..duck() });
     let mut touched = 0;
     for p in places(300) {
         let column = w.column(p, 0.0);
         let part = column.interfaces()[0].z / column.bed_z();
         assert!((0.02 - 1e-12..=0.98 + 1e-12).contains(&part), "{part}");
         touched += u32::from(part > 0.979);
-        assert!(
-            column
-                .velocity(column.bed_z() * 0.97)
-                .iter()
-                .all(|v| v.is_finite())
-        );
+        assert!(column.velocity(column.bed_z() * 0.97).iter().all(|v| v.is_finite()));
     }
     assert!(touched > 20, "{touched}");
 }
@@ -242,16 +201,10 @@ fn divergence_is_what_the_files_say() {
     // Layers with waves over a level bed. The layers' thickness changes at up to Σ 2πa/(T h) = 1.0e-3 above and 0.4e-3
     // below; tanh and straight line differ by at most half of the sum in the interface.
     let [worst, rms, horizontal] = divergence(&duck(), &level_bed);
-    assert!(
-        worst < 1.0e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal,
-        "{worst} {rms} {horizontal}"
-    );
+    assert!(worst < 1.0e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal, "{worst} {rms} {horizontal}");
     // Over the slope u·∇H/H = 0.1·0.011/6 = 2e-4 is added, and the lower layer is half as thick inshore.
     let [worst, rms, horizontal] = divergence(&duck(), &duck_bed());
-    assert!(
-        worst < 1.5e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal,
-        "{worst} {rms} {horizontal}"
-    );
+    assert!(worst < 1.5e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal, "{worst} {rms} {horizontal}");
 }
 
 #[test]
@@ -277,14 +230,8 @@ fn a_flume_has_its_friction_and_mixing() {
             speed_m_s: NonNegative::new(0.0596),
             heading_deg: HeadingDeg::new(90.0),
         })],
-        bed: Some(BedSpec {
-            roughness_m: Positive::new(4e-5),
-            thickness_m: Positive::new(0.2),
-        }),
-        mixing: MixingSpec {
-            transverse: NonNegative::new(0.15),
-            ..MixingSpec::default()
-        },
+        bed: Some(BedSpec { roughness_m: Positive::new(4e-5), thickness_m: Positive::new(0.2) }),
+        mixing: MixingSpec { transverse: NonNegative::new(0.15), ..MixingSpec::default() },
         density_kg_m3: Positive::new(998.0),
         blockage: None,
     };
@@ -311,10 +258,7 @@ fn stratification_damps_mixing_at_the_interface() {
     let with_lower = |density: f64| {
         let mut layers = duck_layers();
         layers.layers[1].density_kg_m3 = Positive::new(density);
-        build(&WaterSpec {
-            currents: vec![CurrentSpec::new(layers)],
-            ..duck()
-        })
+        build(&WaterSpec { currents: vec![CurrentSpec::new(layers)], ..duck() })
     };
     let (strong, weak) = (with_lower(1024.0), with_lower(1020.04));
     for p in places(50) {
@@ -342,10 +286,7 @@ fn impossible_water_is_refused_by_field() {
         f(&mut l);
         CurrentSpec::new(l)
     };
-    let still = CurrentSpec::new(UniformSpec {
-        speed_m_s: NonNegative::new(0.0),
-        heading_deg: HeadingDeg::new(0.0),
-    });
+    let still = CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(0.0), heading_deg: HeadingDeg::new(0.0) });
     assert_eq!(
         said(vec![still, layered(&|l| l.layers.clear())]),
         "water.currents[1].layers: needs from 1 to 4 layers, got 0"
@@ -355,19 +296,14 @@ fn impossible_water_is_refused_by_field() {
         "water.currents[0].interfaces: 2 layers need 1 interfaces, got 0"
     );
     let light_below = layered(&|l| l.layers[1].density_kg_m3 = Positive::new(1000.0));
-    assert!(
-        said(vec![light_below])
-            .starts_with("water.currents[0].layers[1].density_kg_m3: must be >= 1020")
-    );
+    assert!(said(vec![light_below]).starts_with("water.currents[0].layers[1].density_kg_m3: must be >= 1020"));
     let crossed = layered(&|l| {
         l.layers.push(l.layers[1].clone());
         let mut second = l.interfaces[0].clone();
         second.depth_m = Positive::new(1.0);
         l.interfaces.push(second);
     });
-    assert!(
-        said(vec![crossed]).starts_with("water.currents[0].interfaces[1].depth_m: must be > 1.8")
-    );
+    assert!(said(vec![crossed]).starts_with("water.currents[0].interfaces[1].depth_m: must be > 1.8"));
     let twice = vec![layered(&|_| ()), layered(&|_| ())];
     assert!(said(twice).starts_with("water.currents[1]: only one Layered"));
 }

@@ -126,9 +126,7 @@ impl TideSpec {
             })
         };
         let constituents = self.constituents.iter().enumerate().map(of);
-        Ok(Tide {
-            constituents: constituents.collect::<Result<_, _>>()?,
-        })
+        Ok(Tide { constituents: constituents.collect::<Result<_, _>>()? })
     }
 }
 
@@ -166,12 +164,7 @@ mod tests {
         let tide = m2_ellipse(0.1).build("water.currents[0]").unwrap();
         let period_s = 3600.0 * m2().get();
         // The greatest speed eastward a sixth of a period after zero, then northward, then back.
-        for (part, want) in [
-            (0.0, [0.4, 0.0]),
-            (0.25, [0.0, 0.1]),
-            (0.5, [-0.4, 0.0]),
-            (0.75, [0.0, -0.1]),
-        ] {
+        for (part, want) in [(0.0, [0.4, 0.0]), (0.25, [0.0, 0.1]), (0.5, [-0.4, 0.0]), (0.75, [0.0, -0.1])] {
             let u = tide.velocity((60.0 / 360.0 + part) * period_s);
             assert!((u - Vector2::from(want)).norm() < 1e-12, "{part}: {u}");
         }
@@ -199,11 +192,7 @@ mod tests {
             said.to_string(),
             "water.currents[0].constituents[0].minor_m_s: must be from -0.4 to 0.4 (major_m_s), got -0.5"
         );
-        let said = TideSpec {
-            constituents: vec![],
-        }
-        .build("water.currents[0]")
-        .unwrap_err();
+        let said = TideSpec { constituents: vec![] }.build("water.currents[0]").unwrap_err();
         assert!(said.to_string().contains("needs one at least"));
     }
 }

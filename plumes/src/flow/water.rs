@@ -127,9 +127,7 @@ impl WaterSpec {
         let blockage = self.blockage.as_ref().map(BlockageSpec::grid_shape);
         blockage.unwrap_or_else(|| {
             let scales = self.currents.iter().map(|c| c.scales());
-            scales.fold(GridShape::fitting(area), |shape, s| {
-                shape.resolving(&s, area, depth_m)
-            })
+            scales.fold(GridShape::fitting(area), |shape, s| shape.resolving(&s, area, depth_m))
         })
     }
 
@@ -147,13 +145,7 @@ impl WaterSpec {
         let mut water = self.build(area, terrain, seed)?;
         if let Some(spec) = &self.blockage {
             let free = water.clone();
-            water.blocked = Some(Blocked::new(
-                spec,
-                area,
-                &free.ground,
-                obstacles,
-                free.clone(),
-            )?);
+            water.blocked = Some(Blocked::new(spec, area, &free.ground, obstacles, free.clone())?);
         }
         Ok(water)
     }
@@ -162,16 +154,9 @@ impl WaterSpec {
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
-    pub fn build(
-        &self,
-        area: &Area,
-        terrain: &Terrain,
-        seed: impl Into<Seed>,
-    ) -> Result<Water, PlumeError> {
+    pub fn build(&self, area: &Area, terrain: &Terrain, seed: impl Into<Seed>) -> Result<Water, PlumeError> {
         let seed = seed.into();
-        let bed = (self.bed.as_ref())
-            .map(|b| b.build("water.bed"))
-            .transpose()?;
+        let bed = (self.bed.as_ref()).map(|b| b.build("water.bed")).transpose()?;
         let mut water = Water {
             ground: Ground::new(terrain),
             uniform: Vector2::zeros(),
@@ -186,15 +171,8 @@ impl WaterSpec {
             blocked: None,
             others: Vec::new(),
         };
-        let fields: Vec<String> = (0..self.currents.len())
-            .map(|i| format!("water.currents[{i}]"))
-            .collect();
-        let place = |field| Place {
-            field,
-            area,
-            terrain,
-            seed,
-        };
+        let fields: Vec<String> = (0..self.currents.len()).map(|i| format!("water.currents[{i}]")).collect();
+        let place = |field| Place { field, area, terrain, seed };
         for (current, field) in self.currents.iter().zip(&fields) {
             current.join(&mut water, &place(field))?;
             water.name_others(current.name());
@@ -266,8 +244,7 @@ impl Water {
     /// Velocity at a place and a time without the eddies of a channel, m/s: a check need not draw them.
     #[must_use]
     pub fn velocity_without_eddies(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        let turned = (self.blocked.as_ref())
-            .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
+        let turned = (self.blocked.as_ref()).and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
         let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
         match &self.waves {
             Some(waves) => mean + waves.velocity(p, t_s),
@@ -276,8 +253,7 @@ impl Water {
     }
 
     fn eddying(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        self.eddies()
-            .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
+        self.eddies().map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
     }
 
     /// The solution for the obstacles, if they divert the currents.
@@ -357,9 +333,7 @@ fn other<N: Number>(other: &Other, p: Vector2<N>, t_s: N) -> Vector2<N> {
     assert!(fault.is_none(), "{}", fault.unwrap_or_default());
     let part = |d: usize| {
         N::known(here[d], [p.x, p.y, t_s], || {
-            let at = |dx: f64, dy: f64, dt: f64| {
-                current.velocity(place + Vector2::new(dx, dy), now_s + dt)[d]
-            };
+            let at = |dx: f64, dy: f64, dt: f64| current.velocity(place + Vector2::new(dx, dy), now_s + dt)[d];
             let back = H.min(now_s);
             [
                 (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) / (2.0 * H),

@@ -13,19 +13,11 @@ use world::terrain::Terrain;
 /// # Errors
 /// If a source lies outside the area, under the bed or above the surface, if it has both or neither of `height_m` and
 /// `depth_m`, or if two have the same name. The field is a path such as `sources[0].height_m`.
-pub fn place(
-    specs: &[SourceSpec],
-    area: &Area,
-    terrain: &Terrain,
-) -> Result<Vec<Source>, PlumeError> {
+pub fn place(specs: &[SourceSpec], area: &Area, terrain: &Terrain) -> Result<Vec<Source>, PlumeError> {
     let mut sources: Vec<Source> = Vec::with_capacity(specs.len());
     for (n, spec) in specs.iter().enumerate() {
         if let Some(twin) = sources.iter().position(|s| s.id == spec.id) {
-            return Err(invalid(
-                n,
-                "id",
-                format!("\"{}\" is already the name of sources[{twin}]", spec.id),
-            ));
+            return Err(invalid(n, "id", format!("\"{}\" is already the name of sources[{twin}]", spec.id)));
         }
         sources.push(placed(n, spec, area, terrain)?);
     }
@@ -42,27 +34,15 @@ pub fn clear(sources: &[Source], obstacles: &Obstacles) -> Result<(), PlumeError
 }
 
 /// What is wrong with each source by itself; nothing of their names.
-pub fn misplaced(
-    specs: &[SourceSpec],
-    area: &Area,
-    terrain: &Terrain,
-    obstacles: &Obstacles,
-) -> Vec<PlumeError> {
+pub fn misplaced(specs: &[SourceSpec], area: &Area, terrain: &Terrain, obstacles: &Obstacles) -> Vec<PlumeError> {
     let wrong = |(n, spec)| {
         let source = placed(n, spec, area, terrain);
-        source
-            .and_then(|source| outside(n, &source, obstacles))
-            .err()
+        source.and_then(|source| outside(n, &source, obstacles)).err()
     };
     specs.iter().enumerate().filter_map(wrong).collect()
 }
 
-fn placed(
-    n: usize,
-    spec: &SourceSpec,
-    area: &Area,
-    terrain: &Terrain,
-) -> Result<Source, PlumeError> {
+fn placed(n: usize, spec: &SourceSpec, area: &Area, terrain: &Terrain) -> Result<Source, PlumeError> {
     let release = spec.release.settled();
     Ok(Source {
         id: spec.id.clone(),
@@ -77,35 +57,20 @@ fn outside(n: usize, source: &Source, obstacles: &Obstacles) -> Result<(), Plume
         None => Ok(()),
         Some(solid) => Err(PlumeError::Invalid {
             field: format!("sources[{n}]"),
-            problem: format!(
-                "source \"{}\" stands inside obstacle \"{}\"; bring it outside",
-                source.id, solid.id
-            ),
+            problem: format!("source \"{}\" stands inside obstacle \"{}\"; bring it outside", source.id, solid.id),
         }),
     }
 }
 
 fn invalid(n: usize, field: &str, problem: String) -> PlumeError {
-    PlumeError::Invalid {
-        field: format!("sources[{n}].{field}"),
-        problem,
-    }
+    PlumeError::Invalid { field: format!("sources[{n}].{field}"), problem }
 }
 
-fn position(
-    n: usize,
-    spec: &SourceSpec,
-    area: &Area,
-    terrain: &Terrain,
-) -> Result<Vector3<f64>, PlumeError> {
+fn position(n: usize, spec: &SourceSpec, area: &Area, terrain: &Terrain) -> Result<Vector3<f64>, PlumeError> {
     let (e, north) = (spec.east_m.get(), spec.north_m.get());
     let (distance, normal) = area.edge_distance(Vector2::new(e, north));
     if distance < 0.0 {
-        let field = if normal.x.abs() > normal.y.abs() {
-            "east_m"
-        } else {
-            "north_m"
-        };
+        let field = if normal.x.abs() > normal.y.abs() { "east_m" } else { "north_m" };
         let problem = format!(
             "source \"{}\" at east {e} m, north {north} m lies {:.1} m outside the area; bring it inside",
             spec.id, -distance
@@ -114,10 +79,7 @@ fn position(
     }
     let bed = terrain.bed_z(e, north);
     let depth = -bed;
-    match (
-        spec.height_m.map(Finite::get),
-        spec.depth_m.map(Finite::get),
-    ) {
+    match (spec.height_m.map(Finite::get), spec.depth_m.map(Finite::get)) {
         (Some(h), None) if h < 0.0 => Err(invalid(
             n,
             "height_m",
@@ -147,20 +109,14 @@ fn position(
         (None, Some(d)) if d < 0.0 => Err(invalid(
             n,
             "depth_m",
-            format!(
-                "source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}",
-                spec.id, -d
-            ),
+            format!("source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}", spec.id, -d),
         )),
         (Some(h), None) => Ok(Vector3::new(e, north, bed + h)),
         (None, Some(d)) => Ok(Vector3::new(e, north, -d)),
         (Some(_), Some(_)) => Err(invalid(
             n,
             "depth_m",
-            format!(
-                "source \"{}\" has both height_m and depth_m; give one of them",
-                spec.id
-            ),
+            format!("source \"{}\" has both height_m and depth_m; give one of them", spec.id),
         )),
         (None, None) => Err(invalid(
             n,
@@ -181,12 +137,7 @@ mod tests {
     use world::units::Heading;
 
     fn sea() -> (Area, Terrain) {
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m: 100.0,
-            width_m: 60.0,
-            axis: Heading::from_deg(0.0),
-        };
+        let area = Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 60.0, axis: Heading::from_deg(0.0) };
         (area, Terrain::Level { depth_m: 6.0 })
     }
 
@@ -232,34 +183,21 @@ mod tests {
                 .starts_with("sources[0].depth_m: source \"s1\" is 0.50 m under the bottom")
         );
         assert!(problem(spec(0.0, 0.0, Some(7.0), None)).contains("1.00 m above the surface"));
-        assert!(
-            problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m")
-        );
+        assert!(problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m"));
         assert!(problem(spec(0.0, 0.0, None, None)).contains("neither height_m"));
         let (area, terrain) = sea();
-        let twins = [
-            spec(0.0, 0.0, Some(1.0), None),
-            spec(1.0, 0.0, Some(1.0), None),
-        ];
+        let twins = [spec(0.0, 0.0, Some(1.0), None), spec(1.0, 0.0, Some(1.0), None)];
         let said = place(&twins, &area, &terrain).unwrap_err().to_string();
-        assert_eq!(
-            said,
-            "sources[1].id: \"s1\" is already the name of sources[0]"
-        );
+        assert_eq!(said, "sources[1].id: \"s1\" is already the name of sources[0]");
     }
 
     #[test]
     fn each_misplaced_source_is_told_by_its_own_number() {
         let (area, terrain) = sea();
-        let specs = [
-            spec(0.0, 70.0, Some(0.2), None),
-            spec(0.0, 0.0, Some(0.2), None),
-            spec(0.0, 0.0, Some(-0.5), None),
-        ];
+        let specs =
+            [spec(0.0, 70.0, Some(0.2), None), spec(0.0, 0.0, Some(0.2), None), spec(0.0, 0.0, Some(-0.5), None)];
         let said = misplaced(&specs, &area, &terrain, &Obstacles::default());
-        let fields = said
-            .iter()
-            .map(|PlumeError::Invalid { field, .. }| field.as_str());
+        let fields = said.iter().map(|PlumeError::Invalid { field, .. }| field.as_str());
         let fields: Vec<&str> = fields.collect();
         assert_eq!(fields, ["sources[0].north_m", "sources[2].height_m"]);
     }

@@ -164,8 +164,7 @@ impl ReleaseSpec {
                 problem: if nozzle.is_some() {
                     "the nozzle sets the volume: leave it out".into()
                 } else {
-                    "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)"
-                        .into()
+                    "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)".into()
                 },
             }),
         }
@@ -189,16 +188,8 @@ impl ReleaseSpec {
         // Their number rises to its maximum and then stays.
         let rising = (0.5 * stays_s / whole_s).clamp(0.0, 0.5);
         let each_s = FILAMENT_S
-            + if self.eddy_size_m.is_some() {
-                EDDIES_S
-            } else {
-                0.0
-            }
-            + if self.buoyancy == BuoyancySpec::Neutral {
-                0.0
-            } else {
-                RISE_S
-            };
+            + if self.eddy_size_m.is_some() { EDDIES_S } else { 0.0 }
+            + if self.buoyancy == BuoyancySpec::Neutral { 0.0 } else { RISE_S };
         let part = Part::new(path, format!("{most:.2e} filaments at once"))
             .holds(most * FILAMENT_BYTES)
             .takes(most * (1.0 - rising) * times.drifts() * each_s)

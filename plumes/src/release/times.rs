@@ -22,11 +22,7 @@ impl ReleaseTimes {
     /// Times of the source called `id` under the run's `seed`; nothing is released before the first `until`.
     #[must_use]
     pub fn new(rate_hz: f64, poisson: bool, seed: Seed, id: &str) -> Self {
-        Self {
-            rate_hz,
-            draws: poisson.then(|| Stream::new(seed, id, "release")),
-            next_s: None,
-        }
+        Self { rate_hz, draws: poisson.then(|| Stream::new(seed, id, "release")), next_s: None }
     }
 
     /// Passes all times in (`from_s`, `until_s`] to `take`, in order; the source opens at the first call's `from_s`.
@@ -50,11 +46,7 @@ impl ReleaseTimes {
 
     /// Writes how far it has come.
     pub(crate) fn keep(&self, to: &mut Writer) {
-        let Self {
-            rate_hz: _,
-            draws,
-            next_s,
-        } = self;
+        let Self { rate_hz: _, draws, next_s } = self;
         if let Some(draws) = draws {
             draws.keep(to);
         }
@@ -110,14 +102,8 @@ mod tests {
             (m, c.iter().map(|v| (v - m) * (v - m)).sum::<f64>() / 99.0)
         };
         let (mean, variance) = counts(&times(true, 1.0));
-        assert!(
-            (mean - 50.0).abs() < 3.6 && (variance - 50.0).abs() < 35.5,
-            "{mean} {variance}"
-        );
+        assert!((mean - 50.0).abs() < 3.6 && (variance - 50.0).abs() < 35.5, "{mean} {variance}");
         let (mean, variance) = counts(&times(false, 1.0));
-        assert!(
-            (mean - 50.0).abs() < 0.1 && variance < 0.5,
-            "{mean} {variance}"
-        );
+        assert!((mean - 50.0).abs() < 0.1 && variance < 0.5, "{mean} {variance}");
     }
 }

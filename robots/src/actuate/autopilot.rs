@@ -50,12 +50,7 @@ impl Autopilot {
     /// An autopilot whose integrals are zero.
     #[must_use]
     pub fn new(spec: &AutopilotSpec) -> Self {
-        Self {
-            spec: spec.clone(),
-            heading_sum: 0.0,
-            depth_sum: 0.0,
-            speed_sum: 0.0,
-        }
+        Self { spec: spec.clone(), heading_sum: 0.0, depth_sum: 0.0, speed_sum: 0.0 }
     }
 
     /// Actuator set-points for the coming `dt_s`.
@@ -65,11 +60,7 @@ impl Autopilot {
         match command {
             Command::Drives(set) => {
                 let of = |place: usize| set.all().get(place).copied().unwrap_or(0.0);
-                let direct = ActuatorCommand {
-                    rudder_rad: of(0),
-                    stern_rad: of(1),
-                    rpm: of(2),
-                };
+                let direct = ActuatorCommand { rudder_rad: of(0), stern_rad: of(1), rpm: of(2) };
                 self.step(&Command::Direct(direct), estimate, dt_s)
             }
             Command::Direct(c) => {
@@ -84,9 +75,7 @@ impl Autopilot {
             Command::Steer(setpoint) => {
                 let through_water = through_water_m_s(estimate);
                 // Without a flow estimate the gains follow the commanded speed.
-                let speed = through_water
-                    .unwrap_or(setpoint.water_speed_m_s)
-                    .max(SLOWEST_M_S);
+                let speed = through_water.unwrap_or(setpoint.water_speed_m_s).max(SLOWEST_M_S);
                 let slower = self.spec.design_speed_m_s.get() / speed;
                 ActuatorCommand {
                     rudder_rad: self.rudder(setpoint, estimate, slower, fin, dt_s),
@@ -104,8 +93,7 @@ impl Autopilot {
         let rate_wanted = (k.heading_gain_1_s.get() * error).clamp(-rate_max, rate_max);
         // FLU: z is up, so a turn to starboard has a negative rate.
         let rate = -e.attitude.rates_rad_s.z;
-        let back = k.rate_gain_s.get() * (rate_wanted - rate)
-            + k.heading_integral_1_s.get() * self.heading_sum;
+        let back = k.rate_gain_s.get() * (rate_wanted - rate) + k.heading_integral_1_s.get() * self.heading_sum;
         let rudder = k.rudder_per_rate_s.get() * rate_wanted * slower + back * slower * slower;
         if rudder.abs() < fin && error.abs() < OFFSET_RAD {
             let trim = k.heading_trim_limit_deg.get().to_radians() / k.heading_integral_1_s.get();
@@ -123,9 +111,8 @@ impl Autopilot {
         };
         let limit = k.pitch_limit_deg.get().to_radians();
         let pitch_down_wanted = error.map_or(0.0, |error| {
-            let wanted = (k.depth_gain_deg_m.get() * error
-                + k.depth_integral_deg_m_s.get() * self.depth_sum)
-                .to_radians();
+            let wanted =
+                (k.depth_gain_deg_m.get() * error + k.depth_integral_deg_m_s.get() * self.depth_sum).to_radians();
             if wanted.abs() < limit && error.abs() < OFFSET_M {
                 self.depth_sum += error * dt_s;
             }
@@ -134,16 +121,14 @@ impl Autopilot {
         let pitch_down = -e.attitude.pitch_rad;
         // FLU: y is to the left, so nose down has a positive rate.
         let rate = e.attitude.rates_rad_s.y;
-        let stern = k.stern_per_pitch.get() * pitch_down_wanted
-            + k.pitch_gain.get() * (pitch_down_wanted - pitch_down)
+        let stern = k.stern_per_pitch.get() * pitch_down_wanted + k.pitch_gain.get() * (pitch_down_wanted - pitch_down)
             - k.pitch_rate_gain_s.get() * rate;
         (stern * slower * slower).clamp(-fin, fin)
     }
 
     fn rpm(&mut self, set: &Setpoint, through_water: Option<f64>, limit: f64, dt_s: f64) -> f64 {
         let k = &self.spec;
-        let rpm = k.rpm_per_speed.get() * set.water_speed_m_s
-            + k.speed_integral_rpm_m.get() * self.speed_sum;
+        let rpm = k.rpm_per_speed.get() * set.water_speed_m_s + k.speed_integral_rpm_m.get() * self.speed_sum;
         if let Some(speed) = through_water {
             let error = set.water_speed_m_s - speed;
             if rpm > 0.0 && rpm < limit && error.abs() < OFFSET_M_S {
@@ -180,20 +165,13 @@ mod tests {
                 rates_rad_s: Vector3::zeros(),
             },
             v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-            flow: flow.map(|velocity| FlowEstimate {
-                velocity,
-                age_s: 0.0,
-            }),
+            flow: flow.map(|velocity| FlowEstimate { velocity, age_s: 0.0 }),
             fix_jump: Vector2::zeros(),
         }
     }
 
     fn steer(heading_deg: f64, vertical: Vertical) -> Command {
-        Command::Steer(Setpoint {
-            heading: Heading::from_deg(heading_deg),
-            water_speed_m_s: 2.0,
-            vertical,
-        })
+        Command::Steer(Setpoint { heading: Heading::from_deg(heading_deg), water_speed_m_s: 2.0, vertical })
     }
 
     #[test]
@@ -226,13 +204,7 @@ mod tests {
     #[test]
     fn direct_commands_pass_within_the_limits() {
         let mut pilot = Autopilot::new(&AutopilotSpec::default());
-        let direct = |rudder_rad, rpm| {
-            Command::Direct(ActuatorCommand {
-                rudder_rad,
-                stern_rad: -0.1,
-                rpm,
-            })
-        };
+        let direct = |rudder_rad, rpm| Command::Direct(ActuatorCommand { rudder_rad, stern_rad: -0.1, rpm });
         let c = pilot.step(&direct(0.1, -400.0), &level(None), 0.02);
         assert_eq!((c.rudder_rad, c.stern_rad, c.rpm), (0.1, -0.1, -400.0));
         let c = pilot.step(&direct(9.0, 9000.0), &level(None), 0.02);

@@ -63,11 +63,7 @@ impl Helm {
                 self.height = Counted::default();
                 let of = |place: usize| set.all().get(place).copied().unwrap_or(0.0);
                 let speed_m_s = self.speed(of(2), dt_s);
-                self.limits.held(&RateCommand {
-                    turn_rad_s: of(0),
-                    climb_m_s: of(1),
-                    speed_m_s,
-                })
+                self.limits.held(&RateCommand { turn_rad_s: of(0), climb_m_s: of(1), speed_m_s })
             }
             Command::Move(set) => self.step(&Command::Steer(set.steered()), estimate, dt_s),
             Command::Steer(set) => {
@@ -79,15 +75,10 @@ impl Helm {
                     Vertical::Depth(m) => Some((-estimate.depth_m, -m)),
                     Vertical::Altitude(m) => estimate.altitude_m.map(|now| (now, m)),
                 };
-                let climb = height.map_or(0.0, |(now, wanted)| {
-                    wanted - now - self.height.since_reading(now, dt_s)
-                });
+                let climb = height.map_or(0.0, |(now, wanted)| wanted - now - self.height.since_reading(now, dt_s));
                 let share = self.share(dt_s) / dt_s;
-                let rates = self.limits.held(&RateCommand {
-                    turn_rad_s: share * turn,
-                    climb_m_s: share * climb,
-                    speed_m_s,
-                });
+                let rates =
+                    self.limits.held(&RateCommand { turn_rad_s: share * turn, climb_m_s: share * climb, speed_m_s });
                 self.heading.commanded += rates.turn_rad_s * dt_s;
                 self.height.commanded += rates.climb_m_s * dt_s;
                 rates
@@ -120,11 +111,7 @@ impl Helm {
 
     /// Share of an error that a step of this length takes away.
     fn share(&self, dt_s: f64) -> f64 {
-        if self.limits.lag_s > 0.0 {
-            1.0 - math::exp(-dt_s / self.limits.lag_s)
-        } else {
-            1.0
-        }
+        if self.limits.lag_s > 0.0 { 1.0 - math::exp(-dt_s / self.limits.lag_s) } else { 1.0 }
     }
 }
 
@@ -141,10 +128,7 @@ impl Counted {
     fn since_reading(&mut self, reading: f64, dt_s: f64) -> f64 {
         self.age_s += dt_s;
         if self.reading != Some(reading) || self.age_s > STILL_S {
-            *self = Self {
-                reading: Some(reading),
-                ..Self::default()
-            };
+            *self = Self { reading: Some(reading), ..Self::default() };
         }
         self.commanded
     }

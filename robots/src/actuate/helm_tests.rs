@@ -6,12 +6,7 @@ use nalgebra::{Vector2, Vector3};
 use world::units::Heading;
 
 fn limits() -> RateLimits {
-    RateLimits {
-        speed_m_s: 2.0,
-        turn: TurnLimit::Rate(10f64.to_radians()),
-        climb_m_s: 0.5,
-        lag_s: 0.0,
-    }
+    RateLimits { speed_m_s: 2.0, turn: TurnLimit::Rate(10f64.to_radians()), climb_m_s: 0.5, lag_s: 0.0 }
 }
 
 fn helm(limits: RateLimits) -> Helm {
@@ -24,37 +19,20 @@ fn at(heading: Heading, depth_m: f64, altitude_m: Option<f64>) -> Estimate {
         position: Vector2::zeros(),
         depth_m,
         altitude_m,
-        attitude: Attitude {
-            heading,
-            roll_rad: 0.0,
-            pitch_rad: 0.0,
-            rates_rad_s: Vector3::zeros(),
-        },
+        attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() },
         v_ground_body: Vector3::zeros(),
         // It steers by what it is set, not by the flow.
-        flow: Some(FlowEstimate {
-            velocity: Vector2::new(0.7, -0.3),
-            age_s: 0.0,
-        }),
+        flow: Some(FlowEstimate { velocity: Vector2::new(0.7, -0.3), age_s: 0.0 }),
         fix_jump: Vector2::zeros(),
     }
 }
 
 fn steer(heading_deg: f64, water_speed_m_s: f64, vertical: Vertical) -> Command {
-    Command::Steer(Setpoint {
-        heading: Heading::from_deg(heading_deg),
-        water_speed_m_s,
-        vertical,
-    })
+    Command::Steer(Setpoint { heading: Heading::from_deg(heading_deg), water_speed_m_s, vertical })
 }
 
 /// Heading (from north, rad) and depth after so many steps, and all rates, with readings every `every` steps.
-fn follow(
-    helm: &mut Helm,
-    command: &Command,
-    steps: u32,
-    every: u32,
-) -> (f64, f64, Vec<RateCommand>) {
+fn follow(helm: &mut Helm, command: &Command, steps: u32, every: u32) -> (f64, f64, Vec<RateCommand>) {
     let dt_s = 0.1;
     let (mut heading, mut depth_m) = (0.0, 5.0);
     let mut read = (heading, depth_m);
@@ -73,12 +51,7 @@ fn follow(
 
 #[test]
 fn turns_and_dives_at_its_limits_and_then_stops() {
-    let (heading, depth_m, rates) = follow(
-        &mut helm(limits()),
-        &steer(90.5, 9.0, Vertical::Depth(7.02)),
-        120,
-        1,
-    );
+    let (heading, depth_m, rates) = follow(&mut helm(limits()), &steer(90.5, 9.0, Vertical::Depth(7.02)), 120, 1);
     assert!((heading - 90.5f64.to_radians()).abs() < 1e-12);
     assert!((depth_m - 7.02).abs() < 1e-12);
     // Nine seconds and a half step at 10 degrees/s; four seconds and a bit at 0.5 m/s.
@@ -123,49 +96,28 @@ fn a_reading_that_stays_is_believed_in_the_end() {
 fn the_lag_is_its_time_constant() {
     let lag_s = 1.5;
     for dt_s in [0.02, 0.1, 0.5] {
-        let mut helm = helm(RateLimits {
-            turn: TurnLimit::Rate(10.0),
-            climb_m_s: 10.0,
-            lag_s,
-            ..limits()
-        });
+        let mut helm = helm(RateLimits { turn: TurnLimit::Rate(10.0), climb_m_s: 10.0, lag_s, ..limits() });
         let command = steer(60.0, 2.0, Vertical::Depth(7.0));
         let (mut heading, mut depth_m, mut way_m) = (0.0, 5.0, 0.0);
         let steps = (lag_s / dt_s).round() as u32;
         for _ in 0..steps {
-            let rates = helm.step(
-                &command,
-                &at(Heading::from_rad(heading), depth_m, None),
-                dt_s,
-            );
+            let rates = helm.step(&command, &at(Heading::from_rad(heading), depth_m, None), dt_s);
             heading += rates.turn_rad_s * dt_s;
             depth_m -= rates.climb_m_s * dt_s;
             way_m += rates.speed_m_s * dt_s;
         }
         let t_s = f64::from(steps) * dt_s;
         let left = math::exp(-t_s / lag_s);
-        assert!(
-            (heading - 60f64.to_radians() * (1.0 - left)).abs() < 1e-9,
-            "{dt_s}"
-        );
+        assert!((heading - 60f64.to_radians() * (1.0 - left)).abs() < 1e-9, "{dt_s}");
         assert!((depth_m - (7.0 - 2.0 * left)).abs() < 1e-9, "{dt_s}");
-        assert!(
-            (helm.speed_m_s - 2.0 * (1.0 - left)).abs() < 1e-12,
-            "{dt_s}"
-        );
-        assert!(
-            (way_m - 2.0 * (t_s - lag_s * (1.0 - left))).abs() < 1e-9,
-            "{dt_s}"
-        );
+        assert!((helm.speed_m_s - 2.0 * (1.0 - left)).abs() < 1e-12, "{dt_s}");
+        assert!((way_m - 2.0 * (t_s - lag_s * (1.0 - left))).abs() < 1e-9, "{dt_s}");
     }
 }
 
 #[test]
 fn a_dubins_vehicle_turns_no_faster_than_its_speed_and_radius_allow() {
-    let dubins = RateLimits {
-        turn: TurnLimit::Radius(12.5),
-        ..limits()
-    };
+    let dubins = RateLimits { turn: TurnLimit::Radius(12.5), ..limits() };
     for speed_m_s in [0.5, 1.0, 2.0] {
         let command = steer(170.0, speed_m_s, Vertical::Depth(5.0));
         let (.., rates) = follow(&mut helm(dubins), &command, 20, 1);
@@ -174,12 +126,7 @@ fn a_dubins_vehicle_turns_no_faster_than_its_speed_and_radius_allow() {
         }
     }
     // At rest it does not turn at all.
-    let (heading, ..) = follow(
-        &mut helm(dubins),
-        &steer(90.0, 0.0, Vertical::Depth(5.0)),
-        50,
-        1,
-    );
+    let (heading, ..) = follow(&mut helm(dubins), &steer(90.0, 0.0, Vertical::Depth(5.0)), 50, 1);
     assert_eq!(heading, 0.0);
 }
 
@@ -200,11 +147,7 @@ fn a_table_of_fins_is_read_in_shares() {
     let spec = AutopilotSpec::default();
     let fin = spec.fin_limit_deg.get().to_radians();
     let mut step = |rudder_rad, stern_rad, rpm| {
-        let table = Command::Direct(ActuatorCommand {
-            rudder_rad,
-            stern_rad,
-            rpm,
-        });
+        let table = Command::Direct(ActuatorCommand { rudder_rad, stern_rad, rpm });
         helm.step(&table, &at(Heading::from_deg(0.0), 5.0, None), 0.1)
     };
     let half = step(fin / 2.0, fin / 5.0, spec.rpm_limit.get() / 4.0);

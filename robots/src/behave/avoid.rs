@@ -104,13 +104,7 @@ impl SoftAvoid {
                 problem: format!("must be less than heed_m, {heed}, got {near}"),
             });
         }
-        Ok(Self {
-            params: params.clone(),
-            bed,
-            echoes: VecDeque::new(),
-            side: None,
-            turning: None,
-        })
+        Ok(Self { params: params.clone(), bed, echoes: VecDeque::new(), side: None, turning: None })
     }
 
     /// The manoeuvre to do instead of `asked`; `None` as long as the way is free.
@@ -137,12 +131,7 @@ impl SoftAvoid {
                 self.turning = None;
             }
         } else if turns {
-            self.turning = Some(Turning {
-                from: at,
-                lasted_s: 0.0,
-                seen_s: t_s,
-                turned_s: t_s,
-            });
+            self.turning = Some(Turning { from: at, lasted_s: 0.0, seen_s: t_s, turned_s: t_s });
         }
     }
 
@@ -163,27 +152,16 @@ impl SoftAvoid {
             Some(Side::Right) => TURNS_DEG.1,
             None => 0.0,
         };
-        let (side, turn_deg) = if left + favour < right {
-            (Side::Left, left)
-        } else {
-            (Side::Right, right)
-        };
+        let (side, turn_deg) = if left + favour < right { (Side::Left, left) } else { (Side::Right, right) };
         self.side = Some(side);
         let share = ((heed_m - nearest_m) / (heed_m - near_m)).clamp(0.0, 1.0);
         let course = wanted.turned(side.sign() * share * turn_deg.to_radians());
-        Some(Manoeuvre::Course {
-            course: (self.round_the_free_way(at, nose, course)).unwrap_or(course),
-        })
+        Some(Manoeuvre::Course { course: (self.round_the_free_way(at, nose, course)).unwrap_or(course) })
     }
 
     /// The guidance takes the shorter turn. If that turn sweeps over a near echo and the longer one does not, this
     /// gives a course to the other side.
-    fn round_the_free_way(
-        &self,
-        at: Vector2<f64>,
-        nose: Heading,
-        course: Heading,
-    ) -> Option<Heading> {
+    fn round_the_free_way(&self, at: Vector2<f64>, nose: Heading, course: Heading) -> Option<Heading> {
         let short_rad = nose.turn_to(course);
         let long_rad = short_rad - TAU.copysign(short_rad);
         let step_rad = 2.0 * TURNS_DEG.0.to_radians();
@@ -194,8 +172,7 @@ impl SoftAvoid {
                 self.nearest_m(at, on, self.params.near_m.get()).is_some()
             })
         };
-        (sweeps(short_rad) && !sweeps(long_rad))
-            .then(|| nose.turned(std::f64::consts::FRAC_PI_2.copysign(long_rad)))
+        (sweeps(short_rad) && !sweeps(long_rad)).then(|| nose.turned(std::f64::consts::FRAC_PI_2.copysign(long_rad)))
     }
 
     /// Whether it has turned away for too long, so that the destination counts as reached. True only once.
@@ -225,8 +202,7 @@ impl SoftAvoid {
         let turns = (1..steps).map(|k| f64::from(k) * TURNS_DEG.0);
         let mut free = turns.filter(|deg| {
             let course = wanted.turned(side.sign() * deg.to_radians());
-            self.nearest_m(at, course, self.params.heed_m.get())
-                .is_none()
+            self.nearest_m(at, course, self.params.heed_m.get()).is_none()
         });
         free.next().unwrap_or(180.0)
     }

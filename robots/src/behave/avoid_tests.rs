@@ -21,18 +21,12 @@ fn ping(t_s: f64, echoes: &[(f64, f64)]) -> Observation {
             echo_m: Some(*range),
         }
     };
-    o.ranging = Some(RangeScan {
-        p_BS: Vector3::zeros(),
-        max_m: 40.0,
-        beams: echoes.iter().map(beam).collect(),
-    });
+    o.ranging = Some(RangeScan { p_BS: Vector3::zeros(), max_m: 40.0, beams: echoes.iter().map(beam).collect() });
     o
 }
 
 fn north() -> Manoeuvre {
-    Manoeuvre::Course {
-        course: Heading::from_deg(0.0),
-    }
+    Manoeuvre::Course { course: Heading::from_deg(0.0) }
 }
 
 fn turn_deg(m: Option<Manoeuvre>) -> f64 {
@@ -68,19 +62,12 @@ fn what_is_not_in_the_way_does_not_count() {
     // Too far; beside the way (30 sin 20° = 10.3 m); behind.
     for echo in [(0.0, 36.0), (20.0, 30.0), (179.0, 5.0)] {
         let o = ping(0.0, &[echo]);
-        assert_eq!(
-            avoid(Params::default()).step(&o, &north()),
-            None,
-            "{echo:?}"
-        );
+        assert_eq!(avoid(Params::default()).step(&o, &north()), None, "{echo:?}");
     }
     // The same echo counts if the destination lies there, and does not if the destination is much nearer.
     let o = ping(0.0, &[(20.0, 30.0)]);
     for (far_m, counts) in [(80.0, true), (13.0, true), (11.0, false)] {
-        let there = Manoeuvre::GoToPoint {
-            point: Heading::from_deg(20.0).unit() * far_m,
-            radius_m: None,
-        };
+        let there = Manoeuvre::GoToPoint { point: Heading::from_deg(20.0).unit() * far_m, radius_m: None };
         let turned = avoid(Params::default()).step(&o, &there);
         assert_eq!(turned.is_some(), counts, "{far_m}");
     }
@@ -122,9 +109,7 @@ fn turns_about_on_the_free_side() {
     // Nose north, a wall ahead to the right, the commanded way leads back: turn to the left.
     let mut a = avoid(Params::default());
     let wall: Vec<_> = (4..13).map(|k| (f64::from(k) * 10.0, 15.0)).collect();
-    let back = Manoeuvre::Course {
-        course: Heading::from_deg(170.0),
-    };
+    let back = Manoeuvre::Course { course: Heading::from_deg(170.0) };
     assert!((turn_deg(a.step(&ping(0.0, &wall), &back)) + 90.0).abs() < 1e-9);
     assert_eq!(avoid(Params::default()).step(&ping(0.0, &[]), &back), None);
 }
@@ -148,21 +133,15 @@ fn gives_up_once_in_a_while() {
 /// The way is free for every second second, because what lies in it is forgotten and seen again.
 #[test]
 fn gives_up_where_turning_away_and_the_destination_take_turns() {
-    let params = Params {
-        memory_s: Positive::new(0.5),
-        ..Params::default()
-    };
+    let params = Params { memory_s: Positive::new(0.5), ..Params::default() };
     // On one spot, and on the way along a row of piles.
     for (speed_m_s, gives_up) in [(0.0, true), (1.0, false)] {
         let mut a = avoid(params.clone());
         let mut given_up_s = None;
         for k in 0..3000 {
             let t_s = 0.1 * f64::from(k);
-            let mut o = if (k / 10) % 2 == 0 {
-                ping(t_s, &[(0.0, 20.0)])
-            } else {
-                seen(t_s, Vector2::zeros(), 0.0, None)
-            };
+            let mut o =
+                if (k / 10) % 2 == 0 { ping(t_s, &[(0.0, 20.0)]) } else { seen(t_s, Vector2::zeros(), 0.0, None) };
             o.estimate.position.y = speed_m_s * t_s;
             a.step(&o, &north());
             if a.gives_up() {
@@ -176,9 +155,6 @@ fn gives_up_where_turning_away_and_the_destination_take_turns() {
 
 #[test]
 fn contradictions_are_refused() {
-    let far = Params {
-        near_m: Positive::new(40.0),
-        ..Params::default()
-    };
+    let far = Params { near_m: Positive::new(40.0), ..Params::default() };
     assert!(SoftAvoid::new(&far, BED).is_err());
 }

@@ -30,11 +30,5 @@ pub trait Behave: Debug + Send + Sync {
     fn enter(&mut self, seen: &Observation, memory: &PlumeMemory);
 
     /// One tick. `arrived` says whether the guidance has reached the last goal.
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        rng: &mut Stream,
-    ) -> Stride;
+    fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, rng: &mut Stream) -> Stride;
 }

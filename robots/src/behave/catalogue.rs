@@ -61,11 +61,7 @@ kind! {
 
 /// Behaviours that belong to strategies; no scenario chooses them by name.
 pub const PARTS: &[Entry] = &[
-    Entry {
-        name: "GoTo",
-        what: "goes to a place",
-        source: "Pang 2009, section 5.1",
-    },
+    Entry { name: "GoTo", what: "goes to a place", source: "Pang 2009, section 5.1" },
     Entry {
         name: "SoftAvoid",
         what: "avoid: turns away from echoes ahead; the nearer they are, the sharper the turn",
@@ -76,11 +72,7 @@ pub const PARTS: &[Entry] = &[
         what: "survey: parallel lines over a place, for sidescan and camera",
         source: "Pang 2009, sections 4.2 and 6",
     },
-    Entry {
-        name: "GoHome",
-        what: "goes back to the launch point",
-        source: "Pang 2009, section 4.1",
-    },
+    Entry { name: "GoHome", what: "goes back to the launch point", source: "Pang 2009, section 4.1" },
     Entry {
         name: "TimeTable",
         what: "open loop: rudder, stern plane and propeller from a time table",

@@ -139,11 +139,7 @@ impl Cloverleaf {
         let way = (number / 2) % self.leaves;
         let round = TAU * f64::from(way) / f64::from(self.leaves);
         let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m(seen);
-        let from_centre = if number.is_multiple_of(2) {
-            -along
-        } else {
-            along
-        };
+        let from_centre = if number.is_multiple_of(2) { -along } else { along };
         inside(&seen.area, self.centre + from_centre, MARGIN_M)
     }
 
@@ -159,9 +155,7 @@ impl Cloverleaf {
 
     /// Number of corners in all repetitions, with the one that leads back along the last leaf's second side.
     fn corners(&self) -> u32 {
-        (2 * self.leaves)
-            .saturating_mul(self.repetitions)
-            .saturating_add(1)
+        (2 * self.leaves).saturating_mul(self.repetitions).saturating_add(1)
     }
 }
 
@@ -175,13 +169,7 @@ impl Behave for Cloverleaf {
         self.begun = 0;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if self.begun > 0 && !arrived {
             return Stride::Keep;
         }
@@ -205,10 +193,7 @@ impl Behave for Cloverleaf {
             return Stride::Over;
         }
         self.begun += 1;
-        Stride::Start(Manoeuvre::GoToPoint {
-            point: self.corner(number, seen),
-            radius_m: Some(self.arrive_m),
-        })
+        Stride::Start(Manoeuvre::GoToPoint { point: self.corner(number, seen), radius_m: Some(self.arrive_m) })
     }
 }
 
@@ -223,10 +208,7 @@ mod tests {
     }
 
     fn memory(at: Vector2<f64>, up_deg: f64) -> PlumeMemory {
-        let mut m = PlumeMemory {
-            up_flow: Some(Heading::from_deg(up_deg)),
-            ..PlumeMemory::default()
-        };
+        let mut m = PlumeMemory { up_flow: Some(Heading::from_deg(up_deg)), ..PlumeMemory::default() };
         m.lose(Lcdp::at(0.0, v(500.0, 0.0)), Heading::from_deg(up_deg));
         m.lose(Lcdp::at(1.0, at), Heading::from_deg(up_deg));
         m
@@ -253,10 +235,7 @@ mod tests {
 
     #[test]
     fn four_leaves_by_hand() {
-        let params = Params {
-            leaf_m: Positive::new(20.0),
-            ..Params::default()
-        };
+        let params = Params { leaf_m: Positive::new(20.0), ..Params::default() };
         // Up-flow is north; the vehicle is up-flow of the point and to its right.
         let mut m = memory(v(10.0, 20.0), 0.0);
         let found = corners(&params, &mut m, v(12.0, 40.0));
@@ -268,10 +247,7 @@ mod tests {
         for k in 0..8 {
             let end = v(ends[k % 4].0, ends[k % 4].1);
             assert!((found[2 * k] - v(10.0, 20.0) + end).norm() < 1e-9, "{k}");
-            assert!(
-                (found[2 * k + 1] - v(10.0, 20.0) - end).norm() < 1e-9,
-                "{k}"
-            );
+            assert!((found[2 * k + 1] - v(10.0, 20.0) - end).norm() < 1e-9, "{k}");
         }
         // The last leaf's second side, and back to the point.
         assert!((found[16] - found[0]).norm() < 1e-9);
@@ -323,9 +299,8 @@ mod tests {
                 let down = Heading::from_deg(up_deg).opposite();
                 assert!(Heading::of(found[1] + found[2]).turn_to(down).abs() < 1e-9);
                 // The lines all turn to the same side, by 360/n degrees each.
-                let ways: Vec<Heading> = (found.chunks_exact(2).take(leaves as usize))
-                    .map(|w| Heading::of(w[1] - w[0]))
-                    .collect();
+                let ways: Vec<Heading> =
+                    (found.chunks_exact(2).take(leaves as usize)).map(|w| Heading::of(w[1] - w[0])).collect();
                 for w in ways.windows(2) {
                     let turn = w[0].turn_to(w[1]).abs();
                     assert!((turn - TAU / f64::from(leaves)).abs() < 1e-9);
@@ -355,21 +330,12 @@ mod tests {
         let (mut m, mut rng) = (memory(v(0.0, 0.0), 0.0), Stream::new(1, "t", "t"));
         let o = seen(0.0, v(1.0, 9.0), 0.0, None);
         b.enter(&o, &m);
-        assert!(matches!(
-            b.step(&o, false, &mut m, &mut rng),
-            Stride::Start(_)
-        ));
+        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
         assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
-        assert!(matches!(
-            b.step(&o, true, &mut m, &mut rng),
-            Stride::Start(_)
-        ));
+        assert!(matches!(b.step(&o, true, &mut m, &mut rng), Stride::Start(_)));
         // When it is entered again, it starts again.
         b.enter(&o, &m);
-        assert!(matches!(
-            b.step(&o, false, &mut m, &mut rng),
-            Stride::Start(_)
-        ));
+        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
     }
 
     #[test]

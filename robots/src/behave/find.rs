@@ -60,11 +60,7 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self {
-            start: From::Here,
-            off_across_deg: NonNegative::new(20.0),
-            edge_m: Positive::new(20.0),
-        }
+        Self { start: From::Here, off_across_deg: NonNegative::new(20.0), edge_m: Positive::new(20.0) }
     }
 }
 
@@ -134,10 +130,7 @@ impl ZigZag {
     /// so that opposite edges are never reached together.
     fn reached(&self, area: &Area, p: Vector2<f64>) -> Vec<Vector2<f64>> {
         let reach_m = self.edge_m.min(area.length_m.min(area.width_m) / 4.0);
-        let mut near: Vec<_> = edges(area, p)
-            .into_iter()
-            .filter(|(d, _)| *d < reach_m)
-            .collect();
+        let mut near: Vec<_> = edges(area, p).into_iter().filter(|(d, _)| *d < reach_m).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         near.into_iter().map(|(_, n)| n).collect()
     }
@@ -173,26 +166,11 @@ impl ZigZag {
         }
         let c = course.unit();
         // The newly met edge is the one that the course runs against most.
-        let met = near
-            .iter()
-            .copied()
-            .max_by(|a, b| c.dot(a).total_cmp(&c.dot(b)))
-            .unwrap_or_else(Vector2::zeros);
+        let met = near.iter().copied().max_by(|a, b| c.dot(a).total_cmp(&c.dot(b))).unwrap_or_else(Vector2::zeros);
         let along = Vector2::new(-met.y, met.x);
-        let pull = near
-            .iter()
-            .filter(|n| n.dot(&met).abs() < 0.5)
-            .map(|n| -n.dot(&along))
-            .sum::<f64>();
-        let sign = if pull.abs() > 0.5 {
-            pull
-        } else {
-            c.dot(&along)
-        };
-        Phase::Along {
-            course: Heading::of(along * if sign < 0.0 { -1.0 } else { 1.0 }),
-            before: course,
-        }
+        let pull = near.iter().filter(|n| n.dot(&met).abs() < 0.5).map(|n| -n.dot(&along)).sum::<f64>();
+        let sign = if pull.abs() > 0.5 { pull } else { c.dot(&along) };
+        Phase::Along { course: Heading::of(along * if sign < 0.0 { -1.0 } else { 1.0 }), before: course }
     }
 
     fn begin(&self, seen: &Observation, up_flow: Option<Heading>) -> Phase {
@@ -211,13 +189,7 @@ impl Behave for ZigZag {
         self.phase = Phase::Begin;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, _: &mut Stream) -> Stride {
         let p = seen.estimate.position;
         let near = self.reached(&seen.area, p);
         let against = |c: Heading| near.iter().any(|n| c.unit().dot(n) > OUTWARD);
@@ -232,13 +204,9 @@ impl Behave for ZigZag {
             (Phase::ToCorner, _) if !arrived => return Stride::Keep,
             (Phase::Begin | Phase::ToCorner, up) => self.begin(seen, up),
             (Phase::Blind(_), up @ Some(_)) => self.begin(seen, up),
-            (Phase::Blind(c), None) if against(c) => {
-                Phase::Blind(Heading::of(reflected(c.unit(), &near)))
-            }
+            (Phase::Blind(c), None) if against(c) => Phase::Blind(Heading::of(reflected(c.unit(), &near))),
             (Phase::Leg(c), Some(up)) if against(c) => self.react(up, c, &near),
-            (Phase::Along { course, .. }, Some(up)) if against(course) => {
-                self.react(up, course, &near)
-            }
+            (Phase::Along { course, .. }, Some(up)) if against(course) => self.react(up, course, &near),
             (Phase::Along { before, .. }, Some(up)) if !near.is_empty() => {
                 self.rule(up, before, &near).map_or(self.phase, Phase::Leg)
             }
@@ -279,10 +247,7 @@ fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
 fn down_flow_corner(area: &Area, up_flow: Heading, margin_m: f64) -> Vector2<f64> {
     let down = up_flow.opposite().unit();
     let far = |p: &Vector2<f64>| (p - area.centre).dot(&down);
-    let corner = area
-        .corners()
-        .into_iter()
-        .max_by(|a, b| far(a).total_cmp(&far(b)));
+    let corner = area.corners().into_iter().max_by(|a, b| far(a).total_cmp(&far(b)));
     inside(area, corner.unwrap_or(area.centre), margin_m)
 }
 

@@ -22,19 +22,10 @@ impl Behave for GoHome {
         self.begun = false;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        _: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if !self.begun {
             self.begun = true;
-            return Stride::Start(Manoeuvre::GoToPoint {
-                point: seen.home,
-                radius_m: None,
-            });
+            return Stride::Start(Manoeuvre::GoToPoint { point: seen.home, radius_m: None });
         }
         if arrived { Stride::Over } else { Stride::Keep }
     }

@@ -23,10 +23,7 @@ impl GoTo {
     /// To `point` (east, north), m.
     #[must_use]
     pub fn new(point: Vector2<f64>) -> Self {
-        Self {
-            point,
-            begun: false,
-        }
+        Self { point, begun: false }
     }
 }
 
@@ -35,19 +32,10 @@ impl Behave for GoTo {
         self.begun = false;
     }
 
-    fn step(
-        &mut self,
-        _: &Observation,
-        arrived: bool,
-        _: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, _: &Observation, arrived: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if !self.begun {
             self.begun = true;
-            return Stride::Start(Manoeuvre::GoToPoint {
-                point: self.point,
-                radius_m: None,
-            });
+            return Stride::Start(Manoeuvre::GoToPoint { point: self.point, radius_m: None });
         }
         if arrived { Stride::Over } else { Stride::Keep }
     }

@@ -63,33 +63,21 @@ impl TimeTable {
     /// # Errors
     /// [`RobotError::Invalid`] if the times of the rows do not grow or reach past the end.
     pub fn new(params: &TimeTableParams) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid {
-            field: "strategy.OpenLoop.table".into(),
-            problem,
-        };
+        let invalid = |problem: String| RobotError::Invalid { field: "strategy.OpenLoop.table".into(), problem };
         if params.table.is_empty() {
             return Err(invalid("is empty; give at least one row".into()));
         }
         for pair in params.table.windows(2) {
             let (a, b) = (pair[0].t_s.get(), pair[1].t_s.get());
             if b <= a {
-                return Err(invalid(format!(
-                    "t_s must grow from row to row, got {b} after {a}"
-                )));
+                return Err(invalid(format!("t_s must grow from row to row, got {b} after {a}")));
             }
         }
         let last = params.table.last().map_or(0.0, |row| row.t_s.get());
         if last >= params.end_s.get() {
-            return Err(invalid(format!(
-                "the last row begins at {last} s, not before end_s = {}",
-                params.end_s.get()
-            )));
+            return Err(invalid(format!("the last row begins at {last} s, not before end_s = {}", params.end_s.get())));
         }
-        Ok(Self {
-            params: params.clone(),
-            began_s: 0.0,
-            row: None,
-        })
+        Ok(Self { params: params.clone(), began_s: 0.0, row: None })
     }
 }
 
@@ -105,12 +93,7 @@ impl Behave for TimeTable {
         if t_s >= self.params.end_s.get() {
             return Stride::Over;
         }
-        let begun = self
-            .params
-            .table
-            .iter()
-            .take_while(|r| r.t_s.get() <= t_s)
-            .count();
+        let begun = self.params.table.iter().take_while(|r| r.t_s.get() <= t_s).count();
         if self.row == Some(begun) {
             return Stride::Keep;
         }
@@ -141,10 +124,8 @@ mod tests {
 
     #[test]
     fn rows_hold_until_the_next_and_the_end_ends() {
-        let params = TimeTableParams {
-            table: vec![row(1.0, 0.0, 1500.0), row(3.0, 10.0, 1500.0)],
-            end_s: Positive::new(5.0),
-        };
+        let params =
+            TimeTableParams { table: vec![row(1.0, 0.0, 1500.0), row(3.0, 10.0, 1500.0)], end_s: Positive::new(5.0) };
         let mut table = TimeTable::new(&params).expect("legal");
         let mut memory = PlumeMemory::default();
         let mut rng = Stream::new(1, "t", "t");
@@ -153,11 +134,7 @@ mod tests {
         table.enter(&at(0.0), &memory);
         let mut step = |t: f64| table.step(&at(t), false, &mut memory, &mut rng);
         let direct = |rudder_deg: f64, rpm| {
-            Stride::Start(Manoeuvre::Direct {
-                rudder_rad: rudder_deg.to_radians(),
-                stern_rad: 0.0,
-                rpm,
-            })
+            Stride::Start(Manoeuvre::Direct { rudder_rad: rudder_deg.to_radians(), stern_rad: 0.0, rpm })
         };
         assert_eq!(step(0.0), direct(0.0, 0.0));
         assert_eq!(step(0.98), Stride::Keep);
@@ -171,10 +148,7 @@ mod tests {
     #[test]
     fn times_must_grow_and_end_before_the_end() {
         let with = |rows: Vec<TimeTableRow>, end_s| {
-            TimeTable::new(&TimeTableParams {
-                table: rows,
-                end_s: Positive::new(end_s),
-            })
+            TimeTable::new(&TimeTableParams { table: rows, end_s: Positive::new(end_s) })
         };
         assert!(with(vec![], 5.0).is_err());
         assert!(with(vec![row(2.0, 0.0, 0.0), row(2.0, 1.0, 0.0)], 5.0).is_err());

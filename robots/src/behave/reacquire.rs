@@ -92,10 +92,8 @@ impl Bowtie {
     /// # Errors
     /// [`RobotError::Invalid`] if the lines have no length left, or if the angle does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("reacquire.Bowtie.{field}"),
-            problem,
-        };
+        let invalid =
+            |field: &str, problem: String| RobotError::Invalid { field: format!("reacquire.Bowtie.{field}"), problem };
         let angle = params.angle_deg.get();
         if angle >= 90.0 {
             return Err(invalid("angle_deg", format!("must be < 90, got {angle}")));
@@ -139,14 +137,8 @@ impl Bowtie {
         seen: &Observation,
     ) -> (Vector2<f64>, Vector2<f64>) {
         let half_m = self.half_length_m.max(seen.able.turning_radius_m);
-        let half = up_flow
-            .turned(side.other().sign() * self.angle_rad)
-            .unit()
-            .scale(half_m);
-        (
-            inside(&seen.area, centre - half, MARGIN_M),
-            inside(&seen.area, centre + half, MARGIN_M),
-        )
+        let half = up_flow.turned(side.other().sign() * self.angle_rad).unit().scale(half_m);
+        (inside(&seen.area, centre - half, MARGIN_M), inside(&seen.area, centre + half, MARGIN_M))
     }
 }
 
@@ -161,13 +153,7 @@ impl Behave for Bowtie {
         self.begun = false;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if self.begun && !arrived {
             return Stride::Keep;
         }
@@ -209,11 +195,7 @@ mod tests {
             let position = Vector2::new(0.0, *north);
             list.add(Lcdp::at(0.0, position), up);
         }
-        PlumeMemory {
-            up_flow: Some(up),
-            lost: list,
-            ..PlumeMemory::default()
-        }
+        PlumeMemory { up_flow: Some(up), lost: list, ..PlumeMemory::default() }
     }
 
     /// All lines until the end, for a vehicle that stays at `east`.
@@ -222,12 +204,7 @@ mod tests {
     }
 
     /// The same for a hull that turns on circles of `radius_m`.
-    fn lines_of(
-        radius_m: f64,
-        params: &Params,
-        norths: &[f64],
-        east: f64,
-    ) -> Vec<(Vector2<f64>, Vector2<f64>)> {
+    fn lines_of(radius_m: f64, params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
         let mut b = Bowtie::new(params).expect("legal");
         let mut m = memory(norths);
         let mut rng = Stream::new(1, "t", "t");
@@ -281,21 +258,12 @@ mod tests {
 
     #[test]
     fn steps_down_to_each_point_in_turn() {
-        let three = Params {
-            repetitions: NonZeroU32::new(3).expect("3 > 0"),
-            ..Params::default()
-        };
-        let centres: Vec<f64> = lines(&three, &[-40.0, 0.0], 5.0)
-            .iter()
-            .step_by(2)
-            .map(|(a, b)| (a.y + b.y) / 2.0)
-            .collect();
+        let three = Params { repetitions: NonZeroU32::new(3).expect("3 > 0"), ..Params::default() };
+        let centres: Vec<f64> =
+            lines(&three, &[-40.0, 0.0], 5.0).iter().step_by(2).map(|(a, b)| (a.y + b.y) / 2.0).collect();
         let want = [10.0, 5.0, 0.0, -30.0, -35.0, -40.0];
         assert_eq!(centres.len(), want.len());
-        assert!(
-            centres.iter().zip(want).all(|(c, w)| (c - w).abs() < 1e-9),
-            "{centres:?}"
-        );
+        assert!(centres.iter().zip(want).all(|(c, w)| (c - w).abs() < 1e-9), "{centres:?}");
     }
 
     #[test]
@@ -304,16 +272,10 @@ mod tests {
         for (from, to) in lines(&Params::default(), &[295.0], 0.0) {
             assert!(from.y <= 290.0 && to.y <= 290.0);
         }
-        let literal = Params {
-            turn_radius_m: NonNegative::new(0.0),
-            ..Params::default()
-        };
+        let literal = Params { turn_radius_m: NonNegative::new(0.0), ..Params::default() };
         let (from, to) = lines(&literal, &[0.0], 5.0)[0];
         assert!((from.x - 13.0).abs() < 1e-9 && (to.x + 13.0).abs() < 1e-9);
-        let too_wide = Params {
-            turn_radius_m: NonNegative::new(6.5),
-            ..Params::default()
-        };
+        let too_wide = Params { turn_radius_m: NonNegative::new(6.5), ..Params::default() };
         assert!(Bowtie::new(&too_wide).is_err());
     }
 }

@@ -34,13 +34,7 @@ impl Passes {
     /// Lines through points `offsets_m` to the right of `place`, looking along `along`. Each extends `half_length_m`
     /// to both ends.
     #[must_use]
-    pub fn over(
-        place: Vector2<f64>,
-        along: Heading,
-        offsets_m: &[f64],
-        half_length_m: f64,
-        area: &Area,
-    ) -> Self {
+    pub fn over(place: Vector2<f64>, along: Heading, offsets_m: &[f64], half_length_m: f64, area: &Area) -> Self {
         let right = along.turned(FRAC_PI_2).unit();
         let line = |(k, offset): (usize, &f64)| {
             let middle = place + right * *offset;
@@ -48,10 +42,7 @@ impl Passes {
             let [from, to] = [middle - half, middle + half].map(|p| inside(area, p, MARGIN_M));
             ((to - from).norm() >= SHORTEST_M).then_some((from, to))
         };
-        Self {
-            lines: offsets_m.iter().enumerate().filter_map(line).collect(),
-            begun: 0,
-        }
+        Self { lines: offsets_m.iter().enumerate().filter_map(line).collect(), begun: 0 }
     }
 
     /// One tick. `arrived` says whether the guidance has reached the end of the last line.
@@ -79,10 +70,7 @@ impl Passes {
         let v = position - from;
         let (along, off) = (v.dot(&u), u.perp(&v).abs());
         let (most_m, most_rad) = ON_LINE;
-        let on = along > 0.0
-            && along < length
-            && off < most_m
-            && course.turn_to(Heading::of(way)).abs() < most_rad;
+        let on = along > 0.0 && along < length && off < most_m && course.turn_to(Heading::of(way)).abs() < most_rad;
         on.then_some(number)
     }
 }
@@ -137,16 +125,10 @@ mod tests {
         assert_eq!(p.on_line(Vector2::new(5.0, 0.0), north), None);
         p.step(false);
         assert_eq!(p.on_line(Vector2::new(5.0, 0.0), north), Some(0));
-        assert_eq!(
-            p.on_line(Vector2::new(5.0, 0.0), Heading::from_deg(40.0)),
-            None
-        );
+        assert_eq!(p.on_line(Vector2::new(5.0, 0.0), Heading::from_deg(40.0)), None);
         assert_eq!(p.on_line(Vector2::new(5.0, 31.0), north), None);
         assert_eq!(p.on_line(Vector2::new(12.0, 0.0), north), None);
         p.step(true);
-        assert_eq!(
-            p.on_line(Vector2::new(-5.0, 0.0), north.opposite()),
-            Some(1)
-        );
+        assert_eq!(p.on_line(Vector2::new(-5.0, 0.0), north.opposite()), Some(1));
     }
 }

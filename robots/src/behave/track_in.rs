@@ -36,10 +36,7 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self {
-            lambda_s: Positive::new(5.0),
-            beta_deg: NonNegative::new(20.0),
-        }
+        Self { lambda_s: Positive::new(5.0), beta_deg: NonNegative::new(20.0) }
     }
 }
 
@@ -87,9 +84,7 @@ impl CounterTurn {
     fn turn(&self, seen: &Observation, up_flow: Heading, memory: &mut PlumeMemory) -> Manoeuvre {
         let nose = Side::of(up_flow.turn_to(seen.estimate.attitude.heading));
         memory.leaves = nose;
-        Manoeuvre::Course {
-            course: up_flow.turned(nose.other().sign() * self.beta_rad),
-        }
+        Manoeuvre::Course { course: up_flow.turned(nose.other().sign() * self.beta_rad) }
     }
 }
 
@@ -99,13 +94,7 @@ impl Behave for CounterTurn {
         self.last = memory.last_detection.unwrap_or(Lcdp::here(seen));
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        _: bool,
-        memory: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, _: bool, memory: &mut PlumeMemory, _: &mut Stream) -> Stride {
         let up_flow = memory.up_flow_or_nose(seen);
         if detects(seen) {
             self.last = Lcdp::here(seen);
@@ -134,16 +123,12 @@ mod tests {
     use nalgebra::Vector2;
 
     fn memory(up_deg: Option<f64>) -> PlumeMemory {
-        PlumeMemory {
-            up_flow: up_deg.map(Heading::from_deg),
-            ..PlumeMemory::default()
-        }
+        PlumeMemory { up_flow: up_deg.map(Heading::from_deg), ..PlumeMemory::default() }
     }
 
     fn course(s: Stride) -> f64 {
         match s {
-            Stride::Start(Manoeuvre::Course { course })
-            | Stride::Adjust(Manoeuvre::Course { course }) => course.deg(),
+            Stride::Start(Manoeuvre::Course { course }) | Stride::Adjust(Manoeuvre::Course { course }) => course.deg(),
             other => panic!("wanted a course, got {other:?}"),
         }
     }
@@ -159,17 +144,11 @@ mod tests {
             (180.0, 170.0, Side::Left, 200.0),
             (180.0, 190.0, Side::Right, 160.0),
         ] {
-            let (mut b, mut m) = (
-                CounterTurn::new(&Params::default()).expect("legal"),
-                memory(Some(up)),
-            );
+            let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(up)));
             let o = smelling(seen(1.0, Vector2::zeros(), nose, None), true);
             b.enter(&o, &m);
             let s = b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t"));
-            assert!(
-                (course(s) - want).abs() < 1e-6,
-                "up {up}, nose {nose}: {s:?}"
-            );
+            assert!((course(s) - want).abs() < 1e-6, "up {up}, nose {nose}: {s:?}");
             assert_eq!(m.leaves, leaves);
         }
     }
@@ -177,44 +156,20 @@ mod tests {
     #[test]
     fn lost_after_lambda_at_the_last_detection() {
         let mut rng = Stream::new(1, "t", "t");
-        let (mut b, mut m) = (
-            CounterTurn::new(&Params::default()).expect("legal"),
-            memory(Some(0.0)),
-        );
+        let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(0.0)));
         let at = |t: f64, smells| smelling(seen(t, Vector2::new(0.0, t), 350.0, None), smells);
         b.enter(&at(0.0, true), &m);
-        assert!(matches!(
-            b.step(&at(0.0, true), false, &mut m, &mut rng),
-            Stride::Start(_)
-        ));
-        assert!(matches!(
-            b.step(&at(2.0, true), false, &mut m, &mut rng),
-            Stride::Adjust(_)
-        ));
-        assert_eq!(
-            b.step(&at(3.0, false), false, &mut m, &mut rng),
-            Stride::Keep
-        );
-        assert_eq!(
-            b.step(&at(7.0, false), false, &mut m, &mut rng),
-            Stride::Keep
-        );
-        assert_eq!(
-            b.step(&at(7.1, false), false, &mut m, &mut rng),
-            Stride::Over
-        );
-        assert_eq!(
-            m.lost.first().map(|l| l.position),
-            Some(Vector2::new(0.0, 2.0))
-        );
+        assert!(matches!(b.step(&at(0.0, true), false, &mut m, &mut rng), Stride::Start(_)));
+        assert!(matches!(b.step(&at(2.0, true), false, &mut m, &mut rng), Stride::Adjust(_)));
+        assert_eq!(b.step(&at(3.0, false), false, &mut m, &mut rng), Stride::Keep);
+        assert_eq!(b.step(&at(7.0, false), false, &mut m, &mut rng), Stride::Keep);
+        assert_eq!(b.step(&at(7.1, false), false, &mut m, &mut rng), Stride::Over);
+        assert_eq!(m.lost.first().map(|l| l.position), Some(Vector2::new(0.0, 2.0)));
     }
 
     #[test]
     fn beta_must_lead_up_flow() {
-        let params = Params {
-            beta_deg: NonNegative::new(90.0),
-            ..Params::default()
-        };
+        let params = Params { beta_deg: NonNegative::new(90.0), ..Params::default() };
         assert!(CounterTurn::new(&params).is_err());
     }
 }

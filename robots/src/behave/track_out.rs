@@ -78,9 +78,7 @@ impl Near {
             return 1.0;
         };
         let along = points[first..].iter().map(|p| p.in_flow(up_flow).x);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         ((high - low) / self.far_m.get()).clamp(self.least.get(), 1.0)
     }
 }
@@ -152,13 +150,7 @@ impl Behave for UpAcross {
         self.waits_until_s = None;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if self.begun {
             return if arrived { Stride::Over } else { Stride::Keep };
         }
@@ -189,16 +181,9 @@ impl Behave for UpAcross {
         let point = inside(&seen.area, point, MARGIN_M);
         // A vehicle that goes sideways keeps its nose, and what it smells with, up-flow.
         Stride::Start(if seen.able.sideways {
-            Manoeuvre::SlideTo {
-                point,
-                radius_m: None,
-                heading: up_flow,
-            }
+            Manoeuvre::SlideTo { point, radius_m: None, heading: up_flow }
         } else {
-            Manoeuvre::GoToPoint {
-                point,
-                radius_m: None,
-            }
+            Manoeuvre::GoToPoint { point, radius_m: None }
         })
     }
 }
@@ -218,12 +203,7 @@ mod tests {
             let position = Vector2::new(*east, *north);
             list.add(Lcdp::at(0.0, position), up);
         }
-        PlumeMemory {
-            up_flow: Some(up),
-            leaves,
-            lost: list,
-            ..PlumeMemory::default()
-        }
+        PlumeMemory { up_flow: Some(up), leaves, lost: list, ..PlumeMemory::default() }
     }
 
     fn point(m: &mut PlumeMemory) -> Vector2<f64> {
@@ -259,10 +239,7 @@ mod tests {
         assert!((share(&[-60.0, 0.0, 27.0, 9.0]) - 0.75).abs() < 1e-12);
         assert_eq!(share(&[-60.0, 0.0, 3.0, -2.0]), 0.6);
         // Up-flow is east: L_u and L_c of 18 m become 10.8 m.
-        let near = Params {
-            near: Some(Near::default()),
-            ..Params::default()
-        };
+        let near = Params { near: Some(Near::default()), ..Params::default() };
         let mut m = memory(Side::Left, &[(50.0, 0.0)]);
         for k in 0..3 {
             m.lcdps.add(Lcdp::at(f64::from(k), Vector2::new(50.0, 0.0)));
@@ -275,13 +252,7 @@ mod tests {
             }
             other => panic!("wanted a point, got {other:?}"),
         }
-        let one = Params {
-            near: Some(Near {
-                points: NonZeroUsize::MIN,
-                ..Near::default()
-            }),
-            ..Params::default()
-        };
+        let one = Params { near: Some(Near { points: NonZeroUsize::MIN, ..Near::default() }), ..Params::default() };
         assert!(UpAcross::new(&one).is_err());
     }
 
@@ -298,16 +269,10 @@ mod tests {
         let mut rng = Stream::new(1, "t", "t");
         let o = seen(0.0, Vector2::zeros(), 0.0, None);
         let mut m = memory(Side::Left, &[(0.0, 0.0)]);
-        assert!(matches!(
-            b.step(&o, false, &mut m, &mut rng),
-            Stride::Start(_)
-        ));
+        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
         assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
         assert_eq!(b.step(&o, true, &mut m, &mut rng), Stride::Over);
         b.enter(&o, &m);
-        assert_eq!(
-            b.step(&o, false, &mut memory(Side::Left, &[]), &mut rng),
-            Stride::Over
-        );
+        assert_eq!(b.step(&o, false, &mut memory(Side::Left, &[]), &mut rng), Stride::Over);
     }
 }

@@ -35,11 +35,7 @@ pub struct AlongFlow {
 
 impl Default for AlongFlow {
     fn default() -> Self {
-        Self {
-            points: NonZeroUsize::new(3).expect("3 is not zero"),
-            within_m: Positive::new(4.0),
-            across_m: None,
-        }
+        Self { points: NonZeroUsize::new(3).expect("3 is not zero"), within_m: Positive::new(4.0), across_m: None }
     }
 }
 
@@ -77,25 +73,17 @@ impl AlongFlow {
     #[must_use]
     pub fn declare(&self, points: &[Lcdp], up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
         let up = up_flow.unit();
-        let mut sorted: Vec<(f64, &Lcdp)> =
-            points.iter().map(|p| (p.position.dot(&up), p)).collect();
+        let mut sorted: Vec<(f64, &Lcdp)> = points.iter().map(|p| (p.position.dot(&up), p)).collect();
         sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
         let leading = sorted.get(..self.points.get())?;
         let (first, last) = (leading.first()?, leading.last()?);
         let along = first.0 - last.0 < self.within_m.get();
         let across = self.across_m.is_none_or(|most_m| {
             let y = leading.iter().map(|(_, p)| p.in_flow(up_flow).y);
-            let (low, high) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| {
-                (l.min(y), h.max(y))
-            });
+            let (low, high) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
             high - low < most_m.get()
         });
-        (along && across).then(|| {
-            (
-                first.1.position,
-                Evidence::of(leading.iter().map(|(_, p)| *p)),
-            )
-        })
+        (along && across).then(|| (first.1.position, Evidence::of(leading.iter().map(|(_, p)| *p))))
     }
 }
 
@@ -121,18 +109,10 @@ mod tests {
         let rule = AlongFlow::default();
         let north = Heading::from_deg(0.0);
         // 100, 97.5, 96.5: within 3.5 m. What lies behind them or across does not matter.
-        let near = [
-            at(0.0, 40.0),
-            at(5.0, 97.5),
-            at(-30.0, 100.0),
-            at(9.0, 96.5),
-        ];
+        let near = [at(0.0, 40.0), at(5.0, 97.5), at(-30.0, 100.0), at(9.0, 96.5)];
         assert_eq!(found(&rule, &near, north), Some(v(-30.0, 100.0)));
         // Exactly 4 m is not less than 4 m.
-        assert_eq!(
-            found(&rule, &[at(0.0, 0.0), at(0.0, 2.0), at(0.0, 4.0)], north),
-            None
-        );
+        assert_eq!(found(&rule, &[at(0.0, 0.0), at(0.0, 2.0), at(0.0, 4.0)], north), None);
         // Two points where three are needed.
         assert_eq!(found(&rule, &near[1..3], north), None);
         assert_eq!(found(&rule, &[], north), None);
@@ -149,10 +129,7 @@ mod tests {
     fn flow_turned_about_looks_from_the_other_end() {
         let rule = AlongFlow::default();
         let points = [at(0.0, 100.0), at(0.0, 99.0), at(0.0, 98.0), at(0.0, 50.0)];
-        assert_eq!(
-            found(&rule, &points, Heading::from_deg(0.0)),
-            Some(v(0.0, 100.0))
-        );
+        assert_eq!(found(&rule, &points, Heading::from_deg(0.0)), Some(v(0.0, 100.0)));
         // From the south the first three are 50, 98, 99: 49 m apart.
         assert_eq!(found(&rule, &points, Heading::from_deg(180.0)), None);
         // Seen from the side, all lie side by side.
@@ -164,10 +141,7 @@ mod tests {
         let north = Heading::from_deg(0.0);
         // Within 3.5 m along the flow, 39 m apart across it.
         let wide = [at(5.0, 97.5), at(-30.0, 100.0), at(9.0, 96.5)];
-        let bound = |m| AlongFlow {
-            across_m: Some(Positive::new(m)),
-            ..AlongFlow::default()
-        };
+        let bound = |m| AlongFlow { across_m: Some(Positive::new(m)), ..AlongFlow::default() };
         assert_eq!(found(&bound(39.0), &wide, north), None);
         assert_eq!(found(&bound(39.1), &wide, north), Some(v(-30.0, 100.0)));
         // A fourth point far to the side, but farther down-flow, does not matter.

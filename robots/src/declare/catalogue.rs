@@ -62,10 +62,7 @@ pub trait DeclareParams: Spec {
     /// A declaration made at `t_s`, with the points it rests on.
     fn declaration(&self, t_s: f64, memory: &PlumeMemory, up_flow: Heading) -> Option<Declaration> {
         let (place, evidence) = self.identify(memory, up_flow)?;
-        Some(Declaration {
-            evidence: Some(evidence),
-            ..Declaration::first(t_s, place, self.entry().name)
-        })
+        Some(Declaration { evidence: Some(evidence), ..Declaration::first(t_s, place, self.entry().name) })
     }
 
     /// Checks the parameters for a searcher that remembers so many lost points and last detection points.
@@ -82,9 +79,7 @@ pub trait DeclareParams: Spec {
         if points > most {
             return Err(RobotError::Invalid {
                 field: format!("declare.{}.points", self.entry().name),
-                problem: format!(
-                    "must be at most {list}, {most}, got {points}: it would never declare"
-                ),
+                problem: format!("must be at most {list}, {most}, got {points}: it would never declare"),
             });
         }
         self.check_own()

@@ -20,19 +20,11 @@ fn n(points: usize) -> NonZeroUsize {
 }
 
 fn siz_t(eps_m: f64, points: usize) -> SizT {
-    SizT {
-        size: ZoneSize::Fixed(Positive::new(eps_m)),
-        points: n(points),
-        ..SizT::default()
-    }
+    SizT { size: ZoneSize::Fixed(Positive::new(eps_m)), points: n(points), ..SizT::default() }
 }
 
 fn siz_f(eps_m: f64, points: usize) -> SizF {
-    SizF {
-        size: ZoneSize::Fixed(Positive::new(eps_m)),
-        points: n(points),
-        ..SizF::default()
-    }
+    SizF { size: ZoneSize::Fixed(Positive::new(eps_m)), points: n(points), ..SizF::default() }
 }
 
 /// `way` points 10 m apart down-flow of the source, then `near` points around it, scattered by `scatter_m` in each
@@ -67,14 +59,10 @@ fn two_points_are_declared_as_often_as_chance_has_it() {
         let mut pair = || mission(0, 2, scatter_m, &mut rng);
         let ratio = (eps_m / scatter_m) * (eps_m / scatter_m);
         let p_t = 1.0 - math::exp(-ratio / 4.0);
-        let t = share(4000, || {
-            siz_t(eps_m, 2).declare(&pair(), up(), 0.0).is_some()
-        });
+        let t = share(4000, || siz_t(eps_m, 2).declare(&pair(), up(), 0.0).is_some());
         assert!((t - p_t).abs() < five_errors(p_t, 4000), "{t}, {p_t}");
         let p_f = 1.0 - math::exp(-ratio);
-        let f = share(4000, || {
-            siz_f(eps_m, 2).declare(&pair(), up(), 0.0).is_some()
-        });
+        let f = share(4000, || siz_f(eps_m, 2).declare(&pair(), up(), 0.0).is_some());
         assert!((f - p_f).abs() < five_errors(p_f, 4000), "{f}, {p_f}");
     }
 }
@@ -109,10 +97,7 @@ fn jumps_of_ten_metres_keep_a_small_box_from_ever_filling() {
     let small = share(2000, || siz_t(4.0, 6).declare(&wide(), up(), 5.0).is_some());
     // Dead reckoning is exact here, but the fixes err by 5 m in each axis and one comes before each point.
     assert!(small < 0.001, "{small}");
-    let adaptive = SizF {
-        size: ZoneSize::Adaptive(AdaptiveSize::default()),
-        ..SizF::default()
-    };
+    let adaptive = SizF { size: ZoneSize::Adaptive(AdaptiveSize::default()), ..SizF::default() };
     let grown = share(2000, || adaptive.declare(&wide(), up(), 5.0).is_some());
     let fixed = share(2000, || siz_f(6.0, 6).declare(&wide(), up(), 5.0).is_some());
     assert!(grown > 0.9 && fixed < 0.5, "{grown}, {fixed}");
@@ -127,11 +112,8 @@ fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
         let mut off = Vector2::zeros();
         for (k, p) in mission(0, 6, 0.3, &mut rng).iter().enumerate() {
             let fix_off = Vector2::new(rng.normal(), rng.normal()) * 5.0;
-            let fix = NavigationFix {
-                since_s: 90.0 * (k as f64 - 1.0),
-                t_s: 90.0 * k as f64 - 1.0,
-                jump: fix_off - off,
-            };
+            let fix =
+                NavigationFix { since_s: 90.0 * (k as f64 - 1.0), t_s: 90.0 * k as f64 - 1.0, jump: fix_off - off };
             off = fix_off;
             stay.take_fix(&fix, FixMove::Stay);
             whole.take_fix(&fix, FixMove::Whole);
@@ -139,9 +121,7 @@ fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
             stay.add(believed);
             whole.add(believed);
         }
-        let (mean, _) = siz_t(4.0, 6)
-            .declare(whole.all(), up(), 0.0)
-            .expect("narrow");
+        let (mean, _) = siz_t(4.0, 6).declare(whole.all(), up(), 0.0).expect("narrow");
         // All that is wrong is the newest fix, and the cluster's own mean.
         assert!((mean - SOURCE - off).norm() < 1.0);
         assert!(siz_t(4.0, 6).declare(stay.all(), up(), 0.0).is_none());

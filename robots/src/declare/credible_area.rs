@@ -32,10 +32,7 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self {
-            below: Positive::new(50.0),
-            for_s: NonNegative::new(5.0),
-        }
+        Self { below: Positive::new(50.0), for_s: NonNegative::new(5.0) }
     }
 }
 
@@ -64,10 +61,7 @@ impl CredibleArea {
     /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
-        Self {
-            params: params.clone(),
-            held: Held::default(),
-        }
+        Self { params: params.clone(), held: Held::default() }
     }
 }
 

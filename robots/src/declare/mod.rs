@@ -18,8 +18,7 @@ mod zone_tests;
 
 pub use along_flow::AlongFlow;
 pub use catalogue::{
-    BeliefRule, BeliefRuleParams, BeliefRuleSpec, BeliefRules, DeclareParams, DeclareSpec,
-    Declares, Points,
+    BeliefRule, BeliefRuleParams, BeliefRuleSpec, BeliefRules, DeclareParams, DeclareSpec, Declares, Points,
 };
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
 pub use siz_f::SizF;

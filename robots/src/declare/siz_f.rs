@@ -81,12 +81,7 @@ impl SizF {
     /// are enough, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
     /// size only.
     #[must_use]
-    pub fn declare(
-        &self,
-        points: &[Lcdp],
-        up_flow: Heading,
-        fix_m: f64,
-    ) -> Option<(Vector2<f64>, Evidence)> {
+    pub fn declare(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> Option<(Vector2<f64>, Evidence)> {
         let radius_m = self.size.radius_m(points, up_flow, fix_m);
         let (left, near) = self.left(points, up_flow, radius_m);
         let first = left.first().filter(|_| near)?;
@@ -132,47 +127,28 @@ mod tests {
     }
 
     fn found(rule: &SizF, up_deg: f64, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
-        rule.declare(&list(places), Heading::from_deg(up_deg), 0.0)
-            .map(|(place, _)| place)
+        rule.declare(&list(places), Heading::from_deg(up_deg), 0.0).map(|(place, _)| place)
     }
 
     #[test]
     fn by_hand() {
         // Three near (0, 100), two left behind on the way up-flow.
-        let places = [
-            (0.0, 20.0),
-            (0.0, 60.0),
-            (1.0, 99.0),
-            (-1.0, 100.0),
-            (0.0, 101.0),
-        ];
+        let places = [(0.0, 20.0), (0.0, 60.0), (1.0, 99.0), (-1.0, 100.0), (0.0, 101.0)];
         // Mean 76: 20 is 56 m off and goes; mean 90: 60 goes; then mean 100, farthest sqrt(2) m at most.
-        assert_eq!(
-            found(&rule(1.5, 3), 0.0, &places),
-            Some(Vector2::new(0.0, 101.0))
-        );
+        assert_eq!(found(&rule(1.5, 3), 0.0, &places), Some(Vector2::new(0.0, 101.0)));
         // Fewer than four points are left within 1.5 m.
         assert_eq!(found(&rule(1.5, 4), 0.0, &places), None);
         // 60, 99, 100, 101 within 30 m of their mean, 90: found with four.
-        assert_eq!(
-            found(&rule(30.0, 4), 0.0, &places),
-            Some(Vector2::new(0.0, 101.0))
-        );
+        assert_eq!(found(&rule(30.0, 4), 0.0, &places), Some(Vector2::new(0.0, 101.0)));
         // A distance equal to the size is enough.
-        assert_eq!(
-            found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]),
-            Some(Vector2::new(0.0, 4.0))
-        );
+        assert_eq!(found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]), Some(Vector2::new(0.0, 4.0)));
     }
 
     #[test]
     fn flow_turned_about_declares_the_other_end() {
         let places = [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)];
         for (up_deg, north) in [(0.0, 1.0), (180.0, -1.0)] {
-            assert_eq!(
-                found(&rule(6.0, 3), up_deg, &places),
-                Some(Vector2::new(0.0, north))
-            );
+            assert_eq!(found(&rule(6.0, 3), up_deg, &places), Some(Vector2::new(0.0, north)));
         }
         // Each point carries the flow of its time; only the present one counts.
         let mut points = list(&places);
@@ -180,9 +156,7 @@ mod tests {
             let turned = if k % 2 == 0 { 1.0 } else { -1.0 };
             p.flow = Some(Vector2::new(0.0, turned));
         }
-        let (place, evidence) = rule(6.0, 3)
-            .declare(&points, Heading::from_deg(0.0), 0.0)
-            .expect("near");
+        let (place, evidence) = rule(6.0, 3).declare(&points, Heading::from_deg(0.0), 0.0).expect("near");
         assert_eq!(place, Vector2::new(0.0, 1.0));
         assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
     }
@@ -195,49 +169,32 @@ mod tests {
         assert_eq!(found(&rule(1e-9, 3), 77.0, &[(1.0, 1.0); 3]), one);
         // In a line across the flow all points are equally far up-flow: always the rightmost is declared.
         let line = [(0.0, 5.0), (4.0, 5.0), (2.0, 5.0)];
-        assert_eq!(
-            found(&rule(6.0, 3), 0.0, &line),
-            Some(Vector2::new(0.0, 5.0))
-        );
+        assert_eq!(found(&rule(6.0, 3), 0.0, &line), Some(Vector2::new(0.0, 5.0)));
         // Two pairs equally far: the down-flow pair is removed first, in any order in time.
-        for places in [
-            [(0.0, 0.0), (0.0, 0.0), (0.0, 80.0), (0.0, 80.0)],
-            [(0.0, 80.0), (0.0, 0.0), (0.0, 80.0), (0.0, 0.0)],
-        ] {
-            assert_eq!(
-                found(&rule(6.0, 2), 0.0, &places),
-                Some(Vector2::new(0.0, 80.0))
-            );
+        for places in
+            [[(0.0, 0.0), (0.0, 0.0), (0.0, 80.0), (0.0, 80.0)], [(0.0, 80.0), (0.0, 0.0), (0.0, 80.0), (0.0, 0.0)]]
+        {
+            assert_eq!(found(&rule(6.0, 2), 0.0, &places), Some(Vector2::new(0.0, 80.0)));
         }
     }
 
     #[test]
     fn waits_for_n_ini() {
-        let late = SizF {
-            initial: NonZeroUsize::new(5).expect("5 > 0"),
-            ..rule(6.0, 3)
-        };
+        let late = SizF { initial: NonZeroUsize::new(5).expect("5 > 0"), ..rule(6.0, 3) };
         assert_eq!(found(&late, 0.0, &[(1.0, 1.0); 4]), None);
         assert!(found(&late, 0.0, &[(1.0, 1.0); 5]).is_some());
     }
 
     #[test]
     fn an_adaptive_size_waits_for_headway_to_end() {
-        let adaptive = SizF {
-            size: ZoneSize::Adaptive(AdaptiveSize::default()),
-            ..rule(6.0, 6)
-        };
+        let adaptive = SizF { size: ZoneSize::Adaptive(AdaptiveSize::default()), ..rule(6.0, 6) };
         let up = Heading::from_deg(0.0);
         // Headway of 2 m a point, 0.1 m across: the fixed zone declares on the way, the adaptive one does not.
-        let way: Vec<_> = (0..6)
-            .map(|k| (0.1 * f64::from(k % 2), 2.0 * f64::from(k)))
-            .collect();
+        let way: Vec<_> = (0..6).map(|k| (0.1 * f64::from(k % 2), 2.0 * f64::from(k))).collect();
         assert!(rule(6.0, 6).declare(&list(&way), up, 0.0).is_some());
         assert!(adaptive.declare(&list(&way), up, 0.0).is_none());
         // No headway, 8 m either side across the flow: the fixed zone is too small for it.
-        let wide: Vec<_> = (0..6)
-            .map(|k| (16.0 * f64::from(k % 2), f64::from(k)))
-            .collect();
+        let wide: Vec<_> = (0..6).map(|k| (16.0 * f64::from(k % 2), f64::from(k))).collect();
         assert!(rule(6.0, 6).declare(&list(&wide), up, 0.0).is_none());
         let (place, _) = adaptive.declare(&list(&wide), up, 0.0).expect("no headway");
         assert_eq!(place, Vector2::new(16.0, 5.0));

@@ -79,9 +79,7 @@ impl DeclareParams for SizT {
     }
 
     fn zone(&self, memory: &PlumeMemory, up_flow: Heading) -> Zone {
-        let looked_at = self
-            .looked_at(memory.lcdps.all(), up_flow)
-            .unwrap_or_default();
+        let looked_at = self.looked_at(memory.lcdps.all(), up_flow).unwrap_or_default();
         let places = looked_at.iter().map(|p| p.position).collect();
         Zone::boxed(places, Heading::from_deg(0.0))
     }
@@ -112,17 +110,10 @@ impl SizT {
     /// together, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
     /// size only; `up_flow` matters to an adaptive size and to the order of the same name.
     #[must_use]
-    pub fn declare(
-        &self,
-        points: &[Lcdp],
-        up_flow: Heading,
-        fix_m: f64,
-    ) -> Option<(Vector2<f64>, Evidence)> {
+    pub fn declare(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> Option<(Vector2<f64>, Evidence)> {
         let first = self.looked_at(points, up_flow)?;
         let corner = first[0].position;
-        let (low, high) = first.iter().fold((corner, corner), |(l, h), p| {
-            (l.inf(&p.position), h.sup(&p.position))
-        });
+        let (low, high) = first.iter().fold((corner, corner), |(l, h), p| (l.inf(&p.position), h.sup(&p.position)));
         let mean = first.iter().map(|p| p.position).sum::<Vector2<f64>>() / first.len() as f64;
         let near = (high - low).norm() <= self.size.diagonal_m(points, up_flow, fix_m);
         near.then(|| (mean, Evidence::of(&first)))
@@ -148,18 +139,14 @@ mod tests {
     }
 
     fn found(rule: &SizT, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
-        rule.declare(&list(places), Heading::from_deg(NORTH), 0.0)
-            .map(|(place, _)| place)
+        rule.declare(&list(places), Heading::from_deg(NORTH), 0.0).map(|(place, _)| place)
     }
 
     #[test]
     fn by_hand() {
         // A box of 3 by 4 m: its diagonal is 5 m; the mean of the three newest is (11, 21).
         let places = [(90.0, 90.0), (10.0, 20.0), (13.0, 19.0), (10.0, 24.0)];
-        assert_eq!(
-            found(&rule(5.9, 3), &places),
-            Some(Vector2::new(11.0, 21.0))
-        );
+        assert_eq!(found(&rule(5.9, 3), &places), Some(Vector2::new(11.0, 21.0)));
         // 3 by 5 m: sqrt(34) = 5.83.
         assert_eq!(found(&rule(5.8, 3), &places), None);
         // The fourth is 80 m away.
@@ -174,10 +161,7 @@ mod tests {
         assert_eq!(found(&rule(4.0, 3), &[]), None);
         assert_eq!(found(&rule(4.0, 3), &[(1.0, 1.0), (1.0, 1.0)]), None);
         // All in one place; all on a line.
-        assert_eq!(
-            found(&rule(1e-9, 3), &[(1.0, 1.0); 3]),
-            Some(Vector2::new(1.0, 1.0))
-        );
+        assert_eq!(found(&rule(1e-9, 3), &[(1.0, 1.0); 3]), Some(Vector2::new(1.0, 1.0)));
         let line = [(0.0, 0.0), (2.0, 0.0), (4.0, 0.0)];
         assert_eq!(found(&rule(4.0, 3), &line), Some(Vector2::new(2.0, 0.0)));
         assert_eq!(found(&rule(3.9, 3), &line), None);
@@ -185,24 +169,14 @@ mod tests {
 
     #[test]
     fn in_up_flow_order_by_hand() {
-        let up = SizT {
-            order: Order::UpFlow,
-            ..rule(2.9, 3)
-        };
+        let up = SizT { order: Order::UpFlow, ..rule(2.9, 3) };
         // Three round (0, 100) with two farther down-flow between and after them: never the three newest.
-        let places = [
-            (0.0, 100.0),
-            (0.0, 60.0),
-            (2.0, 101.0),
-            (1.0, 99.0),
-            (5.0, 70.0),
-        ];
+        let places = [(0.0, 100.0), (0.0, 60.0), (2.0, 101.0), (1.0, 99.0), (5.0, 70.0)];
         assert_eq!(found(&rule(2.9, 3), &places), None);
         // A box of 2 by 2 m: its diagonal is 2.83 m; the mean of the three is (1, 100).
         assert_eq!(found(&up, &places), Some(Vector2::new(1.0, 100.0)));
         assert_eq!(found(&up, &places[..3]), None);
-        let (_, evidence) =
-            (up.declare(&list(&places), Heading::from_deg(NORTH), 0.0)).expect("near");
+        let (_, evidence) = (up.declare(&list(&places), Heading::from_deg(NORTH), 0.0)).expect("near");
         assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
         // With the flow turned about, the most up-flow ones are those at 60, 70 and 99 m.
         let south = Heading::from_deg(180.0);
@@ -222,10 +196,7 @@ mod tests {
 
     #[test]
     fn waits_for_n_ini() {
-        let late = SizT {
-            initial: NonZeroUsize::new(5).expect("5 > 0"),
-            ..rule(4.0, 3)
-        };
+        let late = SizT { initial: NonZeroUsize::new(5).expect("5 > 0"), ..rule(4.0, 3) };
         assert_eq!(found(&late, &[(1.0, 1.0); 4]), None);
         assert!(found(&late, &[(1.0, 1.0); 5]).is_some());
     }
@@ -238,19 +209,12 @@ mod tests {
             assert!(rule(4.0, 4).declare(&points, up, 0.0).is_some());
         }
         let adaptive = SizT {
-            size: ZoneSize::Adaptive(AdaptiveSize {
-                least_m: Positive::new(0.5),
-                ..AdaptiveSize::default()
-            }),
+            size: ZoneSize::Adaptive(AdaptiveSize { least_m: Positive::new(0.5), ..AdaptiveSize::default() }),
             ..rule(4.0, 4)
         };
         // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them
         // too.
-        assert!(
-            adaptive
-                .declare(&points, Heading::from_deg(0.0), 0.0)
-                .is_some()
-        );
+        assert!(adaptive.declare(&points, Heading::from_deg(0.0), 0.0).is_some());
         // Stretched to 6 m along an eastward flow it holds them no more, but a fix that errs by 3 m explains them.
         let longer = list(&[(0.0, 0.0), (6.0, 0.0), (0.0, 1.0), (6.0, 1.0)]);
         let east = Heading::from_deg(270.0);

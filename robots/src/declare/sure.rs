@@ -34,11 +34,7 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self {
-            probability: Fraction::new(0.9),
-            within_m: Positive::new(5.0),
-            for_s: NonNegative::new(5.0),
-        }
+        Self { probability: Fraction::new(0.9), within_m: Positive::new(5.0), for_s: NonNegative::new(5.0) }
     }
 }
 
@@ -69,11 +65,7 @@ impl Sure {
     /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
-        Self {
-            params: params.clone(),
-            held: Held::default(),
-            stated: None,
-        }
+        Self { params: params.clone(), held: Held::default(), stated: None }
     }
 
     fn probability(&mut self, belief: &Belief) -> f64 {

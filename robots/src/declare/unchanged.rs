@@ -26,9 +26,7 @@ pub struct Params {
 
 impl Default for Params {
     fn default() -> Self {
-        Self {
-            for_s: Positive::new(30.0),
-        }
+        Self { for_s: Positive::new(30.0) }
     }
 }
 
@@ -57,10 +55,7 @@ impl Unchanged {
     /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
-        Self {
-            for_s: params.for_s.get(),
-            since: None,
-        }
+        Self { for_s: params.for_s.get(), since: None }
     }
 }
 

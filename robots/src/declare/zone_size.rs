@@ -66,9 +66,7 @@ impl AdaptiveSize {
     #[must_use]
     pub fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
         let newest = points.len().saturating_sub(self.look_back.get());
-        let across: Vec<f64> = (points[newest..].iter())
-            .map(|p| p.in_flow(up_flow).y)
-            .collect();
+        let across: Vec<f64> = (points[newest..].iter()).map(|p| p.in_flow(up_flow).y).collect();
         let scale_m = robust_scale(across).max(fix_m);
         let radius_m = scale_m * (-2.0 * math::ln(1.0 - self.coverage.get())).sqrt();
         radius_m.clamp(self.least_m.get(), self.most_m.get())
@@ -99,10 +97,7 @@ impl ZoneSize {
             return Ok(());
         };
         let invalid = |name: &str, problem: String| {
-            Err(RobotError::Invalid {
-                field: format!("{field}.Adaptive.{name}"),
-                problem,
-            })
+            Err(RobotError::Invalid { field: format!("{field}.Adaptive.{name}"), problem })
         };
         let coverage = a.coverage.get();
         if coverage <= 0.0 || coverage >= 1.0 {
@@ -112,14 +107,7 @@ impl ZoneSize {
             );
         }
         if a.most_m.get() < a.least_m.get() {
-            return invalid(
-                "most_m",
-                format!(
-                    "must be >= least_m = {}, got {}",
-                    a.least_m.get(),
-                    a.most_m.get()
-                ),
-            );
+            return invalid("most_m", format!("must be >= least_m = {}, got {}", a.least_m.get(), a.most_m.get()));
         }
         Ok(())
     }
@@ -171,19 +159,13 @@ mod tests {
 
     #[test]
     fn looks_at_the_newest_points_only() {
-        let a = AdaptiveSize {
-            look_back: NonZeroUsize::new(3).expect("3 > 0"),
-            ..AdaptiveSize::default()
-        };
+        let a = AdaptiveSize { look_back: NonZeroUsize::new(3).expect("3 > 0"), ..AdaptiveSize::default() };
         let north = Heading::from_deg(0.0);
         let old = a.radius_m(&across(&[-30.0, 60.0, 0.0, 1.0, 2.0]), north, 0.0);
         let new = a.radius_m(&across(&[0.0, 1.0, 2.0]), north, 0.0);
         assert_eq!(old, new);
         // Turned by a quarter the scatter across is the 40 m steps.
-        assert_eq!(
-            a.radius_m(&across(&[0.0, 1.0, 2.0]), Heading::from_deg(90.0), 0.0),
-            15.0
-        );
+        assert_eq!(a.radius_m(&across(&[0.0, 1.0, 2.0]), Heading::from_deg(90.0), 0.0), 15.0);
     }
 
     #[test]
@@ -197,9 +179,6 @@ mod tests {
         assert!(with(|a| a.coverage = Fraction::new(1.0)).is_err());
         assert!(with(|a| a.coverage = Fraction::new(0.0)).is_err());
         let e = with(|a| a.most_m = Positive::new(1.0)).expect_err("1 < 2");
-        assert!(
-            e.to_string().contains("declare.SizF.size.Adaptive.most_m"),
-            "{e}"
-        );
+        assert!(e.to_string().contains("declare.SizF.size.Adaptive.most_m"), "{e}");
     }
 }

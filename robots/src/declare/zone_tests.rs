@@ -23,20 +23,11 @@ fn memory(places: &[(f64, f64)]) -> PlumeMemory {
 }
 
 fn siz_t(order: SizOrder) -> SizT {
-    SizT {
-        size: ZoneSize::Fixed(Positive::new(SIZE_M)),
-        points: POINTS,
-        order,
-        ..SizT::default()
-    }
+    SizT { size: ZoneSize::Fixed(Positive::new(SIZE_M)), points: POINTS, order, ..SizT::default() }
 }
 
 fn siz_f() -> SizF {
-    SizF {
-        size: ZoneSize::Fixed(Positive::new(SIZE_M)),
-        points: POINTS,
-        ..SizF::default()
-    }
+    SizF { size: ZoneSize::Fixed(Positive::new(SIZE_M)), points: POINTS, ..SizF::default() }
 }
 
 /// Whether the zone is as small as `SizT` asks for; `None` without a zone.
@@ -57,10 +48,7 @@ fn with_too_few_points_there_is_no_zone() {
     let (few, north) = (memory(&[(0.0, 0.0); 3]), Heading::from_deg(0.0));
     assert_eq!(siz_t(SizOrder::Time).zone(&few, north), Zone::default());
     assert_eq!(siz_f().zone(&few, north), Zone::default());
-    assert_eq!(
-        AlongFlow::default().zone(&memory(&[]), north),
-        Zone::default()
-    );
+    assert_eq!(AlongFlow::default().zone(&memory(&[]), north), Zone::default());
 }
 
 /// Three lost points 20 m apart, up-flow north-east: the zone is as long along the flow as the rule compares.
@@ -70,10 +58,7 @@ fn along_the_flow_the_zone_lies_along_it() {
     let n = rule.points.get();
     let slanted = Heading::from_deg(45.0);
     let along = slanted.unit();
-    let places: Vec<_> = (0..=n)
-        .map(|k| along * (20.0 * k as f64))
-        .map(|p| (p.x, p.y))
-        .collect();
+    let places: Vec<_> = (0..=n).map(|k| along * (20.0 * k as f64)).map(|p| (p.x, p.y)).collect();
     let zone = rule.zone(&memory(&places), slanted);
     assert_eq!(zone.points.len(), n);
     let length = (zone.corners[1] - zone.corners[0]).norm();

@@ -36,11 +36,7 @@ pub struct DeadReckoningSpec {
 
 impl Default for DeadReckoningSpec {
     fn default() -> Self {
-        Self {
-            fix_gain: Fraction::new(1.0),
-            flow_filter_s: NonNegative::new(10.0),
-            layer_aware: None,
-        }
+        Self { fix_gain: Fraction::new(1.0), flow_filter_s: NonNegative::new(10.0), layer_aware: None }
     }
 }
 
@@ -70,12 +66,8 @@ impl DeadReckoning {
     /// Dead reckoning that begins at `start` and steps by `dt_s`.
     #[must_use]
     pub fn new(spec: &DeadReckoningSpec, start: Start, dt_s: f64) -> Self {
-        let attitude = Attitude {
-            heading: start.heading,
-            roll_rad: 0.0,
-            pitch_rad: 0.0,
-            rates_rad_s: Vector3::zeros(),
-        };
+        let attitude =
+            Attitude { heading: start.heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() };
         Self {
             fix_gain: spec.fix_gain.get(),
             flow_filter_s: spec.flow_filter_s.get(),
@@ -124,10 +116,7 @@ impl DeadReckoning {
             altitude_m: self.altitude_m,
             attitude: self.attitude,
             v_ground_body: self.v_ground_body,
-            flow: self.flow.map(|(velocity, measured_s)| FlowEstimate {
-                velocity,
-                age_s: clock.t_s() - measured_s,
-            }),
+            flow: self.flow.map(|(velocity, measured_s)| FlowEstimate { velocity, age_s: clock.t_s() - measured_s }),
             fix_jump: self.position - before,
         }
     }
@@ -181,49 +170,26 @@ impl DeadReckoning {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{
-        AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, LblFix,
-    };
+    use crate::handoff::{AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, LblFix};
     use world::units::Heading;
 
     fn start() -> Start {
-        Start {
-            position: Vector2::new(150.0, -500.0),
-            heading: Heading::from_deg(0.0),
-            depth_m: 3.0,
-        }
+        Start { position: Vector2::new(150.0, -500.0), heading: Heading::from_deg(0.0), depth_m: 3.0 }
     }
 
     fn attitude(heading: Heading, roll_rad: f64, pitch_rad: f64) -> AttitudeReading {
-        AttitudeReading {
-            heading,
-            roll_rad,
-            pitch_rad,
-            rates_rad_s: Vector3::zeros(),
-        }
+        AttitudeReading { heading, roll_rad, pitch_rad, rates_rad_s: Vector3::zeros() }
     }
 
     fn dvl(v: Vector3<f64>) -> DvlReading {
-        DvlReading {
-            v_body_m_s: v,
-            valid: true,
-        }
+        DvlReading { v_body_m_s: v, valid: true }
     }
 
     fn adcp(v: Vector3<f64>) -> AdcpReading {
-        AdcpReading {
-            v_body_m_s: v,
-            above_m: 1.0,
-            valid: true,
-        }
+        AdcpReading { v_body_m_s: v, above_m: 1.0, valid: true }
     }
 
-    fn run(
-        spec: &DeadReckoningSpec,
-        steps: u64,
-        dt_s: f64,
-        said: impl Fn(&Clock) -> Readings,
-    ) -> Vec<Estimate> {
+    fn run(spec: &DeadReckoningSpec, steps: u64, dt_s: f64, said: impl Fn(&Clock) -> Readings) -> Vec<Estimate> {
         let mut e = DeadReckoning::new(spec, start(), dt_s);
         let mut clock = Clock::new(dt_s);
         let mut believed = Vec::new();
@@ -245,11 +211,7 @@ mod tests {
         let left = cr * v_B.y - sr * v_B.z;
         let along = cp * v_B.x - sp * (sr * v_B.y + cr * v_B.z);
         let believed = run(&DeadReckoningSpec::default(), 5000, dt_s, |c| Readings {
-            attitude: Some(attitude(
-                Heading::from_rad(turn_rad_s * c.t_s()),
-                roll,
-                pitch,
-            )),
+            attitude: Some(attitude(Heading::from_rad(turn_rad_s * c.t_s()), roll, pitch)),
             dvl: Some(dvl(v_B)),
             ..Default::default()
         });
@@ -257,8 +219,7 @@ mod tests {
             // Heading a: velocity = along · (sin a, cos a) + left · (−cos a, sin a).
             let (s, c) = math::sin_cos(turn_rad_s * e.t_s);
             let want = start().position
-                + Vector2::new(along * (1.0 - c) - left * s, along * s + left * (1.0 - c))
-                    / turn_rad_s;
+                + Vector2::new(along * (1.0 - c) - left * s, along * s + left * (1.0 - c)) / turn_rad_s;
             // Trapezium rule on a circle: chords are short by (turn · dt)²/12 of 2 × its radius 10.4 m.
             let bound = (turn_rad_s * dt_s).powi(2) / 12.0 * 25.0;
             assert!((e.position - want).norm() < bound, "{} s", e.t_s);
@@ -278,24 +239,14 @@ mod tests {
         .unwrap();
         // 200 m northward, seen 1° to the east of it.
         let moved = end.position - start().position;
-        assert!(
-            (moved - Vector2::new(3.4905, 199.9695)).norm() < 1e-3,
-            "{moved:?}"
-        );
+        assert!((moved - Vector2::new(3.4905, 199.9695)).norm() < 1e-3, "{moved:?}");
     }
 
     #[test]
     fn velocity_is_held_without_bottom_lock_but_no_flow_is_measured() {
-        let lost = DvlReading {
-            v_body_m_s: Vector3::zeros(),
-            valid: false,
-        };
+        let lost = DvlReading { v_body_m_s: Vector3::zeros(), valid: false };
         let believed = run(&DeadReckoningSpec::default(), 101, 0.1, |c| Readings {
-            dvl: Some(if c.t_s() < 5.0 {
-                dvl(Vector3::new(2.0, 0.0, 0.0))
-            } else {
-                lost
-            }),
+            dvl: Some(if c.t_s() < 5.0 { dvl(Vector3::new(2.0, 0.0, 0.0)) } else { lost }),
             adcp: Some(adcp(Vector3::new(-2.0, 0.0, 0.0))),
             ..Default::default()
         });
@@ -314,8 +265,7 @@ mod tests {
         let believed = run(&DeadReckoningSpec::default(), 1001, 0.02, |c| Readings {
             attitude: Some(attitude(heading, roll, pitch)),
             dvl: Some(dvl(v_B)),
-            adcp: (c.step.is_multiple_of(50))
-                .then(|| adcp(R_WB.inverse() * flow_at(c.t_s()) - v_B)),
+            adcp: (c.step.is_multiple_of(50)).then(|| adcp(R_WB.inverse() * flow_at(c.t_s()) - v_B)),
             ..Default::default()
         });
         assert!((believed[0].flow.unwrap().velocity - Vector2::new(0.1, 0.0)).norm() < 1e-12);
@@ -323,32 +273,19 @@ mod tests {
             // A step of -0.12 m/s seen once a second through 10 s.
             let want = -0.12 * (1.0 - math::exp(-0.1 * n as f64));
             let got = believed[50 * n + 49].flow.unwrap();
-            assert!(
-                (got.velocity - Vector2::new(0.1, want)).norm() < 1e-12,
-                "{n}: {got:?}"
-            );
+            assert!((got.velocity - Vector2::new(0.1, want)).norm() < 1e-12, "{n}: {got:?}");
             assert!((got.age_s - 0.98).abs() < 1e-9);
         }
     }
 
     #[test]
     fn a_fix_moves_the_position_by_its_gain_and_says_so() {
-        let fix = LblFix {
-            position: start().position + Vector2::new(6.0, 8.0),
-        };
+        let fix = LblFix { position: start().position + Vector2::new(6.0, 8.0) };
         for gain in [1.0, 0.25] {
-            let spec = DeadReckoningSpec {
-                fix_gain: Fraction::new(gain),
-                ..Default::default()
-            };
-            let e = run(&spec, 3, 0.1, |c| Readings {
-                lbl: (c.step == 1).then_some(fix),
-                ..Default::default()
-            });
+            let spec = DeadReckoningSpec { fix_gain: Fraction::new(gain), ..Default::default() };
+            let e = run(&spec, 3, 0.1, |c| Readings { lbl: (c.step == 1).then_some(fix), ..Default::default() });
             assert!((e[1].fix_jump_m() - 10.0 * gain).abs() < 1e-9);
-            assert!(
-                (e[1].position - start().position - Vector2::new(6.0, 8.0) * gain).norm() < 1e-9
-            );
+            assert!((e[1].position - start().position - Vector2::new(6.0, 8.0) * gain).norm() < 1e-9);
             assert_eq!((e[0].fix_jump_m(), e[2].fix_jump_m()), (0.0, 0.0));
         }
     }
@@ -357,19 +294,10 @@ mod tests {
     fn depth_and_altitude_are_held_between_pings() {
         let e = run(&DeadReckoningSpec::default(), 3, 0.1, |c| Readings {
             depth: (c.step == 1).then_some(DepthReading { depth_m: 4.5 }),
-            altimeter: (c.step >= 1).then_some(AltimeterReading {
-                altitude_m: 2.0,
-                valid: c.step == 1,
-            }),
+            altimeter: (c.step >= 1).then_some(AltimeterReading { altitude_m: 2.0, valid: c.step == 1 }),
             ..Default::default()
         });
-        assert_eq!(
-            e.iter().map(|e| e.depth_m).collect::<Vec<_>>(),
-            [3.0, 4.5, 4.5]
-        );
-        assert_eq!(
-            e.iter().map(|e| e.altitude_m).collect::<Vec<_>>(),
-            [None, Some(2.0), Some(2.0)]
-        );
+        assert_eq!(e.iter().map(|e| e.depth_m).collect::<Vec<_>>(), [3.0, 4.5, 4.5]);
+        assert_eq!(e.iter().map(|e| e.altitude_m).collect::<Vec<_>>(), [None, Some(2.0), Some(2.0)]);
     }
 }

@@ -64,9 +64,7 @@ impl Estimator {
     #[must_use]
     pub fn new(spec: &EstimatorSpec, start: Start, dt_s: f64) -> Self {
         match spec {
-            EstimatorSpec::DeadReckoning(s) => {
-                Self::DeadReckoning(Box::new(DeadReckoning::new(s, start, dt_s)))
-            }
+            EstimatorSpec::DeadReckoning(s) => Self::DeadReckoning(Box::new(DeadReckoning::new(s, start, dt_s))),
         }
     }
 

@@ -39,11 +39,7 @@ pub struct LayerAwareSpec {
 
 impl Default for LayerAwareSpec {
     fn default() -> Self {
-        Self {
-            differs_kg_m3: Positive::new(0.5),
-            bin_m: Positive::new(0.25),
-            memory_s: Positive::new(3600.0),
-        }
+        Self { differs_kg_m3: Positive::new(0.5), bin_m: Positive::new(0.25), memory_s: Positive::new(3600.0) }
     }
 }
 
@@ -86,10 +82,7 @@ impl LayerWatch {
             let keep = math::exp(-(t_s - b.visited_s) / SMOOTH_S);
             density_kg_m3 + (b.density_kg_m3 - density_kg_m3) * keep
         });
-        let bin = Bin {
-            density_kg_m3,
-            visited_s: t_s,
-        };
+        let bin = Bin { density_kg_m3, visited_s: t_s };
         self.bins.insert(k, bin);
         let oldest_s = t_s - self.memory_s;
         self.bins.retain(|_, b| b.visited_s >= oldest_s);
@@ -162,10 +155,7 @@ mod tests {
         for depth in [0.6, 1.0, 1.8, 2.6, 2.9] {
             let got = w.density(depth).expect("passed through");
             // 5 kg/m4 over half a bin.
-            assert!(
-                (got - density(depth, 1.8)).abs() < 5.0 * 0.13,
-                "{depth}: {got}"
-            );
+            assert!((got - density(depth, 1.8)).abs() < 5.0 * 0.13, "{depth}: {got}");
         }
         // Not passed through: not known, not refused.
         assert!(!w.is_other(3.6) && !w.is_other(0.1));
@@ -174,10 +164,7 @@ mod tests {
 
     #[test]
     fn it_forgets_and_learns_anew() {
-        let spec = LayerAwareSpec {
-            memory_s: Positive::new(600.0),
-            ..Default::default()
-        };
+        let spec = LayerAwareSpec { memory_s: Positive::new(600.0), ..Default::default() };
         let mut w = LayerWatch::new(&spec);
         let t_s = dive(&mut w, 0.0, 0.3, 3.0, 1.8);
         assert!(w.is_other(1.0));

@@ -6,8 +6,7 @@ mod tests {
     use crate::handoff::Estimate;
     use crate::sense::camera::{Optics, OpticsSpec};
     use crate::sense::{
-        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite,
-        SensorsSpec,
+        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite, SensorsSpec,
     };
     use nalgebra::{Vector2, Vector3};
     use world::clock::Clock;
@@ -19,10 +18,7 @@ mod tests {
     const START: Vector2<f64> = Vector2::new(150.0, -500.0);
 
     fn instruments() -> SensorsSpec {
-        SensorsSpec::default()
-            .with(DvlSpec::default())
-            .with(AdcpSpec::default())
-            .with(CompassSpec::default())
+        SensorsSpec::default().with(DvlSpec::default()).with(AdcpSpec::default()).with(CompassSpec::default())
     }
 
     /// Southward below an interface 3 m down, northward above it.
@@ -46,22 +42,13 @@ mod tests {
 
     #[test]
     fn with_a_ctd_it_takes_no_flow_from_the_other_layer() {
-        let spec = instruments()
-            .with(DepthSpec::default())
-            .with(CtdSpec::default());
+        let spec = instruments().with(DepthSpec::default()).with(CtdSpec::default());
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
         let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 11, dt_s)).unwrap();
-        let start = Start {
-            position: START,
-            heading: east,
-            depth_m: 0.5,
-        };
-        let aware = DeadReckoningSpec {
-            layer_aware: Some(LayerAwareSpec::default()),
-            ..Default::default()
-        };
+        let start = Start { position: START, heading: east, depth_m: 0.5 };
+        let aware = DeadReckoningSpec { layer_aware: Some(LayerAwareSpec::default()), ..Default::default() };
         let mut e = DeadReckoning::new(&aware, start, dt_s);
         let mut clock = Clock::new(dt_s);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
@@ -109,11 +96,7 @@ mod tests {
         let dt_s = 0.04;
         // With this seed the heading bias is some 1 degree, the standard deviation of the specification.
         let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 12, dt_s)).unwrap();
-        let start = Start {
-            position: START,
-            heading: east,
-            depth_m,
-        };
+        let start = Start { position: START, heading: east, depth_m };
         let mut e = DeadReckoning::new(&DeadReckoningSpec::default(), start, dt_s);
         let mut clock = Clock::new(dt_s);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
@@ -147,22 +130,14 @@ mod tests {
         let alone = an_hour(None, 5.0);
         let (half, whole) = (error(&alone[44_999]), error(&alone[89_999]));
         // Bias and scale error are constant: the error grows with the way.
-        assert!(
-            whole > 20.0 && (whole / half - 2.0).abs() < 0.1,
-            "{half} m, {whole} m"
-        );
+        assert!(whole > 20.0 && (whole / half - 2.0).abs() < 0.1, "{half} m, {whole} m");
         let fixed = an_hour(Some(LblSpec::default()), 5.0);
-        let after_fixes: Vec<f64> = (fixed.iter())
-            .filter(|(_, e)| e.fix_jump_m() > 0.0)
-            .map(|x| error(x).powi(2))
-            .collect();
+        let after_fixes: Vec<f64> =
+            (fixed.iter()).filter(|(_, e)| e.fix_jump_m() > 0.0).map(|x| error(x).powi(2)).collect();
         // Just after a fix the error is that of the fix: 2 · 5² m² in the mean, five standard errors.
         let n = after_fixes.len() as f64;
         let mean = after_fixes.iter().sum::<f64>() / n;
-        assert!(
-            (mean / 50.0 - 1.0).abs() < 5.0 / n.sqrt(),
-            "{mean} m² over {n}"
-        );
+        assert!((mean / 50.0 - 1.0).abs() < 5.0 / n.sqrt(), "{mean} m² over {n}");
         // 1 in 4e5 fixes is off by more than 25 m; the drift since adds under 2 m a minute.
         assert!(fixed.iter().map(error).fold(0.0, f64::max) < 25.0 + 10.0);
     }

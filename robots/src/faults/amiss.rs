@@ -1,8 +1,6 @@
 //! Which instrument fails, and what the fault does to its readings.
 
-use super::instrument_spec::{
-    DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault,
-};
+use super::instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault};
 use nalgebra::Vector2;
 
 /// An instrument that can fail.
@@ -92,11 +90,7 @@ impl Amiss {
             Self::Biased(by, unit) => format!("off by {by} {unit}"),
             Self::Drifting(by, unit) => format!("drifting by {by} {unit} in each second"),
             Self::Displaced(by, over_s) => {
-                let over = if *over_s > 0.0 {
-                    format!(" within {over_s} s")
-                } else {
-                    String::new()
-                };
+                let over = if *over_s > 0.0 { format!(" within {over_s} s") } else { String::new() };
                 format!("displaced by {} m E, {} m N{over}", by.x, by.y)
             }
         }

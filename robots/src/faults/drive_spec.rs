@@ -66,9 +66,7 @@ impl DriveFault {
     pub(super) fn words(&self, unit: &str) -> String {
         match self {
             Self::Stuck => "stuck".to_string(),
-            Self::StuckAt(value) => format!("stuck at {} {unit}", value.get())
-                .trim_end()
-                .to_string(),
+            Self::StuckAt(value) => format!("stuck at {} {unit}", value.get()).trim_end().to_string(),
             Self::Weak(share) => format!("weak, with {} of each set-point", share.get()),
             Self::Dead => "dead".to_string(),
         }

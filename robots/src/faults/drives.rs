@@ -41,12 +41,9 @@ impl DriveFaults {
     pub fn new(faults: &[FaultSpec], dt_s: f64, drives: &[NamedDrive]) -> Self {
         let failing = |fault: &FaultSpec| match fault.what.of() {
             Of::Drive(name, how) => {
-                let place = drives
-                    .iter()
-                    .position(|d| d.name == name)
-                    .unwrap_or_else(|| {
-                        panic!("a fault is of the drive {name}, which the vehicle has not; check the scenario")
-                    });
+                let place = drives.iter().position(|d| d.name == name).unwrap_or_else(|| {
+                    panic!("a fault is of the drive {name}, which the vehicle has not; check the scenario")
+                });
                 Some(Failing {
                     span: fault.span(dt_s),
                     place,
@@ -64,9 +61,7 @@ impl DriveFaults {
     /// Alters the set-points of this step.
     pub fn alter(&mut self, clock: &Clock, set: &mut Actuation) {
         for fault in self.0.iter_mut().filter(|f| !f.span.is_over(clock)) {
-            let mut value = set
-                .drive(fault.place)
-                .expect("it is a drive of the vehicle that takes these set-points");
+            let mut value = set.drive(fault.place).expect("it is a drive of the vehicle that takes these set-points");
             if fault.span.holds(clock) {
                 value = match &fault.how {
                     DriveFault::Stuck => fault.last.unwrap_or(value),
@@ -97,11 +92,8 @@ mod tests {
         let mut faults = DriveFaults::new(faults, 1.0, &NamedDrive::fins());
         let step = |step: u64| {
             let t = step as f64;
-            let mut set = Actuation::Fins(ActuatorCommand {
-                rudder_rad: 0.01 * t,
-                stern_rad: -0.01 * t,
-                rpm: 100.0 * t,
-            });
+            let mut set =
+                Actuation::Fins(ActuatorCommand { rudder_rad: 0.01 * t, stern_rad: -0.01 * t, rpm: 100.0 * t });
             faults.alter(&Clock { step, dt_s: 1.0 }, &mut set);
             match set {
                 Actuation::Fins(set) => set,
@@ -116,23 +108,13 @@ mod tests {
         let healthy = flown(&[]);
         for (what, held) in [
             (Faulty::Rudder(FinFault::Stuck), [0.02; 4]),
-            (
-                Faulty::Rudder(FinFault::StuckAt(Finite::new(180.0 / 4.0))),
-                [std::f64::consts::FRAC_PI_4; 4],
-            ),
+            (Faulty::Rudder(FinFault::StuckAt(Finite::new(180.0 / 4.0))), [std::f64::consts::FRAC_PI_4; 4]),
             (Faulty::Rudder(FinFault::Dead), [0.0; 4]),
-            (
-                Faulty::Rudder(FinFault::Weak(Fraction::new(0.5))),
-                [0.015, 0.02, 0.025, 0.03],
-            ),
+            (Faulty::Rudder(FinFault::Weak(Fraction::new(0.5))), [0.015, 0.02, 0.025, 0.03]),
         ] {
             let set = flown(&[fault(3.0, Some(7.0), what.clone())]);
             for (t, (now, well)) in set.iter().zip(&healthy).enumerate() {
-                let want = if (3..7).contains(&t) {
-                    held[t - 3]
-                } else {
-                    well.rudder_rad
-                };
+                let want = if (3..7).contains(&t) { held[t - 3] } else { well.rudder_rad };
                 assert!((now.rudder_rad - want).abs() < 1e-12, "{what:?} at {t}");
                 assert_eq!((now.stern_rad, now.rpm), (well.stern_rad, well.rpm));
             }
@@ -161,16 +143,9 @@ mod tests {
 
     #[test]
     fn a_weak_thruster_is_weak_from_where_it_does_nothing() {
-        let thruster = NamedDrive {
-            name: "thruster".into(),
-            unit: DriveUnit::Own,
-            idle: 1500.0,
-        };
+        let thruster = NamedDrive { name: "thruster".into(), unit: DriveUnit::Own, idle: 1500.0 };
         let set = |how| {
-            let what = Faulty::Drive(DriveSpec {
-                link: "thruster".into(),
-                how,
-            });
+            let what = Faulty::Drive(DriveSpec { link: "thruster".into(), how });
             let drives = [thruster.clone()];
             let mut faults = DriveFaults::new(&[fault(0.0, None, what)], 1.0, &drives);
             let mut set = Actuation::Drives(DriveCommand::new(&[1900.0]));

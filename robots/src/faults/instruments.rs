@@ -63,28 +63,14 @@ impl SensorFaults {
         for (span, what, amiss) in &self.faults {
             if span.holds(clock) {
                 let lasted_s = span.lasted_s(clock);
-                alter(
-                    *what,
-                    amiss,
-                    lasted_s,
-                    self.scale.as_ref(),
-                    readings,
-                    &self.last,
-                );
+                alter(*what, amiss, lasted_s, self.scale.as_ref(), readings, &self.last);
             }
         }
         remember(&mut self.last, readings);
     }
 }
 
-fn alter(
-    what: Instrument,
-    amiss: &Amiss,
-    lasted_s: f64,
-    scale: Option<&Scale>,
-    now: &mut Readings,
-    last: &Readings,
-) {
+fn alter(what: Instrument, amiss: &Amiss, lasted_s: f64, scale: Option<&Scale>, now: &mut Readings, last: &Readings) {
     let off = amiss.off(lasted_s);
     match what {
         Instrument::Fluorometer => one(amiss, &mut now.chemical, &last.chemical, |r| {
@@ -136,21 +122,13 @@ fn one<T: Clone>(amiss: &Amiss, now: &mut Option<T>, last: &Option<T>, wrong: im
 /// A fluorometer's reading with more dye than there is, µg/L.
 fn more_dye(r: &ChemicalReading, by_ug_l: f64, scale: &Scale) -> ChemicalReading {
     let of_full_scale = (r.of_full_scale + by_ug_l / scale.full_ug_l).clamp(0.0, 1.0);
-    ChemicalReading {
-        volts: of_full_scale * scale.full_v,
-        of_full_scale,
-        detected: of_full_scale > scale.threshold,
-    }
+    ChemicalReading { volts: of_full_scale * scale.full_v, of_full_scale, detected: of_full_scale > scale.threshold }
 }
 
 /// Every echo farther away, m.
 fn farther(scan: &mut RangeScan, by_m: f64) {
-    let moved = |beam: &Beam| Beam {
-        echo_m: (beam.echo_m)
-            .map(|m| (m + by_m).max(0.0))
-            .filter(|m| *m <= scan.max_m),
-        ..*beam
-    };
+    let moved =
+        |beam: &Beam| Beam { echo_m: (beam.echo_m).map(|m| (m + by_m).max(0.0)).filter(|m| *m <= scan.max_m), ..*beam };
     scan.beams = scan.beams.iter().map(moved).collect();
 }
 

@@ -2,14 +2,13 @@
 
 use super::super::testing::fault;
 use super::super::{
-    DensityFault, DyeFault, EyeFault, Faulty, FixFault, HeadingFault, LieSpec, MetresFault,
-    SensorFaults, SpeedFault,
+    DensityFault, DyeFault, EyeFault, Faulty, FixFault, HeadingFault, LieSpec, MetresFault, SensorFaults, SpeedFault,
 };
 use crate::handoff::Readings;
 use crate::sense::camera::{Optics, OpticsSpec};
 use crate::sense::{
-    AdcpSpec, AltimeterSpec, Around, Asked, CompassSpec, CtdSpec, DepthSpec, DvlSpec,
-    FluorometerSpec, LblSpec, OnBoard, RangingSpec, SensorSuite, SensorsSpec, SidescanSpec,
+    AdcpSpec, AltimeterSpec, Around, Asked, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
+    OnBoard, RangingSpec, SensorSuite, SensorsSpec, SidescanSpec,
 };
 use nalgebra::{Vector2, Vector3};
 use world::clock::Clock;
@@ -35,11 +34,8 @@ impl Concentration for Faint {
 }
 
 fn sensors() -> SensorsSpec {
-    let hear_all = LblSpec {
-        period_s: Positive::new(5.0),
-        dropout: world::ranges::Fraction::new(0.0),
-        ..LblSpec::default()
-    };
+    let hear_all =
+        LblSpec { period_s: Positive::new(5.0), dropout: world::ranges::Fraction::new(0.0), ..LblSpec::default() };
     SensorsSpec::default()
         .with(FluorometerSpec::default())
         .with(DvlSpec::default())
@@ -50,11 +46,7 @@ fn sensors() -> SensorsSpec {
         .with(AltimeterSpec::default())
         .with(hear_all)
         .with(RangingSpec::default())
-        .with(SidescanSpec {
-            rate_hz: Positive::new(1.0),
-            always: true,
-            ..SidescanSpec::default()
-        })
+        .with(SidescanSpec { rate_hz: Positive::new(1.0), always: true, ..SidescanSpec::default() })
 }
 
 /// The readings of two minutes, `depth_m` deep over a bed at 8 m.
@@ -62,9 +54,7 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
     let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)));
     let on = OnBoard::new("auv0", 3, DT_S);
     let mut suite = SensorSuite::new(&sensors(), &mounts, on).unwrap();
-    let faults: Vec<_> = (what.into_iter())
-        .map(|what| fault(AT_S, Some(UNTIL_S), what))
-        .collect();
+    let faults: Vec<_> = (what.into_iter()).map(|what| fault(AT_S, Some(UNTIL_S), what)).collect();
     let mut faults = SensorFaults::new(&faults, &sensors(), DT_S);
     let optics = Optics::new(&OpticsSpec::default()).unwrap();
     let north = Heading::from_deg(0.0);
@@ -96,69 +86,34 @@ type Number = fn(&Readings) -> Option<f64>;
 fn cases() -> Vec<(Number, [Faulty; 4], [f64; 2])> {
     let (by, per_s) = (Finite::new(0.5), Finite::new(0.01));
     let metres = |wrap: fn(MetresFault) -> Faulty| {
-        [
-            MetresFault::Silent,
-            MetresFault::Stuck,
-            MetresFault::Biased(by),
-            MetresFault::Drifting(per_s),
-        ]
-        .map(wrap)
+        [MetresFault::Silent, MetresFault::Stuck, MetresFault::Biased(by), MetresFault::Drifting(per_s)].map(wrap)
     };
     let speed = |wrap: fn(SpeedFault) -> Faulty| {
-        [
-            SpeedFault::Silent,
-            SpeedFault::Stuck,
-            SpeedFault::Biased(by),
-            SpeedFault::Drifting(per_s),
-        ]
-        .map(wrap)
+        [SpeedFault::Silent, SpeedFault::Stuck, SpeedFault::Biased(by), SpeedFault::Drifting(per_s)].map(wrap)
     };
     let plain = [0.5, 0.01];
     vec![
         (
             |r| r.chemical.map(|r| 10.0 * r.of_full_scale),
-            [
-                DyeFault::Silent,
-                DyeFault::Stuck,
-                DyeFault::Biased(by),
-                DyeFault::Drifting(per_s),
-            ]
-            .map(Faulty::Fluorometer),
+            [DyeFault::Silent, DyeFault::Stuck, DyeFault::Biased(by), DyeFault::Drifting(per_s)]
+                .map(Faulty::Fluorometer),
             plain,
         ),
         (
             // From south, so that it does not jump at north.
             |r| r.attitude.map(|r| r.heading.opposite().deg()),
-            [
-                HeadingFault::Silent,
-                HeadingFault::Stuck,
-                HeadingFault::Biased(by),
-                HeadingFault::Drifting(per_s),
-            ]
-            .map(Faulty::Compass),
+            [HeadingFault::Silent, HeadingFault::Stuck, HeadingFault::Biased(by), HeadingFault::Drifting(per_s)]
+                .map(Faulty::Compass),
             plain,
         ),
         (|r| r.depth.map(|r| r.depth_m), metres(Faulty::Depth), plain),
-        (
-            |r| r.altimeter.map(|r| r.altitude_m),
-            metres(Faulty::Altimeter),
-            plain,
-        ),
+        (|r| r.altimeter.map(|r| r.altitude_m), metres(Faulty::Altimeter), plain),
         (|r| r.dvl.map(|r| r.v_body_m_s.x), speed(Faulty::Dvl), plain),
-        (
-            |r| r.adcp.map(|r| r.v_body_m_s.x),
-            speed(Faulty::Adcp),
-            plain,
-        ),
+        (|r| r.adcp.map(|r| r.v_body_m_s.x), speed(Faulty::Adcp), plain),
         (
             |r| r.ctd.map(|r| r.density_kg_m3),
-            [
-                DensityFault::Silent,
-                DensityFault::Stuck,
-                DensityFault::Biased(by),
-                DensityFault::Drifting(per_s),
-            ]
-            .map(Faulty::Ctd),
+            [DensityFault::Silent, DensityFault::Stuck, DensityFault::Biased(by), DensityFault::Drifting(per_s)]
+                .map(Faulty::Ctd),
             plain,
         ),
         (
@@ -177,11 +132,7 @@ fn cases() -> Vec<(Number, [Faulty; 4], [f64; 2])> {
 }
 
 fn lie(east_m: f64, over_s: f64) -> FixFault {
-    FixFault::Lie(LieSpec {
-        east_m: Finite::new(east_m),
-        north_m: Finite::new(0.0),
-        over_s: NonNegative::new(over_s),
-    })
+    FixFault::Lie(LieSpec { east_m: Finite::new(east_m), north_m: Finite::new(0.0), over_s: NonNegative::new(over_s) })
 }
 
 /// Readings before and after the fault are those of a healthy instrument; so are all others.
@@ -215,23 +166,14 @@ fn every_instrument_with_every_fault() {
                 .filter(|(_, well, _)| well.is_some())
                 .collect()
         };
-        assert!(
-            within(&silent).iter().all(|(.., ill)| ill.is_none()),
-            "{said}"
-        );
+        assert!(within(&silent).iter().all(|(.., ill)| ill.is_none()), "{said}");
         let last = healthy[..from].iter().rev().find_map(number);
-        assert!(
-            within(&stuck).iter().all(|(.., ill)| *ill == last),
-            "{said}"
-        );
+        assert!(within(&stuck).iter().all(|(.., ill)| *ill == last), "{said}");
         for (what, error) in [(biased, (bias, 0.0)), (drifting, (0.0, drift))] {
             for (t_s, well, ill) in within(&what) {
                 let want = well.expect("there") + error.0 + error.1 * (t_s - AT_S);
                 let got = ill.expect("as often as before");
-                assert!(
-                    (got - want).abs() < 1e-9,
-                    "{what:?} at {t_s}: {got}, {want}"
-                );
+                assert!((got - want).abs() < 1e-9, "{what:?} at {t_s}: {got}, {want}");
             }
         }
     }
@@ -244,14 +186,8 @@ fn eyes_fall_silent_or_stick() {
     let silent = read(Some(Faulty::Sidescan(EyeFault::Silent)), 5.0);
     assert!(silent[from..until].iter().all(|r| r.sidescan.is_none()));
     let stuck = read(Some(Faulty::Sidescan(EyeFault::Stuck)), 5.0);
-    let last = healthy[..from]
-        .iter()
-        .rev()
-        .find_map(|r| r.sidescan.clone());
-    let pings: Vec<_> = stuck[from..until]
-        .iter()
-        .filter_map(|r| r.sidescan.clone())
-        .collect();
+    let last = healthy[..from].iter().rev().find_map(|r| r.sidescan.clone());
+    let pings: Vec<_> = stuck[from..until].iter().filter_map(|r| r.sidescan.clone()).collect();
     assert_eq!(pings.len(), 40);
     assert!(pings.iter().all(|p| Some(p) == last.as_ref()));
 }
@@ -299,24 +235,13 @@ fn a_biased_ranging_moves_its_echoes() {
     let scan = |echoes: [Option<f64>; 3]| RangeScan {
         p_BS: Vector3::zeros(),
         max_m: 20.0,
-        beams: echoes
-            .map(|echo_m| Beam {
-                dir_B: Vector3::x(),
-                echo_m,
-            })
-            .into(),
+        beams: echoes.map(|echo_m| Beam { dir_B: Vector3::x(), echo_m }).into(),
     };
-    for (by, want) in [
-        (5.0, [Some(8.0), None, None]),
-        (-5.0, [Some(0.0), None, Some(12.0)]),
-    ] {
+    for (by, want) in [(5.0, [Some(8.0), None, None]), (-5.0, [Some(0.0), None, Some(12.0)])] {
         let what = Faulty::Ranging(MetresFault::Biased(Finite::new(by)));
         let faults = [fault(0.0, None, what)];
         let mut faults = SensorFaults::new(&faults, &SensorsSpec::default(), DT_S);
-        let mut readings = Readings {
-            ranging: Some(scan([Some(3.0), None, Some(17.0)])),
-            ..Readings::default()
-        };
+        let mut readings = Readings { ranging: Some(scan([Some(3.0), None, Some(17.0)])), ..Readings::default() };
         faults.alter(&Clock::new(DT_S), &mut readings);
         assert_eq!(readings.ranging, Some(scan(want)));
     }
@@ -330,10 +255,8 @@ fn an_instrument_that_sticks_before_its_first_reading_sticks_at_that() {
     let fixes: Vec<_> = (0..4)
         .map(|step| {
             let position = Vector2::new(step as f64, 0.0);
-            let mut readings = Readings {
-                lbl: (step % 2 == 1).then_some(crate::handoff::LblFix { position }),
-                ..Readings::default()
-            };
+            let mut readings =
+                Readings { lbl: (step % 2 == 1).then_some(crate::handoff::LblFix { position }), ..Readings::default() };
             faults.alter(&Clock { step, dt_s: DT_S }, &mut readings);
             readings.lbl.map(|f| f.position.x)
         })

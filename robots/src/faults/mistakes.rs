@@ -23,19 +23,11 @@ pub struct Mistake {
 /// All mistakes in the faults of a robot with these instruments. `drives` are those of its vehicle; without them they
 /// are not checked.
 #[must_use]
-pub fn mistakes(
-    faults: &[FaultSpec],
-    sensors: &SensorsSpec,
-    drives: Option<&[NamedDrive]>,
-) -> Vec<Mistake> {
+pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[NamedDrive]>) -> Vec<Mistake> {
     let mut found = Vec::new();
     for (i, fault) in faults.iter().enumerate() {
         let mut say = |field: &str, problem: String, help: Option<String>| {
-            found.push(Mistake {
-                field: format!("faults[{i}].{field}"),
-                problem,
-                help,
-            });
+            found.push(Mistake { field: format!("faults[{i}].{field}"), problem, help });
         };
         let at_s = fault.at_s.get();
         if let Some(until_s) = fault.until_s
@@ -65,11 +57,9 @@ pub fn mistakes(
                 }
             }
         }
-        let twin = (faults[..i].iter())
-            .position(|other| of_one_thing(fault, other) && fault.overlaps(other));
+        let twin = (faults[..i].iter()).position(|other| of_one_thing(fault, other) && fault.overlaps(other));
         if let Some(j) = twin {
-            let problem =
-                format!("holds at the same time as faults[{j}], which is of the same thing");
+            let problem = format!("holds at the same time as faults[{j}], which is of the same thing");
             let help = "a thing has one fault at a time: end the first with until_s, or begin the second later";
             say("what", problem, Some(help.to_string()));
         }
@@ -79,36 +69,25 @@ pub fn mistakes(
 
 fn lacks(what: Instrument) -> String {
     match what {
-        Instrument::Lbl => {
-            "there are no position fixes: the robot carries no lbl, which makes them".to_string()
-        }
+        Instrument::Lbl => "there are no position fixes: the robot carries no lbl, which makes them".to_string(),
         other => format!("the robot carries no {}", other.field()),
     }
 }
 
 fn on_board(sensors: &SensorsSpec) -> String {
     let names: Vec<&str> = sensors.iter().map(|s| s.name()).collect();
-    if names.is_empty() {
-        "nothing".to_string()
-    } else {
-        names.join(", ")
-    }
+    if names.is_empty() { "nothing".to_string() } else { names.join(", ") }
 }
 
 /// Why a drive of this name cannot fail like this: the field below `what`, the problem and the cure.
-fn misfit(
-    all: &[NamedDrive],
-    name: &str,
-    how: &DriveFault,
-) -> Option<(Option<&'static str>, String, String)> {
+fn misfit(all: &[NamedDrive], name: &str, how: &DriveFault) -> Option<(Option<&'static str>, String, String)> {
     let Some(drive) = all.iter().find(|d| d.name == name) else {
         if all.is_empty() {
             let problem = format!(
                 "a kinematic vehicle has no {} that could fail: it moves as its helm asks",
                 name.replace('_', " ")
             );
-            let help =
-                "take a vehicle with drives, such as `vehicle: Remus100()`, or leave the fault out";
+            let help = "take a vehicle with drives, such as `vehicle: Remus100()`, or leave the fault out";
             return Some((None, problem, help.to_string()));
         }
         let names: Vec<&str> = all.iter().map(|d| d.name.as_str()).collect();
@@ -152,10 +131,7 @@ mod tests {
     }
 
     fn drive(link: &str, how: DriveFault) -> Faulty {
-        Faulty::Drive(DriveSpec {
-            link: link.to_string(),
-            how,
-        })
+        Faulty::Drive(DriveSpec { link: link.to_string(), how })
     }
 
     #[test]
@@ -184,38 +160,25 @@ mod tests {
                 "a kinematic vehicle has no rudder that could fail: it moves as its helm asks",
             ),
             (
-                vec![
-                    fault(0.0, None, compass()),
-                    fault(0.0, None, drive("ruder", DriveFault::Dead)),
-                ],
+                vec![fault(0.0, None, compass()), fault(0.0, None, drive("ruder", DriveFault::Dead))],
                 fins,
                 "faults[1].what.link",
                 "the vehicle has no drive \"ruder\"",
             ),
             (
-                vec![fault(
-                    0.0,
-                    None,
-                    drive("rudder", DriveFault::StuckAt(Finite::new(100.0))),
-                )],
+                vec![fault(0.0, None, drive("rudder", DriveFault::StuckAt(Finite::new(100.0))))],
                 fins,
                 "faults[0].what.how",
                 "must be from -90 to 90 degrees, got 100",
             ),
             (
-                vec![
-                    fault(0.0, Some(20.0), rudder()),
-                    fault(19.0, None, drive("rudder", DriveFault::Dead)),
-                ],
+                vec![fault(0.0, Some(20.0), rudder()), fault(19.0, None, drive("rudder", DriveFault::Dead))],
                 fins,
                 "faults[1].what",
                 "holds at the same time as faults[0], which is of the same thing",
             ),
         ] {
-            assert_eq!(
-                told(&faults, set),
-                [(field.to_string(), problem.to_string())]
-            );
+            assert_eq!(told(&faults, set), [(field.to_string(), problem.to_string())]);
         }
     }
 
@@ -225,11 +188,7 @@ mod tests {
             fault(0.0, Some(20.0), Faulty::Compass(HeadingFault::Silent)),
             fault(20.0, None, Faulty::Compass(HeadingFault::Stuck)),
             fault(0.0, None, Faulty::Rudder(FinFault::Dead)),
-            fault(
-                0.0,
-                None,
-                drive("propeller", DriveFault::StuckAt(Finite::new(900.0))),
-            ),
+            fault(0.0, None, drive("propeller", DriveFault::StuckAt(Finite::new(900.0)))),
         ];
         assert_eq!(told(&faults, &NamedDrive::fins()), []);
     }

@@ -18,9 +18,7 @@ mod testing;
 
 pub use drive_spec::{DriveFault, DriveSpec, FinFault, PropellerFault};
 pub use drives::DriveFaults;
-pub use instrument_spec::{
-    DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, LieSpec, MetresFault, SpeedFault,
-};
+pub use instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, LieSpec, MetresFault, SpeedFault};
 pub use instruments::SensorFaults;
 pub use mistakes::{Mistake, mistakes};
 pub use span::Span;

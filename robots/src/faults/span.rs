@@ -20,11 +20,7 @@ impl Span {
     #[must_use]
     pub fn new(at_s: f64, until_s: Option<f64>, dt_s: f64) -> Self {
         let step = |s: f64| (s / dt_s - NEAR).ceil().max(0.0) as u64;
-        Self {
-            at_s,
-            from: step(at_s),
-            until: until_s.map(step),
-        }
+        Self { at_s, from: step(at_s), until: until_s.map(step) }
     }
 
     /// Whether it holds now.
@@ -53,9 +49,7 @@ mod tests {
     /// The steps of the first thousand in which it holds.
     fn steps(at_s: f64, until_s: Option<f64>, dt_s: f64) -> (Option<u64>, usize) {
         let span = Span::new(at_s, until_s, dt_s);
-        let held: Vec<u64> = (0..1000)
-            .filter(|&step| span.holds(&Clock { step, dt_s }))
-            .collect();
+        let held: Vec<u64> = (0..1000).filter(|&step| span.holds(&Clock { step, dt_s })).collect();
         (held.first().copied(), held.len())
     }
 

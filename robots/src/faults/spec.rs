@@ -2,9 +2,7 @@
 
 use super::amiss::{Amiss, Instrument};
 use super::drive_spec::{DriveFault, DriveSpec, FinFault, PropellerFault};
-use super::instrument_spec::{
-    DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault,
-};
+use super::instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault};
 use super::span::Span;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -135,14 +133,8 @@ mod tests {
     fn a_fault_is_said_in_words() {
         let five = Finite::new(5.0);
         for (what, words) in [
-            (
-                Faulty::Fluorometer(DyeFault::Silent),
-                "fluorometer silent".to_string(),
-            ),
-            (
-                Faulty::Compass(HeadingFault::Biased(five)),
-                "compass off by 5 degrees".to_string(),
-            ),
+            (Faulty::Fluorometer(DyeFault::Silent), "fluorometer silent".to_string()),
+            (Faulty::Compass(HeadingFault::Biased(five)), "compass off by 5 degrees".to_string()),
             (
                 Faulty::Dvl(SpeedFault::Drifting(Finite::new(-0.01))),
                 "Doppler log drifting by -0.01 m/s in each second".to_string(),
@@ -155,19 +147,13 @@ mod tests {
                 })),
                 "position fixes displaced by 20 m E, -10 m N within 60 s".to_string(),
             ),
-            (
-                Faulty::SternPlane(FinFault::StuckAt(five)),
-                "stern plane stuck at 5 degrees".to_string(),
-            ),
+            (Faulty::SternPlane(FinFault::StuckAt(five)), "stern plane stuck at 5 degrees".to_string()),
             (
                 Faulty::Propeller(PropellerFault::Weak(Fraction::new(0.5))),
                 "propeller weak, with 0.5 of each set-point".to_string(),
             ),
             (
-                Faulty::Drive(DriveSpec {
-                    link: "rudder".into(),
-                    how: DriveFault::StuckAt(five),
-                }),
+                Faulty::Drive(DriveSpec { link: "rudder".into(), how: DriveFault::StuckAt(five) }),
                 "rudder stuck at 5".to_string(),
             ),
         ] {

@@ -14,23 +14,13 @@ use world::area::Sides;
 use world::units::Heading;
 
 /// The course to take instead of a commanded course at `position`.
-pub(super) fn cage(
-    course: Heading,
-    position: Vector2<f64>,
-    sides: &Sides,
-    width_m: f64,
-) -> Heading {
+pub(super) fn cage(course: Heading, position: Vector2<f64>, sides: &Sides, width_m: f64) -> Heading {
     let wanted = course.unit();
     altered(wanted, position, sides, width_m).unwrap_or_else(|| Heading::of(wanted))
 }
 
 /// The course to take instead of one with this unit vector; `None` if no edge stands against it.
-pub(super) fn altered(
-    wanted: Vector2<f64>,
-    position: Vector2<f64>,
-    sides: &Sides,
-    width_m: f64,
-) -> Option<Heading> {
+pub(super) fn altered(wanted: Vector2<f64>, position: Vector2<f64>, sides: &Sides, width_m: f64) -> Option<Heading> {
     let (nearest_m, normal) = sides.edge_distance(position);
     if nearest_m < 0.0 {
         return Some(Heading::of(-normal));
@@ -63,21 +53,12 @@ mod tests {
     use world::area::Area;
 
     fn duck() -> Area {
-        Area {
-            centre: Vector2::new(3.0, -7.0),
-            length_m: 1094.0,
-            width_m: 367.0,
-            axis: Heading::from_deg(340.0),
-        }
+        Area { centre: Vector2::new(3.0, -7.0), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) }
     }
 
     #[test]
     fn half_the_outward_part_at_half_width() {
-        let area = Area {
-            axis: Heading::from_deg(0.0),
-            centre: Vector2::zeros(),
-            ..duck()
-        };
+        let area = Area { axis: Heading::from_deg(0.0), centre: Vector2::zeros(), ..duck() };
         // North-east at 2.5 m from the north edge: north part halved, atan2(1, 0.5) = 63.43 deg.
         let p = Vector2::new(0.0, 547.0 - 2.5);
         let c = cage(Heading::from_deg(45.0), p, &area.sides(), 5.0);

@@ -24,11 +24,7 @@ pub(super) fn compensate(
     if through_water.norm() <= limit_m_s {
         let speed = through_water.norm();
         // If drift alone gives the wanted speed, keep the nose on the course.
-        let heading = if speed > 1e-9 {
-            Heading::of(through_water)
-        } else {
-            course
-        };
+        let heading = if speed > 1e-9 { Heading::of(through_water) } else { course };
         return (heading, speed);
     }
     let across = flow - along * flow.dot(&along);

@@ -38,11 +38,7 @@ impl GoToPoint {
     }
 
     /// Course to take, and whether the point has been reached; `moving` gives the course over ground.
-    pub(super) fn step(
-        &mut self,
-        position: Vector2<f64>,
-        moving: impl FnOnce() -> Heading,
-    ) -> (Heading, bool) {
+    pub(super) fn step(&mut self, position: Vector2<f64>, moving: impl FnOnce() -> Heading) -> (Heading, bool) {
         let to = self.point - position;
         let distance_m = to.norm();
         self.arrived |= distance_m < self.radius_m;
@@ -74,12 +70,7 @@ mod tests {
 
     #[test]
     fn all_four_quadrants() {
-        for (east, north, deg) in [
-            (1.0, 1.0, 45.0),
-            (1.0, -1.0, 135.0),
-            (-1.0, -1.0, 225.0),
-            (-1.0, 1.0, 315.0),
-        ] {
+        for (east, north, deg) in [(1.0, 1.0, 45.0), (1.0, -1.0, 135.0), (-1.0, -1.0, 225.0), (-1.0, 1.0, 315.0)] {
             let mut g = GoToPoint::new(Vector2::new(50.0 * east, 50.0 * north), 10.0, 15.0);
             let (h, arrived) = g.step(Vector2::zeros(), || Heading::from_deg(0.0));
             assert!((h.deg() - deg).abs() < 1e-9 && !arrived);

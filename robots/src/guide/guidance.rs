@@ -16,9 +16,7 @@ use super::hover::{Hovering, Wanted};
 use super::known::Known;
 use super::rate_filter::RateFilter;
 use super::spec::GuidanceSpec;
-use crate::handoff::{
-    ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, MoveSetpoint, Setpoint,
-};
+use crate::handoff::{ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, MoveSetpoint, Setpoint};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use world::area::{Area, Sides};
@@ -102,13 +100,7 @@ impl Guidance {
 
     /// The command for this tick and the state of the goal. A new `goal.id` restarts the manoeuvre; under the same id
     /// only the course may change.
-    pub fn step(
-        &mut self,
-        est: &Estimate,
-        goal: &Goal,
-        area: &Area,
-        dt_s: f64,
-    ) -> (Command, GuidanceStatus) {
+    pub fn step(&mut self, est: &Estimate, goal: &Goal, area: &Area, dt_s: f64) -> (Command, GuidanceStatus) {
         let known = self.sides.as_deref().copied();
         let known = known.filter(|sides| sides.area() == area);
         let sides = &known.unwrap_or_else(|| area.sides());
@@ -134,10 +126,7 @@ impl Guidance {
         self.aborted |= lost(est.position, sides, self.spec.abort_outside_m.get());
         if let Mode::Hover(hovering) = &mut self.mode {
             hovering.adjust(goal.manoeuvre);
-            let at = Pose {
-                position: est.position,
-                heading: est.attitude.heading,
-            };
+            let at = Pose { position: est.position, heading: est.attitude.heading };
             let wanted = hovering.step(at, goal.speed_m_s);
             self.done |= wanted.done;
             return (self.moved(est, goal, &wanted, sides), self.status(goal.id));
@@ -179,11 +168,7 @@ impl Guidance {
     }
 
     fn status(&self, goal_id: u32) -> GuidanceStatus {
-        GuidanceStatus {
-            goal_id,
-            done: self.done,
-            aborted: self.aborted,
-        }
+        GuidanceStatus { goal_id, done: self.done, aborted: self.aborted }
     }
 
     fn start(&self, est: &Estimate, goal: &Goal) -> Mode {
@@ -191,16 +176,9 @@ impl Guidance {
         let gain_rad_m = s.line_gain_deg_m.get().to_radians();
         let capture_rad = s.line_capture_deg.get().to_radians();
         let to_pose = |end: Pose| {
-            let from = Pose {
-                position: est.position,
-                heading: course_over_ground(est),
-            };
-            let limits = FollowerLimits {
-                radius_m: s.turn_radius_m.get(),
-                gain_rad_m,
-                capture_rad,
-                replan_m: s.replan_m.get(),
-            };
+            let from = Pose { position: est.position, heading: course_over_ground(est) };
+            let limits =
+                FollowerLimits { radius_m: s.turn_radius_m.get(), gain_rad_m, capture_rad, replan_m: s.replan_m.get() };
             Follower::new(from, end, goal.speed_m_s, limits)
         };
         let to_point = |point, radius: Option<f64>| {
@@ -220,9 +198,7 @@ impl Guidance {
         };
         if self.hovers {
             let line = match goal.manoeuvre {
-                Manoeuvre::FollowLine { from, to } if (to - from).norm() >= SHORTEST_LINE_M => {
-                    Some(follow(from, to))
-                }
+                Manoeuvre::FollowLine { from, to } if (to - from).norm() >= SHORTEST_LINE_M => Some(follow(from, to)),
                 _ => None,
             };
             return Mode::Hover(Hovering::new(goal.manoeuvre, line, s.arrive_m.get()));
@@ -230,24 +206,16 @@ impl Guidance {
         match goal.manoeuvre {
             Manoeuvre::GoToPoint { point, radius_m } => to_point(point, radius_m),
             Manoeuvre::Hold { point, .. } => to_point(point, None),
-            Manoeuvre::SlideTo {
-                point, radius_m, ..
-            } => to_point(point, radius_m),
-            Manoeuvre::FollowLine { from, to } if (to - from).norm() < SHORTEST_LINE_M => {
-                to_point(to, None)
-            }
+            Manoeuvre::SlideTo { point, radius_m, .. } => to_point(point, radius_m),
+            Manoeuvre::FollowLine { from, to } if (to - from).norm() < SHORTEST_LINE_M => to_point(to, None),
             Manoeuvre::FollowLine { from, to } => {
                 let line = follow(from, to);
-                let end = Pose {
-                    position: from,
-                    heading: line.direction(),
-                };
+                let end = Pose { position: from, heading: line.direction() };
                 Mode::ToLine(to_pose(end), line)
             }
-            Manoeuvre::GoToPointWithHeading { point, heading } => Mode::ToPose(to_pose(Pose {
-                position: point,
-                heading,
-            })),
+            Manoeuvre::GoToPointWithHeading { point, heading } => {
+                Mode::ToPose(to_pose(Pose { position: point, heading }))
+            }
             _ => Mode::Free,
         }
     }
@@ -290,40 +258,21 @@ impl Guidance {
 fn straight(goal: &Goal) -> Option<Command> {
     let vertical = goal.vertical;
     Some(match goal.manoeuvre {
-        Manoeuvre::Direct {
-            rudder_rad,
-            stern_rad,
-            rpm,
-        } => Command::Direct(ActuatorCommand {
-            rudder_rad,
-            stern_rad,
-            rpm,
-        }),
+        Manoeuvre::Direct { rudder_rad, stern_rad, rpm } => {
+            Command::Direct(ActuatorCommand { rudder_rad, stern_rad, rpm })
+        }
         Manoeuvre::Drives(set) => Command::Drives(set),
-        Manoeuvre::Steer { heading } => Command::Steer(Setpoint {
-            heading,
-            water_speed_m_s: goal.speed_m_s,
-            vertical,
-        }),
-        Manoeuvre::Slide {
-            heading,
-            over_ground_m_s,
-        } => Command::Move(MoveSetpoint {
-            heading,
-            over_ground_m_s,
-            vertical,
-        }),
+        Manoeuvre::Steer { heading } => Command::Steer(Setpoint { heading, water_speed_m_s: goal.speed_m_s, vertical }),
+        Manoeuvre::Slide { heading, over_ground_m_s } => {
+            Command::Move(MoveSetpoint { heading, over_ground_m_s, vertical })
+        }
         _ => return None,
     })
 }
 
 fn course_over_ground(est: &Estimate) -> Heading {
     let v = est.v_ground();
-    if v.norm() > SLOWEST_COURSE_M_S {
-        Heading::of(v)
-    } else {
-        est.attitude.heading
-    }
+    if v.norm() > SLOWEST_COURSE_M_S { Heading::of(v) } else { est.attitude.heading }
 }
 
 #[cfg(test)]

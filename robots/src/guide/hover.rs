@@ -48,12 +48,7 @@ pub(super) struct Hovering {
 impl Hovering {
     /// Begins a manoeuvre; `line` is the follower of its line, if it has one.
     pub(super) fn new(manoeuvre: Manoeuvre, line: Option<FollowLine>, arrive_m: f64) -> Self {
-        Self {
-            manoeuvre,
-            line,
-            on_line: false,
-            arrive_m,
-        }
+        Self { manoeuvre, line, on_line: false, arrive_m }
     }
 
     /// Only the course of a manoeuvre may change in between.
@@ -70,26 +65,14 @@ impl Hovering {
             let distance_m = way.norm();
             let along = (distance_m > NEAR_M).then(|| Heading::of(way));
             let speed = speed_m_s.min(APPROACH_1_S * distance_m);
-            let velocity_m_s = if distance_m > 0.0 {
-                way * (speed / distance_m)
-            } else {
-                Vector2::zeros()
-            };
-            Wanted {
-                velocity_m_s,
-                heading: heading.or(along),
-                done: distance_m < reached_m,
-            }
+            let velocity_m_s = if distance_m > 0.0 { way * (speed / distance_m) } else { Vector2::zeros() };
+            Wanted { velocity_m_s, heading: heading.or(along), done: distance_m < reached_m }
         };
         match self.manoeuvre {
-            Manoeuvre::GoToPoint { point, radius_m } => {
-                to(point, radius_m.unwrap_or(self.arrive_m), None)
+            Manoeuvre::GoToPoint { point, radius_m } => to(point, radius_m.unwrap_or(self.arrive_m), None),
+            Manoeuvre::SlideTo { point, radius_m, heading } => {
+                to(point, radius_m.unwrap_or(self.arrive_m), Some(heading))
             }
-            Manoeuvre::SlideTo {
-                point,
-                radius_m,
-                heading,
-            } => to(point, radius_m.unwrap_or(self.arrive_m), Some(heading)),
             Manoeuvre::Hold { point, heading } => to(point, HELD_M, heading),
             Manoeuvre::GoToPointWithHeading { point, heading } => {
                 let near = (point - at.position).norm() < HELD_M.max(NEAR_M);
@@ -102,10 +85,7 @@ impl Hovering {
                     let begun = to(from, HELD_M, None);
                     self.on_line |= begun.done;
                     if !self.on_line {
-                        return Wanted {
-                            done: false,
-                            ..begun
-                        };
+                        return Wanted { done: false, ..begun };
                     }
                     Wanted {
                         velocity_m_s: line.course(at.position).unit() * speed_m_s,
@@ -115,19 +95,12 @@ impl Hovering {
                 }
                 None => to(from, self.arrive_m, None),
             },
-            Manoeuvre::Course { course } => Wanted {
-                velocity_m_s: course.unit() * speed_m_s,
-                heading: Some(course),
-                done: false,
-            },
-            Manoeuvre::Direct { .. }
-            | Manoeuvre::Steer { .. }
-            | Manoeuvre::Slide { .. }
-            | Manoeuvre::Drives(_) => Wanted {
-                velocity_m_s: Vector2::zeros(),
-                heading: None,
-                done: false,
-            },
+            Manoeuvre::Course { course } => {
+                Wanted { velocity_m_s: course.unit() * speed_m_s, heading: Some(course), done: false }
+            }
+            Manoeuvre::Direct { .. } | Manoeuvre::Steer { .. } | Manoeuvre::Slide { .. } | Manoeuvre::Drives(_) => {
+                Wanted { velocity_m_s: Vector2::zeros(), heading: None, done: false }
+            }
         }
     }
 }
@@ -137,18 +110,12 @@ mod tests {
     use super::*;
 
     fn at(east: f64, north: f64) -> Pose {
-        Pose {
-            position: Vector2::new(east, north),
-            heading: Heading::from_deg(0.0),
-        }
+        Pose { position: Vector2::new(east, north), heading: Heading::from_deg(0.0) }
     }
 
     #[test]
     fn it_slows_down_towards_a_point_and_holds_it() {
-        let hold = Manoeuvre::Hold {
-            point: Vector2::new(10.0, 0.0),
-            heading: None,
-        };
+        let hold = Manoeuvre::Hold { point: Vector2::new(10.0, 0.0), heading: None };
         let mut hovering = Hovering::new(hold, None, 10.0);
         let far = hovering.step(at(0.0, 0.0), 0.5);
         assert!((far.velocity_m_s - Vector2::new(0.5, 0.0)).norm() < 1e-12);
@@ -163,11 +130,7 @@ mod tests {
     #[test]
     fn it_slides_with_its_heading_held() {
         let north = Heading::from_deg(0.0);
-        let slide = Manoeuvre::SlideTo {
-            point: Vector2::new(5.0, 0.0),
-            radius_m: None,
-            heading: north,
-        };
+        let slide = Manoeuvre::SlideTo { point: Vector2::new(5.0, 0.0), radius_m: None, heading: north };
         let wanted = Hovering::new(slide, None, 10.0).step(at(0.0, 0.0), 0.3);
         assert_eq!(wanted.heading, Some(north));
         assert!((wanted.velocity_m_s - Vector2::new(0.3, 0.0)).norm() < 1e-12);

@@ -24,11 +24,7 @@ impl Known {
     pub(super) fn of(course: Heading) -> Self {
         let unit = course.unit();
         let again = Heading::of(unit);
-        Self {
-            course,
-            unit,
-            again: (again, again.unit()),
-        }
+        Self { course, unit, again: (again, again.unit()) }
     }
 
     /// Exchanges it for another course, unless that has the same bits.

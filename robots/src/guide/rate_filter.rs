@@ -18,10 +18,7 @@ pub(super) struct RateFilter {
 
 impl RateFilter {
     pub(super) fn new(rate_rad_s: f64) -> Self {
-        Self {
-            rate_rad_s,
-            last: None,
-        }
+        Self { rate_rad_s, last: None }
     }
 
     /// Forgets the last command: the next one starts from the vehicle's heading.

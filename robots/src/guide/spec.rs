@@ -48,8 +48,7 @@ impl GuidanceSpec {
     #[must_use]
     pub fn tightest_turn_m(&self) -> f64 {
         let rate_rad_s = self.heading_rate_deg_s.get().to_radians();
-        (self.water_speed_limit_m_s.get().min(TURNING_M_S) / rate_rad_s)
-            .min(self.turn_radius_m.get())
+        (self.water_speed_limit_m_s.get().min(TURNING_M_S) / rate_rad_s).min(self.turn_radius_m.get())
     }
 }
 

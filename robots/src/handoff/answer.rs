@@ -1,8 +1,6 @@
 //! What a searcher outside this program answers, when its robot or gantry asks it.
 
-use super::{
-    Behaviour, Decision, Declaration, GantryBehaviour, GantryDecision, Manoeuvre, Outcome, Vertical,
-};
+use super::{Behaviour, Decision, Declaration, GantryBehaviour, GantryDecision, Manoeuvre, Outcome, Vertical};
 use nalgebra::Vector2;
 
 /// How a searcher outside this program is asked.

@@ -31,11 +31,7 @@ impl BeliefGrid {
         Self {
             corner: Vector3::new(corner.x, corner.y, -bottom_depth_m),
             axes: [along, left],
-            cell_m: [
-                area.length_m / n[0] as f64,
-                area.width_m / n[1] as f64,
-                high / n[2] as f64,
-            ],
+            cell_m: [area.length_m / n[0] as f64, area.width_m / n[1] as f64, high / n[2] as f64],
             n,
         }
     }
@@ -45,11 +41,7 @@ impl BeliefGrid {
     pub fn divided(&self, by: usize) -> Self {
         let [nx, ny, nz] = self.n;
         let [hx, hy, hz] = self.cell_m;
-        Self {
-            cell_m: [hx / by as f64, hy / by as f64, hz],
-            n: [nx * by, ny * by, nz],
-            ..self.clone()
-        }
+        Self { cell_m: [hx / by as f64, hy / by as f64, hz], n: [nx * by, ny * by, nz], ..self.clone() }
     }
 
     /// How many cells.
@@ -87,11 +79,7 @@ impl BeliefGrid {
     #[must_use]
     pub fn local(&self, p_W: &Vector3<f64>) -> [f64; 3] {
         let d = p_W.xy() - self.corner.xy();
-        [
-            d.dot(&self.axes[0]),
-            d.dot(&self.axes[1]),
-            p_W.z - self.corner.z,
-        ]
+        [d.dot(&self.axes[0]), d.dot(&self.axes[1]), p_W.z - self.corner.z]
     }
 
     /// A point in the grid's own axes (m from its corner) in the world (ENU, m).

@@ -2,9 +2,7 @@
 //!
 //! All decisions pass here, whichever way they come: those of strategies and those of searchers outside this program.
 
-use super::{
-    Decision, Declaration, GantryDecision, Goal, HeadOrder, Manoeuvre, MoveOrder, Vertical,
-};
+use super::{Decision, Declaration, GantryDecision, Goal, HeadOrder, Manoeuvre, MoveOrder, Vertical};
 use world::units::Heading;
 
 /// Within what numbers must lie.
@@ -20,17 +18,9 @@ pub struct Bounds {
 
 impl Bounds {
     /// Of code that is not part of this program: no place of a scenario is farther from its datum, no vehicle faster.
-    pub const OWN: Self = Self {
-        far_m: 1e6,
-        fast_m_s: 100.0,
-        least: 0.0,
-    };
+    pub const OWN: Self = Self { far_m: 1e6, fast_m_s: 100.0, least: 0.0 };
     /// Of strategies of this program: any number, if it is one. The scenario's limits have bounded their parameters.
-    pub const ANY: Self = Self {
-        far_m: f64::MAX,
-        fast_m_s: f64::MAX,
-        least: -f64::MAX,
-    };
+    pub const ANY: Self = Self { far_m: f64::MAX, fast_m_s: f64::MAX, least: -f64::MAX };
 
     /// Those for a strategy: of another crate, or of this program.
     #[must_use]
@@ -59,9 +49,7 @@ impl Bounds {
             return within(field, values, most);
         }
         let wrong = values.iter().find(|v| !(**v > 0.0 && **v <= most))?;
-        Some(format!(
-            "`{field}` must be above 0 and at most {most}, got {wrong}"
-        ))
+        Some(format!("`{field}` must be above 0 and at most {most}, got {wrong}"))
     }
 
     fn radius(self, radius_m: Option<f64>) -> Option<String> {
@@ -73,34 +61,24 @@ impl Bounds {
             Manoeuvre::GoToPoint { point, radius_m } => {
                 (self.radius(*radius_m)).or_else(|| self.place("point_m", point.as_slice()))
             }
-            Manoeuvre::SlideTo {
-                point,
-                heading,
-                radius_m,
-            } => (self.radius(*radius_m))
+            Manoeuvre::SlideTo { point, heading, radius_m } => (self.radius(*radius_m))
                 .or_else(|| self.place("point_m", point.as_slice()))
                 .or_else(|| self.heading(*heading)),
-            Manoeuvre::FollowLine { from, to } => (self.place("from_m", from.as_slice()))
-                .or_else(|| self.place("to_m", to.as_slice())),
+            Manoeuvre::FollowLine { from, to } => {
+                (self.place("from_m", from.as_slice())).or_else(|| self.place("to_m", to.as_slice()))
+            }
             Manoeuvre::GoToPointWithHeading { point, heading } => {
                 (self.place("point_m", point.as_slice())).or_else(|| self.heading(*heading))
             }
-            Manoeuvre::Hold { point, heading } => (self.place("point_m", point.as_slice()))
-                .or_else(|| heading.and_then(|h| self.heading(h))),
-            Manoeuvre::Course { course: heading } | Manoeuvre::Steer { heading } => {
-                self.heading(*heading)
+            Manoeuvre::Hold { point, heading } => {
+                (self.place("point_m", point.as_slice())).or_else(|| heading.and_then(|h| self.heading(h)))
             }
-            Manoeuvre::Slide {
-                heading,
-                over_ground_m_s: v,
-            } => (self.heading(*heading))
-                .or_else(|| within("velocity_m_s", v.as_slice(), self.fast_m_s)),
+            Manoeuvre::Course { course: heading } | Manoeuvre::Steer { heading } => self.heading(*heading),
+            Manoeuvre::Slide { heading, over_ground_m_s: v } => {
+                (self.heading(*heading)).or_else(|| within("velocity_m_s", v.as_slice(), self.fast_m_s))
+            }
             Manoeuvre::Drives(set) => self.place("drives", set.all()),
-            Manoeuvre::Direct {
-                rudder_rad,
-                stern_rad,
-                rpm,
-            } => self.place("direct", &[*rudder_rad, *stern_rad, *rpm]),
+            Manoeuvre::Direct { rudder_rad, stern_rad, rpm } => self.place("direct", &[*rudder_rad, *stern_rad, *rpm]),
         }
     }
 
@@ -130,10 +108,7 @@ impl Goal {
     #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         // Who sets the drives asks for neither height nor speed; what stands there is only shown.
-        let bypasses = matches!(
-            self.manoeuvre,
-            Manoeuvre::Direct { .. } | Manoeuvre::Drives(_)
-        );
+        let bypasses = matches!(self.manoeuvre, Manoeuvre::Direct { .. } | Manoeuvre::Drives(_));
         let held = if bypasses { Bounds::ANY } else { bounds };
         (bounds.manoeuvre(&self.manoeuvre))
             .or_else(|| held.vertical(self.vertical))
@@ -178,10 +153,7 @@ impl Declaration {
         (place("position_m", self.position.as_slice()))
             .or_else(|| place("z_m", self.z_m.as_slice()))
             .or_else(|| within("declare.t_s", &[self.t_s], f64::MAX))
-            .or_else(|| {
-                self.surveyed
-                    .and_then(|p| place("surveyed_m", p.as_slice()))
-            })
+            .or_else(|| self.surveyed.and_then(|p| place("surveyed_m", p.as_slice())))
             .or_else(|| {
                 let e = self.evidence?;
                 let [east_m, north_m] = e.middle_m;
@@ -250,121 +222,46 @@ mod tests {
         let (point, radius_m) = (Vector2::zeros(), Some(0.0));
         let heading = Heading::from_rad(nan);
         for (manoeuvre, field) in [
-            (
-                Manoeuvre::GoToPoint {
-                    point: nowhere,
-                    radius_m: None,
-                },
-                "point_m",
-            ),
+            (Manoeuvre::GoToPoint { point: nowhere, radius_m: None }, "point_m"),
             (Manoeuvre::GoToPoint { point, radius_m }, "radius_m"),
-            (
-                Manoeuvre::FollowLine {
-                    from: point,
-                    to: nowhere,
-                },
-                "to_m",
-            ),
-            (
-                Manoeuvre::GoToPointWithHeading { point, heading },
-                "heading_rad",
-            ),
-            (
-                Manoeuvre::Hold {
-                    point,
-                    heading: Some(heading),
-                },
-                "heading_rad",
-            ),
+            (Manoeuvre::FollowLine { from: point, to: nowhere }, "to_m"),
+            (Manoeuvre::GoToPointWithHeading { point, heading }, "heading_rad"),
+            (Manoeuvre::Hold { point, heading: Some(heading) }, "heading_rad"),
             (Manoeuvre::Course { course: heading }, "heading_rad"),
             (Manoeuvre::Steer { heading }, "heading_rad"),
-            (
-                Manoeuvre::Direct {
-                    rudder_rad: nan,
-                    stern_rad: 0.0,
-                    rpm: 0.0,
-                },
-                "direct",
-            ),
+            (Manoeuvre::Direct { rudder_rad: nan, stern_rad: 0.0, rpm: 0.0 }, "direct"),
         ] {
-            let told = said(Goal {
-                manoeuvre,
-                ..goal(1.5)
-            });
+            let told = said(Goal { manoeuvre, ..goal(1.5) });
             assert!(told.starts_with(&format!("`{field}` must be ")), "{told}");
         }
         for vertical in [Vertical::Depth(-1.0), Vertical::Altitude(nan)] {
-            assert!(
-                said(Goal {
-                    vertical,
-                    ..goal(1.5)
-                })
-                .contains("must be from 0 to 1000000")
-            );
+            assert!(said(Goal { vertical, ..goal(1.5) }).contains("must be from 0 to 1000000"));
         }
         // Of this program's own strategies only what is no number is told of.
         assert_eq!(goal(1e9).fault(Bounds::ANY), None);
         let told = goal(nan).fault(Bounds::ANY);
-        assert_eq!(
-            told.as_deref(),
-            Some("`speed_m_s` must be a number, got NaN")
-        );
+        assert_eq!(told.as_deref(), Some("`speed_m_s` must be a number, got NaN"));
     }
 
     #[test]
     fn what_is_declared_must_be_a_place() {
         let fine = Declaration::first(3.0, Vector2::new(1.0, 2.0), "own");
         let said = |declared: Declaration| {
-            let decision = Decision {
-                declared: Some(declared),
-                ..Decision::new(Behaviour::Find, goal(1.0))
-            };
+            let decision = Decision { declared: Some(declared), ..Decision::new(Behaviour::Find, goal(1.0)) };
             decision.fault(Bounds::OWN).unwrap_or_default()
         };
         assert_eq!(said(fine), "");
         let nan = f64::NAN;
-        let evidence = Evidence {
-            points: 1,
-            since_s: nan,
-            middle_m: [0.0; 2],
-            reach_m: 0.0,
-        };
+        let evidence = Evidence { points: 1, since_s: nan, middle_m: [0.0; 2], reach_m: 0.0 };
         for (declared, field) in [
-            (
-                Declaration {
-                    position: Vector2::new(nan, 0.0),
-                    ..fine
-                },
-                "position_m",
-            ),
-            (
-                Declaration {
-                    position: Vector2::new(0.0, 1e9),
-                    ..fine
-                },
-                "position_m",
-            ),
-            (
-                Declaration {
-                    z_m: Some(nan),
-                    ..fine
-                },
-                "z_m",
-            ),
+            (Declaration { position: Vector2::new(nan, 0.0), ..fine }, "position_m"),
+            (Declaration { position: Vector2::new(0.0, 1e9), ..fine }, "position_m"),
+            (Declaration { z_m: Some(nan), ..fine }, "z_m"),
             (Declaration { t_s: nan, ..fine }, "t_s"),
-            (
-                Declaration {
-                    evidence: Some(evidence),
-                    ..fine
-                },
-                "evidence",
-            ),
+            (Declaration { evidence: Some(evidence), ..fine }, "evidence"),
         ] {
             let told = said(declared);
-            assert!(
-                told.starts_with(&format!("`declare.{field}` must be ")),
-                "{told}"
-            );
+            assert!(told.starts_with(&format!("`declare.{field}` must be ")), "{told}");
         }
     }
 }

@@ -33,11 +33,7 @@ impl MoveSetpoint {
     pub fn steered(&self) -> Setpoint {
         let speed = self.over_ground_m_s.norm();
         Setpoint {
-            heading: if speed > 0.0 {
-                Heading::of(self.over_ground_m_s)
-            } else {
-                self.heading
-            },
+            heading: if speed > 0.0 { Heading::of(self.over_ground_m_s) } else { self.heading },
             water_speed_m_s: speed,
             vertical: self.vertical,
         }
@@ -90,14 +86,8 @@ impl Actuation {
     pub fn with_drive(self, place: usize, value: f64) -> Self {
         match self {
             Self::Fins(set) => Self::Fins(match place {
-                0 => ActuatorCommand {
-                    rudder_rad: value,
-                    ..set
-                },
-                1 => ActuatorCommand {
-                    stern_rad: value,
-                    ..set
-                },
+                0 => ActuatorCommand { rudder_rad: value, ..set },
+                1 => ActuatorCommand { stern_rad: value, ..set },
                 _ => ActuatorCommand { rpm: value, ..set },
             }),
             Self::Rates(set) => Self::Rates(set),
@@ -113,9 +103,7 @@ impl Actuation {
             Self::Drives(_) => &DRIVES,
         };
         let value = move |place: usize| match self {
-            Self::Rates(set) => [set.turn_rad_s, set.climb_m_s, set.speed_m_s]
-                .get(place)
-                .copied(),
+            Self::Rates(set) => [set.turn_rad_s, set.climb_m_s, set.speed_m_s].get(place).copied(),
             _ => self.drive(place),
         };
         let values = (0..).map_while(value);
@@ -125,8 +113,8 @@ impl Actuation {
 
 /// Names of the drives in files and topics.
 const DRIVES: [&str; MOST_DRIVES] = [
-    "drive_1", "drive_2", "drive_3", "drive_4", "drive_5", "drive_6", "drive_7", "drive_8",
-    "drive_9", "drive_10", "drive_11", "drive_12", "drive_13", "drive_14", "drive_15", "drive_16",
+    "drive_1", "drive_2", "drive_3", "drive_4", "drive_5", "drive_6", "drive_7", "drive_8", "drive_9", "drive_10",
+    "drive_11", "drive_12", "drive_13", "drive_14", "drive_15", "drive_16",
 ];
 
 /// Actuator set-points.

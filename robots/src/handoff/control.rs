@@ -138,10 +138,7 @@ impl DriveCommand {
     pub fn new(set_points: &[f64]) -> Self {
         let mut set = [0.0; MOST_DRIVES];
         set[..set_points.len()].copy_from_slice(set_points);
-        Self {
-            set,
-            n: set_points.len(),
-        }
+        Self { set, n: set_points.len() }
     }
 
     /// The set-points.
@@ -174,18 +171,8 @@ impl NamedDrive {
     /// Those of a vehicle with a rudder, a stern plane and a propeller.
     #[must_use]
     pub fn fins() -> Vec<Self> {
-        let named = |(name, unit): (&str, DriveUnit)| Self {
-            name: name.to_string(),
-            unit,
-            idle: 0.0,
-        };
-        [
-            ("rudder", DriveUnit::Fin),
-            ("stern_plane", DriveUnit::Fin),
-            ("propeller", DriveUnit::Rpm),
-        ]
-        .map(named)
-        .to_vec()
+        let named = |(name, unit): (&str, DriveUnit)| Self { name: name.to_string(), unit, idle: 0.0 };
+        [("rudder", DriveUnit::Fin), ("stern_plane", DriveUnit::Fin), ("propeller", DriveUnit::Rpm)].map(named).to_vec()
     }
 }
 

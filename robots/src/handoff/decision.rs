@@ -93,12 +93,7 @@ impl Behaviour {
                 seen.push(b);
             }
         }
-        seen.sort_by_key(|b| {
-            Self::ALL
-                .iter()
-                .position(|o| o == b)
-                .unwrap_or(Self::ALL.len())
-        });
+        seen.sort_by_key(|b| Self::ALL.iter().position(|o| o == b).unwrap_or(Self::ALL.len()));
         seen
     }
 
@@ -106,10 +101,7 @@ impl Behaviour {
     #[must_use]
     pub fn number(self) -> f64 {
         let own = Self::ALL.iter().position(|b| *b == self);
-        own.map_or_else(
-            || f64::from((seeds::key(0, self.name(), "behaviour") >> 32) as u32),
-            |place| place as f64,
-        )
+        own.map_or_else(|| f64::from((seeds::key(0, self.name(), "behaviour") >> 32) as u32), |place| place as f64)
     }
 }
 
@@ -239,10 +231,7 @@ impl Declaration {
         let (x, y) = (self.position.x, self.position.y);
         digest.f64s(&[f64::from(self.number), self.t_s, x, y]);
         let absent = f64::NAN;
-        digest.f64s(&[
-            self.z_m.unwrap_or(absent),
-            self.region.map_or(absent, f64::from),
-        ]);
+        digest.f64s(&[self.z_m.unwrap_or(absent), self.region.map_or(absent, f64::from)]);
         digest.text(self.rule);
         digest.text(self.verdict.name());
     }
@@ -319,10 +308,7 @@ mod tests {
         let mut list = Vec::new();
         let first = Declaration::first(1.0, Vector2::zeros(), "a");
         let second = Declaration { number: 1, ..first };
-        let looked_at = Declaration {
-            verdict: Verdict::Verified,
-            ..first
-        };
+        let looked_at = Declaration { verdict: Verdict::Verified, ..first };
         first.join(&mut list);
         second.join(&mut list);
         looked_at.join(&mut list);
@@ -335,23 +321,11 @@ mod tests {
         let others = [
             Declaration { number: 1, ..plain },
             Declaration { t_s: 1.5, ..plain },
-            Declaration {
-                position: Vector2::new(3.0, 2.0),
-                ..plain
-            },
-            Declaration {
-                z_m: Some(-4.0),
-                ..plain
-            },
+            Declaration { position: Vector2::new(3.0, 2.0), ..plain },
+            Declaration { z_m: Some(-4.0), ..plain },
             Declaration { rule: "b", ..plain },
-            Declaration {
-                region: Some(0),
-                ..plain
-            },
-            Declaration {
-                verdict: Verdict::Verified,
-                ..plain
-            },
+            Declaration { region: Some(0), ..plain },
+            Declaration { verdict: Verdict::Verified, ..plain },
         ];
         let digest = |declaration: &Declaration| {
             let mut digest = Digest::default();
@@ -370,10 +344,7 @@ mod tests {
             assert_eq!(b.number(), place as f64, "{b:?}");
         }
         let spiral = Behaviour::Other("spiral");
-        assert_eq!(
-            (spiral.name(), spiral.number()),
-            ("spiral", Behaviour::Other("spiral").number())
-        );
+        assert_eq!((spiral.name(), spiral.number()), ("spiral", Behaviour::Other("spiral").number()));
         assert!(spiral.number() > 255.0 && spiral.number() != Behaviour::Other("ladder").number());
         let seen = Behaviour::seen([spiral, Behaviour::Find, spiral, Behaviour::GoTo].into_iter());
         assert_eq!(seen, [Behaviour::GoTo, Behaviour::Find, spiral]);

@@ -90,11 +90,7 @@ impl Estimate {
     #[must_use]
     pub fn v_ground(&self) -> Vector2<f64> {
         let forward = self.attitude.heading.unit();
-        let left = self
-            .attitude
-            .heading
-            .turned(-std::f64::consts::FRAC_PI_2)
-            .unit();
+        let left = self.attitude.heading.turned(-std::f64::consts::FRAC_PI_2).unit();
         forward * self.v_ground_body.x + left * self.v_ground_body.y
     }
 }

@@ -30,12 +30,7 @@ impl Lcdp {
     /// A point of which only time and place matter.
     #[must_use]
     pub fn at(t_s: f64, position: Vector2<f64>) -> Self {
-        Self {
-            t_s,
-            position,
-            of_full_scale: 0.0,
-            flow: None,
-        }
+        Self { t_s, position, of_full_scale: 0.0, flow: None }
     }
 
     /// The vehicle's present place, with the reading and the believed flow.
@@ -53,10 +48,7 @@ impl Lcdp {
     #[must_use]
     pub fn in_flow(&self, up_flow: Heading) -> Vector2<f64> {
         let down = -up_flow.unit();
-        Vector2::new(
-            down.dot(&self.position),
-            down.x * self.position.y - down.y * self.position.x,
-        )
+        Vector2::new(down.dot(&self.position), down.x * self.position.y - down.y * self.position.x)
     }
 }
 

@@ -30,16 +30,13 @@ pub use belief::{Belief, BeliefGrid, Odour};
 pub use bounds::Bounds;
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{
-    Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant,
-    PlantDrive, ThrustTable,
+    Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant, PlantDrive, ThrustTable,
 };
-pub use decision::{
-    Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict,
-};
+pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation, detects};
 pub use gantry::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings,
-    JointReadings, MAX_PROBES, ProbeMount, ProbeScan, TrackerState,
+    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES,
+    ProbeMount, ProbeScan, TrackerState,
 };
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
@@ -49,8 +46,8 @@ pub use pictures::{Picture, SidescanPing};
 pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};
 pub use readings::{
-    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,
-    DepthReading, DvlReading, LblFix, RangeScan, Readings,
+    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading,
+    LblFix, RangeScan, Readings,
 };
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use setting::Setting;

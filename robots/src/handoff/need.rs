@@ -18,21 +18,13 @@ impl Need {
     #[must_use]
     pub fn vital(field: impl Into<String>, instrument: &'static str, so: &'static str) -> Self {
         let field = field.into();
-        Self {
-            field,
-            instrument,
-            so,
-            vital: true,
-        }
+        Self { field, instrument, so, vital: true }
     }
 
     /// An instrument without which the robot does worse.
     #[must_use]
     pub fn wish(field: impl Into<String>, instrument: &'static str, so: &'static str) -> Self {
-        Self {
-            vital: false,
-            ..Self::vital(field, instrument, so)
-        }
+        Self { vital: false, ..Self::vital(field, instrument, so) }
     }
 
     /// The same as a need of a part within another one, below its field.

@@ -57,16 +57,13 @@ impl Readings {
             let place = number("sidescan.p_BS", ping.p_BS.as_slice());
             let echo = |db: &f32| number("sidescan.port_db, starboard_db", &[f64::from(*db)]);
             let both = || ping.port_db.iter().chain(ping.starboard_db.iter());
-            (place.or_else(|| number("sidescan.max_m", &[ping.max_m])))
-                .or_else(|| both().find_map(echo))
+            (place.or_else(|| number("sidescan.max_m", &[ping.max_m]))).or_else(|| both().find_map(echo))
         };
         let picture = || {
             let p = self.picture.as_ref()?;
             let place = number("picture.p_BC", p.p_BC.as_slice());
             let turned = || number("picture.R_BC", p.R_BC.coords.as_slice());
-            place
-                .or_else(turned)
-                .or_else(|| number("picture.view_rad", &[p.view_rad]))
+            place.or_else(turned).or_else(|| number("picture.view_rad", &[p.view_rad]))
         };
         let other = || (self.other.iter()).find_map(|(name, value)| number(name, &[*value]));
         let dvl = self.dvl.filter(|d| d.valid);
@@ -95,80 +92,23 @@ mod tests {
     #[test]
     fn the_field_that_is_no_number_is_named() {
         let nan = f64::NAN;
-        let chemical = |volts, of_full_scale| {
-            Some(ChemicalReading {
-                volts,
-                of_full_scale,
-                detected: false,
-            })
-        };
+        let chemical = |volts, of_full_scale| Some(ChemicalReading { volts, of_full_scale, detected: false });
         let altimeter = |altitude_m, valid| Some(AltimeterReading { altitude_m, valid });
         let position = Vector2::new(0.0, f64::INFINITY);
         let all: [(Readings, &str); 8] = [
-            (
-                Readings {
-                    chemical: chemical(nan, 0.5),
-                    ..Readings::default()
-                },
-                "`chemical.volts`",
-            ),
-            (
-                Readings {
-                    chemical: chemical(1.0, 1e9),
-                    ..Readings::default()
-                },
-                "`chemical.of_full_scale`",
-            ),
-            (
-                Readings {
-                    depth: Some(DepthReading { depth_m: nan }),
-                    ..Readings::default()
-                },
-                "`depth.depth_m`",
-            ),
-            (
-                Readings {
-                    altimeter: altimeter(nan, true),
-                    ..Readings::default()
-                },
-                "`altimeter.altitude_m`",
-            ),
+            (Readings { chemical: chemical(nan, 0.5), ..Readings::default() }, "`chemical.volts`"),
+            (Readings { chemical: chemical(1.0, 1e9), ..Readings::default() }, "`chemical.of_full_scale`"),
+            (Readings { depth: Some(DepthReading { depth_m: nan }), ..Readings::default() }, "`depth.depth_m`"),
+            (Readings { altimeter: altimeter(nan, true), ..Readings::default() }, "`altimeter.altitude_m`"),
             // What is said to be of no use is not used.
-            (
-                Readings {
-                    altimeter: altimeter(nan, false),
-                    ..Readings::default()
-                },
-                "",
-            ),
-            (
-                Readings {
-                    lbl: Some(LblFix { position }),
-                    ..Readings::default()
-                },
-                "`lbl.position`",
-            ),
-            (
-                Readings {
-                    other: vec![("pressure_pa", nan)],
-                    ..Readings::default()
-                },
-                "`pressure_pa`",
-            ),
-            (
-                Readings {
-                    chemical: chemical(1.0, 0.5),
-                    ..Readings::default()
-                },
-                "",
-            ),
+            (Readings { altimeter: altimeter(nan, false), ..Readings::default() }, ""),
+            (Readings { lbl: Some(LblFix { position }), ..Readings::default() }, "`lbl.position`"),
+            (Readings { other: vec![("pressure_pa", nan)], ..Readings::default() }, "`pressure_pa`"),
+            (Readings { chemical: chemical(1.0, 0.5), ..Readings::default() }, ""),
         ];
         for (readings, field) in all {
             let told = readings.fault().unwrap_or_default();
-            assert!(
-                told.starts_with(field) && told.is_empty() == field.is_empty(),
-                "{told}"
-            );
+            assert!(told.starts_with(field) && told.is_empty() == field.is_empty(), "{told}");
         }
     }
 }

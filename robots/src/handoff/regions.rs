@@ -90,9 +90,6 @@ mod tests {
 
     #[test]
     fn regions_have_letters() {
-        assert_eq!(
-            [0, 3, 25, 26, 51, 52, 701, 702].map(region_name),
-            ["A", "D", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]
-        );
+        assert_eq!([0, 3, 25, 26, 51, 52, 701, 702].map(region_name), ["A", "D", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]);
     }
 }

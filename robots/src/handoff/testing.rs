@@ -1,9 +1,6 @@
 //! Observations written by hand, for tests.
 
-use super::{
-    Attitude, Capabilities, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation,
-    Setpoint,
-};
+use super::{Attitude, Capabilities, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation, Setpoint};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -15,21 +12,11 @@ use world::units::Heading;
 
 /// An area of 600 m north-south by 400 m east-west around the origin.
 pub(crate) fn area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 600.0,
-        width_m: 400.0,
-        axis: Heading::from_deg(0.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 600.0, width_m: 400.0, axis: Heading::from_deg(0.0) }
 }
 
 /// A vehicle at 2 m/s over ground, with no chemical reading.
-pub(crate) fn seen(
-    t_s: f64,
-    position: Vector2<f64>,
-    heading_deg: f64,
-    flow: Option<Vector2<f64>>,
-) -> Observation {
+pub(crate) fn seen(t_s: f64, position: Vector2<f64>, heading_deg: f64, flow: Option<Vector2<f64>>) -> Observation {
     Observation {
         t_s,
         estimate: Estimate {
@@ -44,10 +31,7 @@ pub(crate) fn seen(
                 rates_rad_s: Vector3::zeros(),
             },
             v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-            flow: flow.map(|velocity| FlowEstimate {
-                velocity,
-                age_s: 0.0,
-            }),
+            flow: flow.map(|velocity| FlowEstimate { velocity, age_s: 0.0 }),
             fix_jump: Vector2::zeros(),
         },
         chemical: None,

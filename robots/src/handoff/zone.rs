@@ -28,17 +28,11 @@ impl Zone {
         let (along, left) = (ahead.unit(), ahead.turned(-TAU / 4.0).unit());
         let own = |p: &Vector2<f64>| Vector2::new(p.dot(&along), p.dot(&left));
         let first = own(first);
-        let (low, high) =
-            (points.iter().map(own)).fold((first, first), |(l, h), p| (l.inf(&p), h.sup(&p)));
+        let (low, high) = (points.iter().map(own)).fold((first, first), |(l, h), p| (l.inf(&p), h.sup(&p)));
         let corner = |x: f64, y: f64| along * x + left * y;
         Self {
             points,
-            corners: vec![
-                corner(low.x, low.y),
-                corner(high.x, low.y),
-                corner(high.x, high.y),
-                corner(low.x, high.y),
-            ],
+            corners: vec![corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y), corner(low.x, high.y)],
         }
     }
 
@@ -53,10 +47,7 @@ impl Zone {
             let (sin, cos) = math::sin_cos(f64::from(k) * TAU / f64::from(CORNERS));
             mean + Vector2::new(cos, sin) * radius_m
         };
-        Self {
-            points,
-            corners: (0..CORNERS).map(corner).collect(),
-        }
+        Self { points, corners: (0..CORNERS).map(corner).collect() }
     }
 }
 
@@ -91,9 +82,6 @@ mod tests {
         let middle = Vector2::new(2.0, 1.0);
         assert!((zone.corners.iter()).all(|c| ((c - middle).norm() - 6.0).abs() < 1e-12));
         assert_eq!(Zone::round(Vec::new(), 6.0), Zone::default());
-        assert_eq!(
-            Zone::boxed(Vec::new(), Heading::from_deg(0.0)),
-            Zone::default()
-        );
+        assert_eq!(Zone::boxed(Vec::new(), Heading::from_deg(0.0)), Zone::default());
     }
 }

@@ -96,10 +96,7 @@ impl Alternatives {
         // All strengths must be legal before one of them is taken.
         make(doubt)?;
         for strengths in strengths {
-            let one = DoubtSpec {
-                strengths,
-                ..doubt.clone()
-            };
+            let one = DoubtSpec { strengths, ..doubt.clone() };
             for (at, weight) in doubt.errors() {
                 let mapper = make(&one)?;
                 let axes = mapper.belief().grid.axes;
@@ -131,14 +128,8 @@ impl Alternatives {
             m.told = told;
         }
         let of = |m: &Member| m.ln_prior + m.ln_weight;
-        let most = self
-            .members
-            .iter()
-            .map(of)
-            .fold(f64::NEG_INFINITY, f64::max);
-        let weights: Vec<f64> = (self.members.iter())
-            .map(|m| math::exp(of(m) - most))
-            .collect();
+        let most = self.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let weights: Vec<f64> = (self.members.iter()).map(|m| math::exp(of(m) - most)).collect();
         let total: f64 = weights.iter().sum();
         weights.iter().map(|w| w / total).collect()
     }
@@ -147,10 +138,7 @@ impl Alternatives {
 impl Mapper for Alternatives {
     fn step(&mut self, seen: &MapObservation) {
         for m in &mut self.members {
-            m.mapper.step(&MapObservation {
-                flow: seen.flow.map(|v| v + m.flow),
-                ..*seen
-            });
+            m.mapper.step(&MapObservation { flow: seen.flow.map(|v| v + m.flow), ..*seen });
         }
         let first = self.members[0].mapper.belief();
         if first.updates == self.updates {
@@ -188,8 +176,7 @@ mod tests {
 
     #[test]
     fn the_errors_have_the_gaussians_moments() {
-        let mean =
-            |f: &dyn Fn([f64; 2]) -> f64| -> f64 { NODES.iter().map(|(u, w)| w * f(*u)).sum() };
+        let mean = |f: &dyn Fn([f64; 2]) -> f64| -> f64 { NODES.iter().map(|(u, w)| w * f(*u)).sum() };
         for (got, want) in [
             (mean(&|_| 1.0), 1.0),
             (mean(&|u| u[0]), 0.0),

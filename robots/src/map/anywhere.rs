@@ -45,13 +45,7 @@ pub(super) struct Anywhere {
 impl Anywhere {
     /// For a vehicle at `at` (the grid's own axes, m) and a chance `mu` of detecting dye that is there.
     /// Dye is met within a cell of `meets_m`.
-    pub(super) fn new(
-        grid: &BeliefGrid,
-        meets_m: [f64; 3],
-        mu: f64,
-        at: [f64; 3],
-        sets: &[Set],
-    ) -> Self {
+    pub(super) fn new(grid: &BeliefGrid, meets_m: [f64; 3], mu: f64, at: [f64; 3], sets: &[Set]) -> Self {
         let high = grid.cell_m[2] * grid.n[2] as f64;
         let clouds = sets.iter().map(|set| {
             let top = [0, 1, 2].map(|a| meets_m[a] / (ROOT_TAU * set.var_m2[a].sqrt()));
@@ -63,11 +57,7 @@ impl Anywhere {
                 log2: set.log2,
             }
         });
-        Self {
-            mu,
-            heights: (grid.n[2] > 1).then_some([at[2], -at[2], 2.0 * high - at[2]]),
-            clouds: clouds.collect(),
-        }
+        Self { mu, heights: (grid.n[2] > 1).then_some([at[2], -at[2], 2.0 * high - at[2]]), clouds: clouds.collect() }
     }
 
     /// γ, the chance of no detection, for a source at each of the places (the grid's own axes, m).
@@ -84,10 +74,7 @@ impl Anywhere {
         }
     }
 
-    #[expect(
-        clippy::needless_range_loop,
-        reason = "one index into many arrays is what becomes vector code"
-    )]
+    #[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
     fn block(&self, [x, y, z]: &[[f64; LANES]; 3]) -> [f64; LANES] {
         let mut gamma = [1.0; LANES];
         for cloud in &self.clouds {

@@ -69,10 +69,7 @@ impl Bayesian {
     /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no release.
     pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let with = Workings::over_cells(spec, grid)?;
-        Ok(Self {
-            kernel: Kernel::within(&with.grid, with.places, &spec.trajectory),
-            with,
-        })
+        Ok(Self { kernel: Kernel::within(&with.grid, with.places, &spec.trajectory), with })
     }
 }
 

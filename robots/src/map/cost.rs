@@ -42,9 +42,7 @@ impl GridSpec {
 
     fn cost(&self) -> Cost {
         let cells = self.cells();
-        Cost::of(
-            Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES),
-        )
+        Cost::of(Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES))
     }
 }
 
@@ -60,24 +58,16 @@ impl TrajectorySpec {
 }
 
 /// Cost of a mapper that weighs its cells by the kernel of the look-back, at `each_s` per set of releases.
-pub(super) fn by_kernel(
-    grid: &GridSpec,
-    way: &TrajectorySpec,
-    period_s: f64,
-    each_s: f64,
-    times: &Times,
-) -> Cost {
+pub(super) fn by_kernel(grid: &GridSpec, way: &TrajectorySpec, period_s: f64, each_s: f64, times: &Times) -> Cost {
     let [all, sets] = way.releases(way.release_period_s.get());
     let updates = times.mission_s / period_s.max(times.step_s);
     let mut cost = grid.cost();
     let what = format!("{updates:.1e} updates of the map");
-    let update = Part::new("update_period_s", what)
-        .takes(updates * (sets * each_s + all * RELEASE.0))
-        .by(period_s, -1.0);
+    let update =
+        Part::new("update_period_s", what).takes(updates * (sets * each_s + all * RELEASE.0)).by(period_s, -1.0);
     let what = format!("{all:.1e} releases in the look-back");
-    let kept = Part::new("trajectory.release_period_s", what)
-        .holds(all * RELEASE.1)
-        .by(way.release_period_s.get(), -1.0);
+    let kept =
+        Part::new("trajectory.release_period_s", what).holds(all * RELEASE.1).by(way.release_period_s.get(), -1.0);
     cost.parts.extend([update, kept]);
     cost
 }
@@ -96,14 +86,9 @@ impl HmmSpec {
         let [steps, sets] = self.trajectory.releases(step_s);
         let maps = self.doubt.maps() as f64;
         let (cells, levels) = (maps * self.grid.all_places(), f64::from(self.grid.vertical));
-        let across = f64::from(self.grid.places)
-            * (f64::from(self.grid.along) + f64::from(self.grid.across));
+        let across = f64::from(self.grid.places) * (f64::from(self.grid.along) + f64::from(self.grid.across));
         let rows = maps * (across + levels);
-        let hops_s = if self.sheared && levels > 1.0 {
-            3.0 * cells * HOPS * HOP_S
-        } else {
-            rows * HOPS * HOP_S
-        };
+        let hops_s = if self.sheared && levels > 1.0 { 3.0 * cells * HOPS * HOP_S } else { rows * HOPS * HOP_S };
         let updates = times.mission_s / step_s.max(times.step_s);
         let levels = if self.sheared { levels } else { 1.0 };
         let mut cost = self.grid.cost();

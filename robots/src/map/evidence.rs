@@ -107,27 +107,17 @@ impl Evidence {
     ///
     /// # Errors
     /// [`RobotError::Invalid`] if ε would let a belief vanish, or if ν leaves readings without any meaning.
-    pub(super) fn new(
-        epsilon: Fraction,
-        doubt: &DoubtSpec,
-        period_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub(super) fn new(epsilon: Fraction, doubt: &DoubtSpec, period_s: f64) -> Result<Self, RobotError> {
         let (epsilon, missed) = (epsilon.get(), doubt.missed.get());
         if !(epsilon > 0.0 && epsilon < 1.0) {
             let problem = format!("must be greater than 0 and less than 1, got {epsilon}");
             return Err(invalid("false_detection", &problem));
         }
         if missed >= 1.0 {
-            return Err(invalid(
-                "doubt.missed",
-                &format!("must be less than 1, got {missed}"),
-            ));
+            return Err(invalid("doubt.missed", &format!("must be less than 1, got {missed}")));
         }
         if doubt.strengths.len() > MOST_STRENGTHS {
-            let problem = format!(
-                "must be at most {MOST_STRENGTHS}, got {}",
-                doubt.strengths.len()
-            );
+            let problem = format!("must be at most {MOST_STRENGTHS}, got {}", doubt.strengths.len());
             return Err(invalid("doubt.strengths", &problem));
         }
         let (least, most) = STRENGTHS;
@@ -157,9 +147,7 @@ impl Evidence {
     pub(super) fn repeated(&mut self, t_s: f64, detected: bool) -> f64 {
         let before = self.before.replace((t_s, detected));
         match before {
-            Some((then_s, same)) if same == detected && self.chain_s > 0.0 => {
-                math::exp((then_s - t_s) / self.chain_s)
-            }
+            Some((then_s, same)) if same == detected && self.chain_s > 0.0 => math::exp((then_s - t_s) / self.chain_s),
             _ => 0.0,
         }
     }
@@ -179,11 +167,7 @@ impl Evidence {
     pub(super) fn weigh(&mut self, t_s: f64, detected: bool, gamma: &mut [f64]) {
         let same = self.repeated(t_s, detected);
         for g in gamma {
-            let new = if detected {
-                self.some(*g)
-            } else {
-                self.none(*g)
-            };
+            let new = if detected { self.some(*g) } else { self.none(*g) };
             *g = mixed(same, new);
         }
     }
@@ -220,11 +204,8 @@ mod tests {
     use super::*;
 
     fn evidence(missed: f64, tau_s: f64) -> Evidence {
-        let doubt = DoubtSpec {
-            missed: Fraction::new(missed),
-            correlation_s: NonNegative::new(tau_s),
-            ..DoubtSpec::default()
-        };
+        let doubt =
+            DoubtSpec { missed: Fraction::new(missed), correlation_s: NonNegative::new(tau_s), ..DoubtSpec::default() };
         Evidence::new(Fraction::new(1e-3), &doubt, 1.0).expect("legal")
     }
 
@@ -257,21 +238,15 @@ mod tests {
             for power in [2.0, 3.0, 10.0, 100.0, 0.5, 2.5] {
                 let want = math::powf(gamma, power).max(LEAST);
                 let got = to_power(gamma, power);
-                assert!(
-                    (got / want - 1.0).abs() < 1e-12,
-                    "{gamma}^{power}: {got} {want}"
-                );
+                assert!((got / want - 1.0).abs() < 1e-12, "{gamma}^{power}: {got} {want}");
             }
         }
     }
 
     #[test]
     fn a_chain_of_readings_counts_an_encounter_once() {
-        let doubt = DoubtSpec {
-            correlation_s: NonNegative::new(4.0),
-            repeats: Repeats::Markov,
-            ..DoubtSpec::default()
-        };
+        let doubt =
+            DoubtSpec { correlation_s: NonNegative::new(4.0), repeats: Repeats::Markov, ..DoubtSpec::default() };
         let mut e = Evidence::new(Fraction::new(1e-3), &doubt, 1.0).expect("legal");
         assert_eq!(e.share, 1.0);
         let mut told = |t_s: f64, detected: bool, gamma: f64| {
@@ -294,20 +269,10 @@ mod tests {
 
     #[test]
     fn chances_that_say_nothing_are_refused() {
-        let doubt = DoubtSpec {
-            missed: Fraction::new(1.0),
-            ..DoubtSpec::default()
-        };
-        let text = Evidence::new(Fraction::new(0.1), &doubt, 1.0)
-            .expect_err("refused")
-            .to_string();
+        let doubt = DoubtSpec { missed: Fraction::new(1.0), ..DoubtSpec::default() };
+        let text = Evidence::new(Fraction::new(0.1), &doubt, 1.0).expect_err("refused").to_string();
         assert_eq!(text, "map.doubt.missed: must be less than 1, got 1");
-        let text = Evidence::new(Fraction::new(0.0), &DoubtSpec::default(), 1.0)
-            .expect_err("refused")
-            .to_string();
-        assert_eq!(
-            text,
-            "map.false_detection: must be greater than 0 and less than 1, got 0"
-        );
+        let text = Evidence::new(Fraction::new(0.0), &DoubtSpec::default(), 1.0).expect_err("refused").to_string();
+        assert_eq!(text, "map.false_detection: must be greater than 0 and less than 1, got 0");
     }
 }

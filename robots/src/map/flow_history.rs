@@ -64,11 +64,7 @@ impl FlowHistory {
             return;
         };
         let dt = t_s - last.t_s;
-        assert!(
-            dt >= 0.0,
-            "the flow history goes from {} s back to {t_s} s: a mapper must see time go on",
-            last.t_s
-        );
+        assert!(dt >= 0.0, "the flow history goes from {} s back to {t_s} s: a mapper must see time go on", last.t_s);
         let v1 = flow.unwrap_or(v0);
         let s_m = [0, 1].map(|a| last.s_m[a] + 0.5 * (v0[a] + v1[a]) * dt);
         let now = Mark { t_s, s_m };
@@ -79,24 +75,13 @@ impl FlowHistory {
             due += ((oldest - due) / self.period_s).floor() * self.period_s;
         }
         while due <= t_s + SLACK_S {
-            let share = if dt > 0.0 {
-                ((due - last.t_s) / dt).clamp(0.0, 1.0)
-            } else {
-                1.0
-            };
+            let share = if dt > 0.0 { ((due - last.t_s) / dt).clamp(0.0, 1.0) } else { 1.0 };
             let between = [0, 1].map(|a| last.s_m[a] + share * (s_m[a] - last.s_m[a]));
-            self.push(Mark {
-                t_s: due,
-                s_m: between,
-            });
+            self.push(Mark { t_s: due, s_m: between });
             due += self.period_s;
         }
         self.now = Some((now, v1));
-        while self
-            .marks
-            .front()
-            .is_some_and(|m| m.t_s < t_s - self.lookback_s - SLACK_S)
-        {
+        while self.marks.front().is_some_and(|m| m.t_s < t_s - self.lookback_s - SLACK_S) {
             self.marks.pop_front();
         }
     }
@@ -126,11 +111,7 @@ impl FlowHistory {
     pub(super) fn mean(&self) -> Option<[f64; 2]> {
         let ((t0_s, v0), (now, _)) = (self.first?, self.now?);
         let since = now.t_s - t0_s;
-        Some(if since > SLACK_S {
-            now.s_m.map(|s| s / since)
-        } else {
-            v0
-        })
+        Some(if since > SLACK_S { now.s_m.map(|s| s / since) } else { v0 })
     }
 
     /// Age and displacement of each release before now, youngest first.
@@ -149,18 +130,11 @@ impl FlowHistory {
         let start = self.first.filter(|_| self.steady_before);
         let (period_s, lookback_s) = (self.period_s, self.lookback_s);
         let known = start.zip(self.now).zip(self.mean());
-        known
-            .into_iter()
-            .flat_map(move |(((t0_s, _), (now, _)), v)| {
-                let ages = (1..).map(move |n| now.t_s - t0_s + f64::from(n) * period_s);
-                ages.take_while(move |age| *age <= lookback_s + SLACK_S)
-                    .map(move |age| {
-                        (
-                            age,
-                            [0, 1].map(|a| now.s_m[a] + v[a] * (age - (now.t_s - t0_s))),
-                        )
-                    })
-            })
+        known.into_iter().flat_map(move |(((t0_s, _), (now, _)), v)| {
+            let ages = (1..).map(move |n| now.t_s - t0_s + f64::from(n) * period_s);
+            ages.take_while(move |age| *age <= lookback_s + SLACK_S)
+                .map(move |age| (age, [0, 1].map(|a| now.s_m[a] + v[a] * (age - (now.t_s - t0_s)))))
+        })
     }
 }
 
@@ -230,18 +204,10 @@ mod tests {
             h.record(t, Some([2.0 + 2.0 * world::math::sin(t / 2.0), 0.0]));
             let releases: Vec<_> = h.releases().collect();
             assert_eq!(releases.len(), 50);
-            assert!(
-                releases
-                    .windows(2)
-                    .all(|w| (w[1].0 - w[0].0 - 1.0).abs() < 1e-9)
-            );
+            assert!(releases.windows(2).all(|w| (w[1].0 - w[0].0 - 1.0).abs() < 1e-9));
             if n == 0 {
                 // Only the first measurement is known.
-                assert!(
-                    releases
-                        .iter()
-                        .all(|(age, s)| (s[0] - 2.0 * age).abs() < 1e-9)
-                );
+                assert!(releases.iter().all(|(age, s)| (s[0] - 2.0 * age).abs() < 1e-9));
             }
         }
         // Whole turns of the sine, or nearly: its mean is then small.

@@ -116,13 +116,7 @@ impl Kernel {
 
     /// The same for a source at any place, after [`Kernel::gather`] or [`Kernel::aim`].
     pub(super) fn anywhere(&self) -> Anywhere {
-        Anywhere::new(
-            &self.grid,
-            self.meets_m,
-            self.mu,
-            self.at,
-            &self.gatherer.sets,
-        )
+        Anywhere::new(&self.grid, self.meets_m, self.mu, self.at, &self.gatherer.sets)
     }
 
     /// The vehicle's place for which it was made, in the grid's own axes, m.

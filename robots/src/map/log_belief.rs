@@ -63,11 +63,7 @@ impl LogBelief {
 
     /// The same for a source at one of the `places`, which are those of the cells or several in each; readings between
     /// two fixes share an error if one is stated.
-    pub(super) fn over(
-        cells: &Arc<BeliefGrid>,
-        places: &Arc<BeliefGrid>,
-        stated: Option<Stated>,
-    ) -> Self {
+    pub(super) fn over(cells: &Arc<BeliefGrid>, places: &Arc<BeliefGrid>, stated: Option<Stated>) -> Self {
         let mut new = Self::uniform(cells);
         if places.n != cells.n {
             let n = places.len();
@@ -204,11 +200,7 @@ impl LogBelief {
         }
         let p = &self.belief.p;
         let grid = &self.belief.grid;
-        let size = if grid.n[2] == 1 {
-            grid.cell_m[0] * grid.cell_m[1]
-        } else {
-            grid.cell_m.iter().product()
-        };
+        let size = if grid.n[2] == 1 { grid.cell_m[0] * grid.cell_m[1] } else { grid.cell_m.iter().product() };
         self.belief.best = best;
         self.belief.entropy_nat = entropy.max(0.0);
         self.belief.credible_95 = credible::cells(p, CREDIBLE, &mut self.work) as f64 * size;

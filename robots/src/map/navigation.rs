@@ -38,11 +38,7 @@ impl Stated {
     /// As the parameters say; `None` if navigation is taken to be true.
     pub(super) fn of(doubt: &DoubtSpec) -> Option<Self> {
         let (fix_m, drift_m_s) = (doubt.fix_m.get(), doubt.drift_m_s.get());
-        (fix_m > 0.0 || drift_m_s > 0.0).then_some(Self {
-            fix_m,
-            drift_m_s,
-            since: None,
-        })
+        (fix_m > 0.0 || drift_m_s > 0.0).then_some(Self { fix_m, drift_m_s, since: None })
     }
 
     /// A fix at `t_s`, or the mission's begin.
@@ -167,11 +163,7 @@ mod tests {
     use world::ranges::NonNegative;
 
     fn doubt(fix_m: f64, drift_m_s: f64) -> DoubtSpec {
-        DoubtSpec {
-            fix_m: NonNegative::new(fix_m),
-            drift_m_s: NonNegative::new(drift_m_s),
-            ..DoubtSpec::default()
-        }
+        DoubtSpec { fix_m: NonNegative::new(fix_m), drift_m_s: NonNegative::new(drift_m_s), ..DoubtSpec::default() }
     }
 
     #[test]
@@ -180,9 +172,7 @@ mod tests {
         for sigma in [0.05, 0.3, 0.69, 0.71, 1.0, 3.3] {
             weights(sigma, 1000, &mut w);
             let sum = w[0] + 2.0 * w[1..].iter().sum::<f64>();
-            let var: f64 = (w.iter().enumerate())
-                .map(|(k, w)| 2.0 * (k * k) as f64 * w)
-                .sum();
+            let var: f64 = (w.iter().enumerate()).map(|(k, w)| 2.0 * (k * k) as f64 * w).sum();
             assert!((sum - 1.0).abs() < 1e-12);
             // The tail beyond four standard deviations has a thousandth of the variance.
             assert!((var / (sigma * sigma) - 1.0).abs() < 3e-3, "{sigma}: {var}");
@@ -217,14 +207,9 @@ mod tests {
         let width = |p: &[f64]| {
             let sum: f64 = p.iter().sum();
             let mean: f64 = (0..41).map(|i| i as f64 * p[i]).sum::<f64>() / sum;
-            (0..41)
-                .map(|i| (i as f64 - mean).powi(2) * p[i])
-                .sum::<f64>()
-                / sum
+            (0..41).map(|i| (i as f64 - mean).powi(2) * p[i]).sum::<f64>() / sum
         };
-        let own: Vec<f64> = (0..41)
-            .map(|s| shifted(s, &|i| a[i]) * shifted(s, &|i| b[i]))
-            .collect();
+        let own: Vec<f64> = (0..41).map(|s| shifted(s, &|i| a[i]) * shifted(s, &|i| b[i])).collect();
         let shared: Vec<f64> = ln_p.iter().map(|v| math::exp(*v)).collect();
         assert!(width(&shared) > 1.5 * width(&own));
     }
@@ -241,11 +226,7 @@ mod tests {
         // Two blocks with the same reading: the second narrows what the first has left.
         let grid = Arc::new(grid([41, 1, 1]));
         let even = vec![0.0; 41];
-        let mut block = Block::new(
-            Stated::of(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error"),
-            &grid,
-            &even,
-        );
+        let mut block = Block::new(Stated::of(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error"), &grid, &even);
         let one: Vec<f64> = (0..41).map(|i| if i == 20 { 1.0 } else { 1e-9 }).collect();
         let mut ln_p = even.clone();
         block.fixed(0.0, &even);

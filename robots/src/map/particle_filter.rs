@@ -92,10 +92,7 @@ impl Listed for ParticleFilterSpec {
 impl MapParams for ParticleFilterSpec {
     fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError> {
         Alternatives::around(&self.doubt, |doubt| {
-            let spec = Self {
-                doubt: doubt.clone(),
-                ..self.clone()
-            };
+            let spec = Self { doubt: doubt.clone(), ..self.clone() };
             let grid = self.grid.build(area)?;
             Ok(Box::new(ParticleFilter::new(&spec, grid, rng.clone())?))
         })
@@ -108,13 +105,7 @@ impl MapParams for ParticleFilterSpec {
 
     fn cost(&self, times: &Times) -> Cost {
         let each_s = (self.doubt.maps() as f64) * f64::from(self.particles) * PARTICLE_S;
-        by_kernel(
-            &self.grid,
-            &self.trajectory,
-            self.update_period_s.get(),
-            each_s,
-            times,
-        )
+        by_kernel(&self.grid, &self.trajectory, self.update_period_s.get(), each_s, times)
     }
 }
 
@@ -144,27 +135,14 @@ impl ParticleFilter {
     ///
     /// # Errors
     /// [`RobotError::Invalid`] if the number of particles or a chance is out of range.
-    pub fn new(
-        spec: &ParticleFilterSpec,
-        grid: BeliefGrid,
-        mut rng: Stream,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &ParticleFilterSpec, grid: BeliefGrid, mut rng: Stream) -> Result<Self, RobotError> {
         let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
-        let mut with = Workings::new(
-            grid,
-            &spec.trajectory,
-            periods,
-            spec.false_detection,
-            &spec.doubt,
-            spec.grid.places,
-        )?;
+        let mut with =
+            Workings::new(grid, &spec.trajectory, periods, spec.false_detection, &spec.doubt, spec.grid.places)?;
         if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
             return Err(invalid(
                 "particles",
-                &format!(
-                    "must be from {} to {}, got {}",
-                    PARTICLES.0, PARTICLES.1, spec.particles
-                ),
+                &format!("must be from {} to {}, got {}", PARTICLES.0, PARTICLES.1, spec.particles),
             ));
         }
         // The belief is that of the particles, whatever they believe of navigation.
@@ -173,9 +151,7 @@ impl ParticleFilter {
         let grid = &with.grid;
         let extent_m = [0, 1, 2].map(|a| grid.cell_m[a] * grid.n[a] as f64);
         let count = spec.particles as usize;
-        let places = (0..count)
-            .map(|_| extent_m.map(|e| e * rng.uniform()))
-            .collect();
+        let places = (0..count).map(|_| extent_m.map(|e| e * rng.uniform())).collect();
         Ok(Self {
             kernel: Kernel::within(grid, with.places, &spec.trajectory),
             shifts: Shifts::of(&spec.doubt, count, &mut rng),
@@ -199,24 +175,15 @@ impl ParticleFilter {
         let mut places = &self.places;
         if let Some(shifts) = &mut self.shifts {
             self.seen_at.clear();
-            let shifted = (self.places.iter().zip(shifts.at(t_s)))
-                .map(|(p, by)| [p[0] + by[0], p[1] + by[1], p[2]]);
+            let shifted = (self.places.iter().zip(shifts.at(t_s))).map(|(p, by)| [p[0] + by[0], p[1] + by[1], p[2]]);
             self.seen_at.extend(shifted);
             places = &self.seen_at;
         }
         (self.kernel.anywhere()).not_detecting(places, &mut self.gamma);
         for (gamma, w) in self.gamma.iter().zip(&mut self.weights) {
-            let likelihood = if detected {
-                evidence.some(*gamma)
-            } else {
-                evidence.none(*gamma).max(evidence.epsilon)
-            };
+            let likelihood = if detected { evidence.some(*gamma) } else { evidence.none(*gamma).max(evidence.epsilon) };
             let likelihood = mixed(same, likelihood);
-            *w *= if evidence.share < 1.0 {
-                math::powf(likelihood, evidence.share)
-            } else {
-                likelihood
-            };
+            *w *= if evidence.share < 1.0 { math::powf(likelihood, evidence.share) } else { likelihood };
         }
         let total: f64 = self.weights.iter().sum();
         self.ln_evidence += math::ln(total.max(1e-300));
@@ -246,11 +213,7 @@ impl ParticleFilter {
                     let shift = by.get(a).copied().unwrap_or(0.0);
                     at[a] - drift + spread[a] * self.rng.normal() - shift
                 });
-                drawn[2] = if plane {
-                    place[2]
-                } else {
-                    within(drawn[2], self.extent_m[2])
-                };
+                drawn[2] = if plane { place[2] } else { within(drawn[2], self.extent_m[2]) };
                 if (0..2).all(|a| (0.0..self.extent_m[a]).contains(&drawn[a])) {
                     *place = drawn;
                     break;
@@ -294,11 +257,7 @@ impl ParticleFilter {
 
     /// Standard deviation of the roughening along each axis, m: K·E·N^(−1/d).
     fn scatter(&self) -> [f64; 3] {
-        let axes = if self.with.belief.belief().grid.n[2] == 1 {
-            2
-        } else {
-            3
-        };
+        let axes = if self.with.belief.belief().grid.n[2] == 1 { 2 } else { 3 };
         let root = math::powf(self.places.len() as f64, -1.0 / f64::from(axes));
         [0, 1, 2].map(|axis| {
             if axis >= axes as usize {
@@ -307,9 +266,7 @@ impl ParticleFilter {
             let alive = self.places.iter().zip(&self.weights);
             // Particles without weight are not resampled and do not widen the extent.
             let xs = alive.filter(|(_, w)| **w > 1e-12).map(|(p, _)| p[axis]);
-            let (lo, hi) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                (l.min(x), h.max(x))
-            });
+            let (lo, hi) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             self.spec.roughening.get() * (hi - lo).max(0.0) * root
         })
     }

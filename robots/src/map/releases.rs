@@ -119,10 +119,7 @@ impl Gatherer {
         let age = (b.age - a.age) / count;
         let mut spread = [0.0; 2];
         if log2 > 0 {
-            spread = [
-                moment(0, mean[0] * mean[0]).max(0.0),
-                moment(1, mean[1] * mean[1]).max(0.0),
-            ];
+            spread = [moment(0, mean[0] * mean[0]).max(0.0), moment(1, mean[1] * mean[1]).max(0.0)];
             let covariance = moment(2, mean[0] * mean[1]).abs();
             let own = [0, 1].map(|k| self.var_rate[k] * youngest);
             let k2 = self.merge * self.merge;
@@ -191,12 +188,7 @@ mod tests {
 
     #[test]
     fn none_lost_none_twice() {
-        for (merge, v) in [
-            (0.0, [1.0, 0.0]),
-            (0.3, [0.17, 0.0]),
-            (0.3, [0.0, 0.0]),
-            (1.0, [0.4, 0.3]),
-        ] {
+        for (merge, v) in [(0.0, [1.0, 0.0]), (0.3, [0.17, 0.0]), (0.3, [0.0, 0.0]), (1.0, [0.4, 0.3])] {
             let mut g = gatherer([0.5, 0.5, 0.05], [2.5, 4.0], merge);
             g.gather(releases(601, v));
             let count: usize = g.sets.iter().map(|s| 1 << s.log2).sum();
@@ -221,12 +213,7 @@ mod tests {
         let mut g = gatherer([1.0, 1.0, 0.1], [1.0, 1.0], 1.0);
         g.gather(releases(600, [0.1, 0.0]));
         let set = g.sets.iter().find(|s| s.log2 == 2).expect("a set of four");
-        let first: usize = g
-            .sets
-            .iter()
-            .take_while(|s| *s != set)
-            .map(|s| 1 << s.log2)
-            .sum();
+        let first: usize = g.sets.iter().take_while(|s| *s != set).map(|s| 1 << s.log2).sum();
         let ages: Vec<f64> = (0..4).map(|k| (first + k + 1) as f64).collect();
         let mean = ages.iter().sum::<f64>() / 4.0;
         // Displacement 0.1 per second of age; four ages one apart have variance 1.25.

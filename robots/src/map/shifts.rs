@@ -22,10 +22,7 @@ pub(super) struct Shifts {
 impl Shifts {
     /// Before the first fix; `None` if navigation is taken to be true.
     pub(super) fn of(doubt: &DoubtSpec, particles: usize, rng: &mut Stream) -> Option<Self> {
-        let mut new = Self {
-            stated: Stated::of(doubt)?,
-            drawn: vec![[0.0; 4]; particles],
-        };
+        let mut new = Self { stated: Stated::of(doubt)?, drawn: vec![[0.0; 4]; particles] };
         new.draw(rng);
         Some(new)
     }
@@ -61,11 +58,8 @@ mod tests {
 
     #[test]
     fn errors_are_held_between_fixes_and_have_the_stated_size() {
-        let doubt = DoubtSpec {
-            fix_m: NonNegative::new(5.0),
-            drift_m_s: NonNegative::new(0.2),
-            ..DoubtSpec::default()
-        };
+        let doubt =
+            DoubtSpec { fix_m: NonNegative::new(5.0), drift_m_s: NonNegative::new(0.2), ..DoubtSpec::default() };
         let mut rng = Stream::new(1, "auv0", "shifts");
         assert!(Shifts::of(&DoubtSpec::default(), 9, &mut rng).is_none());
         let n = 20_000;

@@ -39,14 +39,7 @@ pub struct GridSpec {
 
 impl Default for GridSpec {
     fn default() -> Self {
-        Self {
-            along: 40,
-            across: 25,
-            vertical: 1,
-            top_depth_m: NonNegative::new(0.0),
-            bottom_depth_m: None,
-            places: 1,
-        }
+        Self { along: 40, across: 25, vertical: 1, top_depth_m: NonNegative::new(0.0), bottom_depth_m: None, places: 1 }
     }
 }
 
@@ -59,31 +52,18 @@ impl GridSpec {
         let n = [self.along, self.across, self.vertical];
         for (name, count) in ["along", "across", "vertical"].into_iter().zip(n) {
             if count == 0 {
-                return Err(invalid(
-                    &format!("grid.{name}"),
-                    "must be at least 1, got 0",
-                ));
+                return Err(invalid(&format!("grid.{name}"), "must be at least 1, got 0"));
             }
         }
         if self.places.is_multiple_of(2) || self.places > MOST_PLACES {
-            let problem = format!(
-                "must be odd and from 1 to {MOST_PLACES}, got {}",
-                self.places
-            );
+            let problem = format!("must be odd and from 1 to {MOST_PLACES}, got {}", self.places);
             return Err(invalid("grid.places", &problem));
         }
         let cells = self.cells() * f64::from(self.places * self.places);
         if cells > MOST_CELLS {
-            let got = if cells < 1e12 {
-                format!("{cells}")
-            } else {
-                shown(cells)
-            };
+            let got = if cells < 1e12 { format!("{cells}") } else { shown(cells) };
             let what = if self.places == 1 { "cells" } else { "places" };
-            return Err(invalid(
-                "grid",
-                &format!("must have at most {MOST_CELLS} {what}, got {got}"),
-            ));
+            return Err(invalid("grid", &format!("must have at most {MOST_CELLS} {what}, got {got}")));
         }
         let top = self.top_depth_m.get();
         let bottom = match self.bottom_depth_m {
@@ -95,10 +75,7 @@ impl GridSpec {
                 ));
             }
             None if self.vertical > 1 => {
-                return Err(invalid(
-                    "grid.bottom_depth_m",
-                    "must be given when vertical is more than 1",
-                ));
+                return Err(invalid("grid.bottom_depth_m", "must be given when vertical is more than 1"));
             }
             None => top + 1.0,
         };
@@ -181,9 +158,7 @@ impl TrajectorySpec {
         if !(1.0..=MOST_RELEASES).contains(&releases) {
             return Err(invalid(
                 "trajectory.lookback_s",
-                &format!(
-                    "must hold from 1 to {MOST_RELEASES} releases, {unit} s apart, got {releases}"
-                ),
+                &format!("must hold from 1 to {MOST_RELEASES} releases, {unit} s apart, got {releases}"),
             ));
         }
         Ok(())
@@ -248,8 +223,5 @@ impl TrajectorySpec {
 
 /// A setup error of a mapper.
 pub(super) fn invalid(field: &str, problem: &str) -> RobotError {
-    RobotError::Invalid {
-        field: format!("map.{field}"),
-        problem: problem.to_string(),
-    }
+    RobotError::Invalid { field: format!("map.{field}"), problem: problem.to_string() }
 }

@@ -36,11 +36,7 @@ pub(super) struct Terms {
 impl Terms {
     /// No term yet.
     pub(super) fn new(n: [usize; 3]) -> Self {
-        Self {
-            n,
-            terms: Vec::new(),
-            tables: [const { Vec::new() }; 3],
-        }
+        Self { n, terms: Vec::new(), tables: [const { Vec::new() }; 3] }
     }
 
     /// Forgets all terms, but keeps the memory.
@@ -52,11 +48,7 @@ impl Terms {
     }
 
     /// Adds a term; `fill` writes the factors along an axis into a row of zeros and returns which cells it reaches.
-    pub(super) fn add(
-        &mut self,
-        log2: u32,
-        mut fill: impl FnMut(usize, &mut [f64]) -> (usize, usize),
-    ) {
+    pub(super) fn add(&mut self, log2: u32, mut fill: impl FnMut(usize, &mut [f64]) -> (usize, usize)) {
         let mut reach = [(0, 0); 3];
         let mut peaks = [0.0; 3];
         for axis in 0..3 {
@@ -73,12 +65,7 @@ impl Terms {
             }
             return;
         }
-        self.terms.push(Term {
-            log2,
-            reach,
-            peak: peaks[0],
-            clamp: peaks.iter().product::<f64>() > 1.0,
-        });
+        self.terms.push(Term { log2, reach, peak: peaks[0], clamp: peaks.iter().product::<f64>() > 1.0 });
     }
 
     /// γ = Π (1 − μ p)^m for each cell.
@@ -132,12 +119,7 @@ impl Terms {
                 if c * term.peak < NEGLIGIBLE {
                     continue;
                 }
-                each(
-                    &mut row[i0..i1],
-                    &self.tables[0][t * nx + i0..t * nx + i1],
-                    c,
-                    term,
-                );
+                each(&mut row[i0..i1], &self.tables[0][t * nx + i0..t * nx + i1], c, term);
             }
         }
     }

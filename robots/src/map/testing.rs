@@ -12,12 +12,7 @@ use world::units::Heading;
 
 /// 100 × 100 m with its corner at the origin, axis to the east.
 pub(crate) fn paper_area() -> Area {
-    Area {
-        centre: Vector2::new(50.0, 50.0),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::new(50.0, 50.0), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(90.0) }
 }
 
 /// The paper's grid with cells as given.
@@ -26,11 +21,7 @@ pub(crate) fn grid(n: [usize; 3]) -> BeliefGrid {
 }
 
 /// A history of a flow given as a function of time, in steps of 0.5 s.
-pub(crate) fn history(
-    spec: &TrajectorySpec,
-    upto_s: f64,
-    flow: impl Fn(f64) -> [f64; 2],
-) -> FlowHistory {
+pub(crate) fn history(spec: &TrajectorySpec, upto_s: f64, flow: impl Fn(f64) -> [f64; 2]) -> FlowHistory {
     let mut h = spec.history(spec.release_period_s.get());
     let steps = (upto_s / 0.5).round() as u32;
     for n in 0..=steps {
@@ -41,12 +32,7 @@ pub(crate) fn history(
 }
 
 /// p of eq. 1, at most 1, for each release and each cell, as the paper writes it; plane maps.
-pub(crate) fn p_by_hand(
-    grid: &BeliefGrid,
-    spec: &TrajectorySpec,
-    history: &FlowHistory,
-    at: usize,
-) -> Vec<Vec<f64>> {
+pub(crate) fn p_by_hand(grid: &BeliefGrid, spec: &TrajectorySpec, history: &FlowHistory, at: usize) -> Vec<Vec<f64>> {
     let [sx, sy, _] = spec.sigmas();
     let place = |i: usize| grid.local_centre(i);
     let c_j = place(at);
@@ -54,15 +40,10 @@ pub(crate) fn p_by_hand(
         let c_i = place(i);
         let (dx, dy) = (c_j[0] - c_i[0] - s[0], c_j[1] - c_i[1] - s[1]);
         let peak = grid.cell_m[0] * grid.cell_m[1] / (std::f64::consts::TAU * age * sx * sy);
-        let p = peak
-            * math::exp(-dx * dx / (2.0 * age * sx * sx))
-            * math::exp(-dy * dy / (2.0 * age * sy * sy));
+        let p = peak * math::exp(-dx * dx / (2.0 * age * sx * sx)) * math::exp(-dy * dy / (2.0 * age * sy * sy));
         p.min(1.0)
     };
-    history
-        .releases()
-        .map(|(age, s)| (0..grid.len()).map(|i| one(age, s, i)).collect())
-        .collect()
+    history.releases().map(|(age, s)| (0..grid.len()).map(|i| one(age, s, i)).collect()).collect()
 }
 
 /// Puffs from a point in a uniform flow with noise, and a vehicle that criss-crosses the plume.
@@ -78,12 +59,7 @@ pub(crate) struct ToyPlume {
 impl ToyPlume {
     /// A plume that has developed for two minutes.
     pub(crate) fn new(source: Vector2<f64>, flow: fn(f64) -> Vector2<f64>, seed: u64) -> Self {
-        let mut new = Self {
-            source,
-            flow,
-            puffs: Vec::new(),
-            rng: Stream::new(seed, "toy", "plume"),
-        };
+        let mut new = Self { source, flow, puffs: Vec::new(), rng: Stream::new(seed, "toy", "plume") };
         for n in 0..120 {
             new.drift(f64::from(n) - 120.0);
         }
@@ -102,9 +78,8 @@ impl ToyPlume {
 
     /// Whether a puff is in the same cell of 2.5 × 4 m as the vehicle, and is noticed.
     pub(crate) fn smell(&mut self, p: Vector2<f64>) -> bool {
-        let same = |q: &Vector2<f64>| {
-            (q.x / 2.5).floor() == (p.x / 2.5).floor() && (q.y / 4.0).floor() == (p.y / 4.0).floor()
-        };
+        let same =
+            |q: &Vector2<f64>| (q.x / 2.5).floor() == (p.x / 2.5).floor() && (q.y / 4.0).floor() == (p.y / 4.0).floor();
         let near = self.puffs.iter().filter(|q| same(q)).count();
         (0..near).any(|_| self.rng.uniform() < 0.9)
     }
@@ -113,10 +88,7 @@ impl ToyPlume {
     pub(crate) fn seen(&mut self, t_s: f64) -> MapObservation {
         self.drift(t_s);
         let triangle = |x: f64| 1.0 - 2.0 * (x.rem_euclid(1.0) - 0.5).abs();
-        let p = Vector2::new(
-            95.0 - 90.0 * triangle(t_s / 500.0),
-            12.0 + 76.0 * triangle(t_s / 60.0),
-        );
+        let p = Vector2::new(95.0 - 90.0 * triangle(t_s / 500.0), 12.0 + 76.0 * triangle(t_s / 60.0));
         MapObservation {
             t_s,
             p_W: Vector3::new(p.x, p.y, -1.0),

@@ -33,26 +33,13 @@ pub(super) fn all(grid: &GridSpec, trajectory: &TrajectorySpec, particles: u32) 
             trajectory: trajectory.clone(),
             ..CellsSpec::default()
         })),
-        MapSpec::new(HmmSpec {
-            grid: grid.clone(),
-            trajectory: trajectory.clone(),
-            ..HmmSpec::default()
-        }),
-        MapSpec::new(ParticleFilterSpec {
-            grid,
-            trajectory,
-            particles,
-            ..ParticleFilterSpec::default()
-        }),
+        MapSpec::new(HmmSpec { grid: grid.clone(), trajectory: trajectory.clone(), ..HmmSpec::default() }),
+        MapSpec::new(ParticleFilterSpec { grid, trajectory, particles, ..ParticleFilterSpec::default() }),
     ]
 }
 
 fn small() -> (GridSpec, TrajectorySpec) {
-    let grid = GridSpec {
-        along: 7,
-        across: 6,
-        ..GridSpec::default()
-    };
+    let grid = GridSpec { along: 7, across: 6, ..GridSpec::default() };
     let trajectory = TrajectorySpec {
         lookback_s: Positive::new(20.0),
         sigma_x_m_rts: Positive::new(2.0),
@@ -88,26 +75,17 @@ fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
         let spec = match spec.get::<ParticleFilterSpec>() {
             Some(p) => MapSpec::new(ParticleFilterSpec {
                 particles: 20,
-                trajectory: TrajectorySpec {
-                    lookback_s: Positive::new(4.0),
-                    ..trajectory.clone()
-                },
+                trajectory: TrajectorySpec { lookback_s: Positive::new(4.0), ..trajectory.clone() },
                 ..p.clone()
             }),
             None => spec,
         };
         let mut rng = Stream::new(3, "auv0", "walk");
-        let mut mapper = spec
-            .build(&paper_area(), Stream::new(3, "auv0", "map"))
-            .expect("mapper");
+        let mut mapper = spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("mapper");
         for n in 0..100_002 {
             mapper.step(&random_walk(&mut rng, n));
         }
-        assert!(
-            mapper.belief().updates >= 100_000,
-            "{}",
-            mapper.belief().updates
-        );
+        assert!(mapper.belief().updates >= 100_000, "{}", mapper.belief().updates);
         assert_sound(mapper.as_ref(), spec.name());
     }
 }
@@ -117,9 +95,7 @@ fn an_hour_without_a_detection_or_with_nothing_else_does_not_underflow() {
     let trajectory = TrajectorySpec::default();
     for detected in [false, true] {
         for spec in all(&GridSpec::default(), &trajectory, 200) {
-            let mut mapper = spec
-                .build(&paper_area(), Stream::new(3, "auv0", "map"))
-                .expect("mapper");
+            let mut mapper = spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("mapper");
             for n in 0..3600 {
                 let t = f64::from(n);
                 mapper.step(&MapObservation {
@@ -172,10 +148,7 @@ fn the_pomdp_map_equals_a_brute_force_product() {
     let (grid_spec, trajectory) = small();
     let spec = CellsSpec {
         grid: grid_spec,
-        trajectory: TrajectorySpec {
-            merge: Fraction::new(0.0),
-            ..trajectory.clone()
-        },
+        trajectory: TrajectorySpec { merge: Fraction::new(0.0), ..trajectory.clone() },
         false_detection: Fraction::new(1e-3),
         ..CellsSpec::default()
     };
@@ -201,11 +174,7 @@ fn the_pomdp_map_equals_a_brute_force_product() {
         let p = p_by_hand(&grid, &trajectory, &history, at);
         for (i, b) in by_hand.iter_mut().enumerate() {
             let gamma: f64 = p.iter().map(|l| 1.0 - 0.9 * l[i]).product();
-            *b *= if detected {
-                1e-3 + (1.0 - 1e-3) * (1.0 - gamma)
-            } else {
-                gamma
-            };
+            *b *= if detected { 1e-3 + (1.0 - 1e-3) * (1.0 - gamma) } else { gamma };
         }
         let total: f64 = by_hand.iter().sum();
         for b in &mut by_hand {
@@ -227,16 +196,9 @@ fn neither_place_nor_direction_of_the_area_matters() {
     let shift = Vector2::new(3000.0, -700.0);
     // Turning the axis from 90° to 30° is a turn of 60° to the left.
     let turn = Rotation2::new(60.0_f64.to_radians());
-    let there = Area {
-        centre: turn * here.centre + shift,
-        axis: Heading::from_deg(30.0),
-        ..here
-    };
+    let there = Area { centre: turn * here.centre + shift, axis: Heading::from_deg(30.0), ..here };
     for spec in all(&GridSpec::default(), &trajectory, 200) {
-        let build = |area: &Area| {
-            spec.build(area, Stream::new(3, "auv0", "map"))
-                .expect("mapper")
-        };
+        let build = |area: &Area| spec.build(area, Stream::new(3, "auv0", "map")).expect("mapper");
         let (mut a, mut b) = (build(&here), build(&there));
         let mut rng = Stream::new(4, "auv0", "walk");
         for n in 0..60 {
@@ -257,10 +219,7 @@ fn neither_place_nor_direction_of_the_area_matters() {
 
 #[test]
 fn memory_is_bounded_by_the_look_back() {
-    let spec = TrajectorySpec {
-        lookback_s: Positive::new(100.0),
-        ..TrajectorySpec::default()
-    };
+    let spec = TrajectorySpec { lookback_s: Positive::new(100.0), ..TrajectorySpec::default() };
     let grid = Arc::new(grid([10, 10, 1]));
     let mut kernel = Kernel::new(&grid, &spec);
     let mut history = FlowHistory::new(1.0, 100.0, true);
@@ -278,36 +237,16 @@ fn odd_grids_are_refused_with_the_legal_range() {
     let area = paper_area();
     let of = |g: GridSpec| g.build(&area).expect_err("refused").to_string();
     let d = GridSpec::default;
-    assert_eq!(
-        of(GridSpec { along: 0, ..d() }),
-        "map.grid.along: must be at least 1, got 0"
-    );
+    assert_eq!(of(GridSpec { along: 0, ..d() }), "map.grid.along: must be at least 1, got 0");
     assert_eq!(
         of(GridSpec { vertical: 5, ..d() }),
         "map.grid.bottom_depth_m: must be given when vertical is more than 1"
     );
-    let upside_down = GridSpec {
-        top_depth_m: NonNegative::new(5.0),
-        bottom_depth_m: Some(Positive::new(2.0)),
-        ..d()
-    };
-    assert_eq!(
-        of(upside_down),
-        "map.grid.bottom_depth_m: must be greater than top_depth_m, 5, got 2"
-    );
-    let huge = GridSpec {
-        along: 4000,
-        across: 4000,
-        ..d()
-    };
-    assert_eq!(
-        of(huge),
-        "map.grid: must have at most 1000000 cells, got 16000000"
-    );
-    let short = TrajectorySpec {
-        lookback_s: Positive::new(0.5),
-        ..TrajectorySpec::default()
-    };
+    let upside_down = GridSpec { top_depth_m: NonNegative::new(5.0), bottom_depth_m: Some(Positive::new(2.0)), ..d() };
+    assert_eq!(of(upside_down), "map.grid.bottom_depth_m: must be greater than top_depth_m, 5, got 2");
+    let huge = GridSpec { along: 4000, across: 4000, ..d() };
+    assert_eq!(of(huge), "map.grid: must have at most 1000000 cells, got 16000000");
+    let short = TrajectorySpec { lookback_s: Positive::new(0.5), ..TrajectorySpec::default() };
     assert_eq!(
         short.check().expect_err("refused").to_string(),
         "map.trajectory.lookback_s: must hold from 1 to 100000 releases, 1 s apart, got 0.5"

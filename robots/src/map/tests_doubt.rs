@@ -18,11 +18,7 @@ use world::seeds::Stream;
 
 fn plain() -> CellsSpec {
     CellsSpec {
-        grid: GridSpec {
-            along: 20,
-            across: 10,
-            ..GridSpec::default()
-        },
+        grid: GridSpec { along: 20, across: 10, ..GridSpec::default() },
         trajectory: TrajectorySpec {
             lookback_s: Positive::new(60.0),
             merge: Fraction::new(0.0),
@@ -48,8 +44,7 @@ fn doubtful() -> DoubtSpec {
 }
 
 fn build(spec: &MapSpec) -> Box<dyn Mapper> {
-    spec.build(&paper_area(), Stream::new(3, "auv0", "map"))
-        .expect("legal")
+    spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("legal")
 }
 
 fn pomdp(spec: &CellsSpec) -> Box<dyn Mapper> {
@@ -78,9 +73,7 @@ fn every(spec: &CellsSpec) -> [MapSpec; 4] {
 }
 
 fn refused(spec: &MapSpec) -> String {
-    spec.build(&paper_area(), Stream::new(3, "auv0", "map"))
-        .expect_err("refused")
-        .to_string()
+    spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect_err("refused").to_string()
 }
 
 /// A vehicle on the line y = 50 m, and what it detects there.
@@ -107,10 +100,7 @@ fn every_map_with_every_doubt_stays_a_belief() {
         let mut mapper = build(&map);
         let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
         for t in 1..=240 {
-            mapper.step(&MapObservation {
-                fixed: t % 30 == 0,
-                ..plume.seen(f64::from(t))
-            });
+            mapper.step(&MapObservation { fixed: t % 30 == 0, ..plume.seen(f64::from(t)) });
             let b = mapper.belief();
             let total: f64 = b.p.iter().sum();
             assert!((total - 1.0).abs() < 1e-9, "{}: {total}", map.name());
@@ -131,12 +121,7 @@ fn a_cell_has_the_sum_of_its_places() {
     let mut mapper = pomdp(&spec);
     let fine = grid([60, 30, 1]);
     let mut ln_l = vec![0.0; fine.len()];
-    let path = [
-        (1.0, 60.0, false),
-        (2.0, 61.0, true),
-        (3.0, 63.0, true),
-        (4.0, 65.0, false),
-    ];
+    let path = [(1.0, 60.0, false), (2.0, 61.0, true), (3.0, 63.0, true), (4.0, 65.0, false)];
     mapper.step(&seen(0.0, 60.0, false));
     for (t, x, detected) in path {
         mapper.step(&seen(t, x, detected));
@@ -153,11 +138,7 @@ fn a_cell_has_the_sum_of_its_places() {
                 let p = top * math::exp(-0.5 * (d[0] * d[0] + d[1] * d[1]) / var);
                 gamma *= 1.0 - 0.9 * p.min(1.0);
             }
-            *ln_l += math::ln(if detected {
-                1e-3 + (1.0 - 1e-3) * (1.0 - gamma)
-            } else {
-                gamma.max(1e-280)
-            });
+            *ln_l += math::ln(if detected { 1e-3 + (1.0 - 1e-3) * (1.0 - gamma) } else { gamma.max(1e-280) });
         }
     }
     let b = mapper.belief();
@@ -208,10 +189,7 @@ fn a_flow_that_is_wrong_all_along_moves_the_map_and_a_stated_error_keeps_the_pla
         let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.1].into(), 4);
         for t in 1..=240 {
             let seen = plume.seen(f64::from(t));
-            mapper.step(&MapObservation {
-                flow: Some(Vector2::new(0.6, 0.0)),
-                ..seen
-            });
+            mapper.step(&MapObservation { flow: Some(Vector2::new(0.6, 0.0)), ..seen });
         }
         mapper.belief().within(Vector2::new(20.0, 40.0), 10.0)
     };
@@ -229,10 +207,7 @@ fn an_error_that_readings_share_widens_the_map() {
         let mut mapper = pomdp(&spec);
         let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
         for t in 0..=100 {
-            mapper.step(&MapObservation {
-                fixed: t == 5,
-                ..plume.seen(f64::from(t))
-            });
+            mapper.step(&MapObservation { fixed: t == 5, ..plume.seen(f64::from(t)) });
         }
         mapper.belief().entropy_nat
     };
@@ -262,10 +237,7 @@ fn odd_doubts_are_refused_with_the_legal_range() {
     spec.doubt.strengths = vec![Positive::new(1.0); 10];
     let says = "map.doubt.strengths: must be at most 9, got 10";
     assert_eq!(refused(&MapSpec::new(PomdpSpec(spec))), says);
-    let mut hmm = HmmSpec {
-        odour_every_s: Some(Positive::new(60.0)),
-        ..HmmSpec::default()
-    };
+    let mut hmm = HmmSpec { odour_every_s: Some(Positive::new(60.0)), ..HmmSpec::default() };
     hmm.grid.places = 3;
     let says = "map.odour_every_s: must not be given with grid.places 3: odour is shown for one place in a cell";
     assert_eq!(refused(&MapSpec::new(hmm)), says);

@@ -24,9 +24,7 @@ fn spec(mu: f64, sigma: [f64; 2], lookback_s: f64, merge: f64) -> TrajectorySpec
 /// ln γ by eq. 2 as it stands.
 fn ln_gamma_by_hand(p: &[Vec<f64>], mu: f64) -> Vec<f64> {
     let cells = p[0].len();
-    (0..cells)
-        .map(|i| p.iter().map(|l| math::ln(1.0 - mu * l[i])).sum())
-        .collect()
+    (0..cells).map(|i| p.iter().map(|l| math::ln(1.0 - mu * l[i])).sum()).collect()
 }
 
 proptest! {
@@ -82,9 +80,7 @@ fn merge_error(seed: u64, speed: f64, deg: f64, sigma: f64, wander: f64, cell: u
     let spec = spec(0.9, [sigma, sigma], 600.0, 0.3);
     let (s, c) = math::sin_cos(deg.to_radians());
     let mut rng = Stream::new(seed, "flow", "wander");
-    let noise: Vec<[f64; 2]> = (0..2000)
-        .map(|_| [wander * rng.normal(), wander * rng.normal()])
-        .collect();
+    let noise: Vec<[f64; 2]> = (0..2000).map(|_| [wander * rng.normal(), wander * rng.normal()]).collect();
     let history = history(&spec, 650.0, |t| {
         let n = noise[(t * 2.0) as usize];
         [speed * c + n[0], speed * s + n[1]]
@@ -96,10 +92,7 @@ fn merge_error(seed: u64, speed: f64, deg: f64, sigma: f64, wander: f64, cell: u
     kernel.not_detecting(&mut gamma);
     let exact = ln_gamma_by_hand(&p_by_hand(&grid, &spec, &history, cell), 0.9);
     let most = exact.iter().fold(0.0, |m: f64, v| m.max(-v));
-    let errors = gamma
-        .iter()
-        .zip(&exact)
-        .map(|(g, e)| (math::ln(*g) - e).abs());
+    let errors = gamma.iter().zip(&exact).map(|(g, e)| (math::ln(*g) - e).abs());
     errors.fold(0.0, f64::max) / most.max(1e-6)
 }
 
@@ -109,22 +102,14 @@ fn a_map_of_one_layer_is_the_map_of_the_plane_and_layers_add_up_to_it() {
     // (midpoint rule for a Gaussian: error under 1e-9).
     let flat = Arc::new(grid([12, 9, 1]));
     let deep = Arc::new(grid([12, 9, 20]));
-    let spec = TrajectorySpec {
-        sigma_z_m_rts: Positive::new(0.45),
-        ..spec(0.9, [4.0, 4.0], 30.0, 0.0)
-    };
+    let spec = TrajectorySpec { sigma_z_m_rts: Positive::new(0.45), ..spec(0.9, [4.0, 4.0], 30.0, 0.0) };
     let history = history(&spec, 40.0, |t| [0.8, 0.01 * t]);
     let mut plane = vec![0.0; flat.len()];
     let mut kernel = Kernel::new(&flat, &spec);
     kernel.aim(&history, flat.index([9, 5, 0]));
     kernel.expected(&mut plane);
     // Chances above 1 would not add up.
-    assert!(
-        p_by_hand(&flat, &spec, &history, flat.index([9, 5, 0]))
-            .iter()
-            .flatten()
-            .all(|p| *p < 1.0)
-    );
+    assert!(p_by_hand(&flat, &spec, &history, flat.index([9, 5, 0])).iter().flatten().all(|p| *p < 1.0));
     let mut space = vec![0.0; deep.len()];
     let mut kernel = Kernel::new(&deep, &spec);
     for k in [0, 7, 19] {
@@ -132,10 +117,7 @@ fn a_map_of_one_layer_is_the_map_of_the_plane_and_layers_add_up_to_it() {
         kernel.expected(&mut space);
         for (i, p) in plane.iter().enumerate() {
             let column: f64 = space.iter().skip(i).step_by(flat.len()).sum();
-            assert!(
-                (column - p).abs() < 1e-4 * (1.0 + p),
-                "{k} {i}: {column} {p}"
-            );
+            assert!((column - p).abs() < 1e-4 * (1.0 + p), "{k} {i}: {column} {p}");
         }
     }
 }

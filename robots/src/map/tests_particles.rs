@@ -4,10 +4,7 @@ use super::*;
 use crate::map::testing;
 
 fn filter(particles: u32) -> ParticleFilter {
-    let spec = ParticleFilterSpec {
-        particles,
-        ..ParticleFilterSpec::default()
-    };
+    let spec = ParticleFilterSpec { particles, ..ParticleFilterSpec::default() };
     let grid = spec.grid.build(&testing::paper_area()).expect("grid");
     ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map")).expect("filter")
 }
@@ -58,11 +55,7 @@ fn the_map_is_that_of_the_equations_written_out() {
                 let top = grid.cell_m[0] * grid.cell_m[1] / (std::f64::consts::TAU * age * sx * sy);
                 gamma *= 1.0 - 0.9 * (top * math::exp(-0.5 * d2 / age)).min(1.0);
             }
-            *w *= if sighting.detected {
-                1e-6 + (1.0 - 1e-6) * (1.0 - gamma)
-            } else {
-                gamma.max(1e-6)
-            };
+            *w *= if sighting.detected { 1e-6 + (1.0 - 1e-6) * (1.0 - gamma) } else { gamma.max(1e-6) };
         }
         let total: f64 = old.weights.iter().sum();
         detections += u32::from(sighting.detected);
@@ -90,10 +83,7 @@ fn roughened_particles_stay_in_the_area() {
 
 #[test]
 fn a_number_out_of_range_is_refused() {
-    let spec = ParticleFilterSpec {
-        particles: 3,
-        ..ParticleFilterSpec::default()
-    };
+    let spec = ParticleFilterSpec { particles: 3, ..ParticleFilterSpec::default() };
     let grid = spec.grid.build(&testing::paper_area()).expect("grid");
     let e = ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map"));
     let text = e.expect_err("three are too few").to_string();

@@ -22,16 +22,11 @@ fn swinging(t_s: f64) -> Vector2<f64> {
 
 #[test]
 fn the_source_is_found_in_steady_and_in_swinging_flow() {
-    let trajectory = TrajectorySpec {
-        lookback_s: Positive::new(150.0),
-        ..TrajectorySpec::default()
-    };
+    let trajectory = TrajectorySpec { lookback_s: Positive::new(150.0), ..TrajectorySpec::default() };
     for flow in [steady as fn(f64) -> Vector2<f64>, swinging] {
         for spec in all(&GridSpec::default(), &trajectory, 1000) {
             let mut plume = ToyPlume::new(source(), flow, 11);
-            let mut mapper = spec
-                .build(&paper_area(), Stream::new(1, "auv0", "map"))
-                .expect("mapper");
+            let mut mapper = spec.build(&paper_area(), Stream::new(1, "auv0", "map")).expect("mapper");
             let first = mapper.belief().entropy_nat;
             for n in 0..600 {
                 mapper.step(&plume.seen(f64::from(n)));
@@ -40,12 +35,7 @@ fn the_source_is_found_in_steady_and_in_swinging_flow() {
             let off = (b.grid.centre(b.best).xy() - source()).norm();
             // Two cells of 2.5 × 4 m.
             assert!(b.informed && off < 9.5, "{}: {off:.1} m off", spec.name());
-            assert!(
-                b.entropy_nat < 0.7 * first,
-                "{}: {} of {first}",
-                spec.name(),
-                b.entropy_nat
-            );
+            assert!(b.entropy_nat < 0.7 * first, "{}: {} of {first}", spec.name(), b.entropy_nat);
         }
     }
 }

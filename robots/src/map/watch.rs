@@ -53,14 +53,7 @@ pub(super) struct Watch {
 impl Watch {
     /// A watch over the grid with an update every `period_s`.
     pub(super) fn new(grid: &Arc<BeliefGrid>, history: FlowHistory, period_s: f64) -> Self {
-        Self {
-            history,
-            grid: grid.clone(),
-            period_s,
-            next_s: None,
-            pending: None,
-            fix_s: None,
-        }
+        Self { history, grid: grid.clone(), period_s, next_s: None, pending: None, fix_s: None }
     }
 
     /// Takes in an observation.
@@ -101,10 +94,6 @@ impl Watch {
     pub(super) fn take(&mut self, t_s: f64) -> Option<Sighting> {
         let (detected, p_W) = self.pending.take()?;
         self.history.releases().next()?;
-        Some(Sighting {
-            t_s,
-            cell: self.grid.cell(&p_W)?,
-            detected,
-        })
+        Some(Sighting { t_s, cell: self.grid.cell(&p_W)?, detected })
     }
 }

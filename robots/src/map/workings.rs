@@ -50,10 +50,7 @@ impl Default for CellsSpec {
 impl CellsSpec {
     /// The same with other doubts.
     pub(super) fn with(&self, doubt: &DoubtSpec) -> Self {
-        Self {
-            doubt: doubt.clone(),
-            ..self.clone()
-        }
+        Self { doubt: doubt.clone(), ..self.clone() }
     }
 
     /// Checks that a mapper can hold so many cells and such a look-back.
@@ -112,14 +109,7 @@ impl Workings {
     /// As [`Workings::new`].
     pub(super) fn over_cells(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
-        Self::new(
-            grid,
-            &spec.trajectory,
-            periods,
-            spec.false_detection,
-            &spec.doubt,
-            spec.grid.places,
-        )
+        Self::new(grid, &spec.trajectory, periods, spec.false_detection, &spec.doubt, spec.grid.places)
     }
 
     /// Takes `likelihood` into the belief.
@@ -127,7 +117,6 @@ impl Workings {
         if let Some(fix_s) = self.watch.fix() {
             self.belief.fixed(fix_s);
         }
-        self.belief
-            .update(t_s, detected, &self.likelihood, self.evidence.share);
+        self.belief.update(t_s, detected, &self.likelihood, self.evidence.share);
     }
 }

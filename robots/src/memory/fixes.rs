@@ -37,11 +37,7 @@ impl FixMove {
     pub fn needs(self) -> Vec<Need> {
         match self {
             Self::Stay => Vec::new(),
-            Self::Share | Self::Whole => vec![Need::wish(
-                "fixes",
-                "lbl",
-                "gets no fix that moves anything",
-            )],
+            Self::Share | Self::Whole => vec![Need::wish("fixes", "lbl", "gets no fix that moves anything")],
         }
     }
 }
@@ -101,11 +97,7 @@ impl FixWatch {
             self.jumps_m.pop_front();
         }
         self.jumps_m.push_back(estimate.fix_jump.norm());
-        Some(NavigationFix {
-            since_s,
-            t_s: estimate.t_s,
-            jump: estimate.fix_jump,
-        })
+        Some(NavigationFix { since_s, t_s: estimate.t_s, jump: estimate.fix_jump })
     }
 
     /// Standard deviation of a fix along one axis, m, from the median of the last 16 jumps; zero if there was no fix.
@@ -136,11 +128,7 @@ mod tests {
     #[test]
     fn a_steady_drift_is_taken_out_exactly() {
         // Believed = true + 0.1 m/s east since the fix at 100 s; the next fix comes at 200 s and takes 10 m back.
-        let fix = NavigationFix {
-            since_s: 100.0,
-            t_s: 200.0,
-            jump: Vector2::new(-10.0, 0.0),
-        };
+        let fix = NavigationFix { since_s: 100.0, t_s: 200.0, jump: Vector2::new(-10.0, 0.0) };
         for stored_s in [100.0, 130.0, 199.0, 200.0] {
             let drift = Vector2::new(0.1 * (stored_s - 100.0), 0.0);
             assert!((fix.shift_of(stored_s, FixMove::Share) + drift).norm() < 1e-12);
@@ -149,10 +137,7 @@ mod tests {
         assert_eq!(fix.shift_of(99.0, FixMove::Share), Vector2::zeros());
         assert_eq!(fix.shift_of(99.0, FixMove::Whole), fix.jump);
         assert_eq!(fix.shift_of(150.0, FixMove::Stay), Vector2::zeros());
-        let at_once = NavigationFix {
-            since_s: 200.0,
-            ..fix
-        };
+        let at_once = NavigationFix { since_s: 200.0, ..fix };
         assert_eq!(at_once.shift_of(200.0, FixMove::Share), Vector2::zeros());
     }
 
@@ -186,9 +171,6 @@ mod tests {
         let n = scales.len() as f64;
         let mean = scales.iter().sum::<f64>() / n;
         let var = scales.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / (n - 1.0);
-        assert!(
-            (mean - 5.0).abs() < 5.0 * (var / n).sqrt() + 0.25,
-            "{mean}, {var}"
-        );
+        assert!((mean - 5.0).abs() < 5.0 * (var / n).sqrt() + 0.25, "{mean}, {var}");
     }
 }

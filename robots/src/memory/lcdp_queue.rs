@@ -16,13 +16,8 @@ use world::units::Heading;
 /// The points, most up-flow first; points equally far up-flow from right to left, then in order of time.
 #[must_use]
 pub fn most_up_flow_first(points: &[Lcdp], up_flow: Heading) -> Vec<Lcdp> {
-    let mut sorted: Vec<(Vector2<f64>, Lcdp)> =
-        points.iter().map(|p| (p.in_flow(up_flow), *p)).collect();
-    sorted.sort_by(|(a, p), (b, q)| {
-        (a.x.total_cmp(&b.x))
-            .then(a.y.total_cmp(&b.y))
-            .then(p.t_s.total_cmp(&q.t_s))
-    });
+    let mut sorted: Vec<(Vector2<f64>, Lcdp)> = points.iter().map(|p| (p.in_flow(up_flow), *p)).collect();
+    sorted.sort_by(|(a, p), (b, q)| (a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y)).then(p.t_s.total_cmp(&q.t_s)));
     sorted.into_iter().map(|(_, p)| p).collect()
 }
 
@@ -37,10 +32,7 @@ impl LcdpQueue {
     /// An empty queue for `most` points.
     #[must_use]
     pub fn new(most: NonZeroUsize) -> Self {
-        Self {
-            points: Vec::new(),
-            most: most.get(),
-        }
+        Self { points: Vec::new(), most: most.get() }
     }
 
     /// Adds a point; a full queue forgets its oldest.
@@ -110,10 +102,7 @@ mod tests {
 
     #[test]
     fn turns_with_the_flow_and_keeps_its_times() {
-        let q = queue(
-            9,
-            &[at(1.0, 0.0, 5.0), at(2.0, 0.0, 20.0), at(3.0, 0.0, 10.0)],
-        );
+        let q = queue(9, &[at(1.0, 0.0, 5.0), at(2.0, 0.0, 20.0), at(3.0, 0.0, 10.0)]);
         assert_eq!(times(&q.by_flow(Heading::from_deg(0.0))), [2.0, 3.0, 1.0]);
         assert_eq!(times(&q.by_flow(Heading::from_deg(180.0))), [1.0, 3.0, 2.0]);
         assert_eq!(times(q.all()), [1.0, 2.0, 3.0]);
@@ -122,10 +111,7 @@ mod tests {
 
     #[test]
     fn a_full_queue_forgets_its_oldest_whatever_order_they_came_in() {
-        let mut q = queue(
-            3,
-            &[at(4.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(3.0, 0.0, 0.0)],
-        );
+        let mut q = queue(3, &[at(4.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(3.0, 0.0, 0.0)]);
         assert_eq!(times(q.all()), [2.0, 3.0, 4.0]);
         q.add(at(5.0, 0.0, 0.0));
         assert_eq!(times(q.all()), [3.0, 4.0, 5.0]);

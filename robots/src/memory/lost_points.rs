@@ -18,10 +18,7 @@ impl LostPoints {
     /// An empty list for `most` points.
     #[must_use]
     pub fn new(most: NonZeroUsize) -> Self {
-        Self {
-            points: Vec::new(),
-            most: most.get(),
-        }
+        Self { points: Vec::new(), most: most.get() }
     }
 
     /// Adds a point; the list stays in order along the present flow.

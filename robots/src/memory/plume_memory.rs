@@ -92,11 +92,7 @@ mod tests {
     #[test]
     fn a_fix_moves_all_that_is_remembered() {
         let up = Heading::from_deg(0.0);
-        for (rule, old, new) in [
-            (FixMove::Stay, 0.0, 0.0),
-            (FixMove::Share, 2.5, 7.5),
-            (FixMove::Whole, 10.0, 10.0),
-        ] {
+        for (rule, old, new) in [(FixMove::Stay, 0.0, 0.0), (FixMove::Share, 2.5, 7.5), (FixMove::Whole, 10.0, 10.0)] {
             let mut memory = PlumeMemory::default();
             let mut o = seen(0.0, Vector2::zeros(), 0.0, None);
             memory.take_fixes(&o, rule);

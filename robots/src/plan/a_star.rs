@@ -116,11 +116,7 @@ impl AStar {
             return Err(wrong("climb", "from 1 to 20", climb));
         }
         let soft_m = params.clearance_m.get();
-        let costs = Costs {
-            climb,
-            weight,
-            soft_m,
-        };
+        let costs = Costs { climb, weight, soft_m };
         Ok(Self {
             costs,
             turn_radius_m: params.turn_radius_m.get(),
@@ -136,12 +132,11 @@ impl Planner for AStar {
         if let Some(paper) = &mut self.paper {
             return paper.plan(room, start, goal);
         }
-        let e = self
-            .ends
-            .resolve(room, |c| room.free(c), &start.p_W, goal)?;
-        let (cells, _) = (self.search.run(room, e.start, e.goal, false))
-            .expect("cells of one component are joined by moves through faces: the flood fill and the search \
-                disagree, which is an error in the planner");
+        let e = self.ends.resolve(room, |c| room.free(c), &start.p_W, goal)?;
+        let (cells, _) = (self.search.run(room, e.start, e.goal, false)).expect(
+            "cells of one component are joined by moves through faces: the flood fill and the search \
+                disagree, which is an error in the planner",
+        );
         let mut points: Vec<_> = cells.iter().map(|c| room.lattice().centre(*c)).collect();
         let plane_z = start.p_W.z;
         if room.plane() {
@@ -167,20 +162,12 @@ impl Planner for AStar {
         };
         let pulled = smooth::pull(room, &self.costs, &points);
         let radius_m = self.turn_radius_m.max(own.turning_radius_m);
-        let (mut points, tightest_m) = if e.leaves_solid {
-            (pulled, 0.0)
-        } else {
-            smooth::round(room, &own, &pulled, radius_m)
-        };
+        let (mut points, tightest_m) =
+            if e.leaves_solid { (pulled, 0.0) } else { smooth::round(room, &own, &pulled, radius_m) };
         if e.leaves_solid {
             points.insert(0, own.p_W);
         }
-        Ok(Path {
-            points,
-            reach,
-            leaves_solid: e.leaves_solid,
-            tightest_m,
-        })
+        Ok(Path { points, reach, leaves_solid: e.leaves_solid, tightest_m })
     }
 }
 

@@ -12,12 +12,7 @@ use std::ops::Range;
 
 /// Which of the `steps` parts of a line (ENU, m) may lie in the grid; the height does not matter in a grid of a
 /// single layer.
-pub(super) fn within(
-    grid: &BeliefGrid,
-    from: &Vector3<f64>,
-    to: &Vector3<f64>,
-    steps: usize,
-) -> Range<usize> {
+pub(super) fn within(grid: &BeliefGrid, from: &Vector3<f64>, to: &Vector3<f64>, steps: usize) -> Range<usize> {
     let (a, b) = (grid.local(from), grid.local(to));
     let (mut begin, mut end) = (0.0_f64, 1.0_f64);
     let axes = if grid.n[2] == 1 { 2 } else { 3 };
@@ -58,11 +53,7 @@ mod tests {
             for k in 0..400 {
                 let reach = if k % 2 == 0 { 60.0 } else { 1e5 };
                 let mut point = |far: f64| {
-                    Vector3::new(
-                        20.0 + far * rng.normal(),
-                        15.0 + far * rng.normal(),
-                        -4.0 + 0.1 * far * rng.normal(),
-                    )
+                    Vector3::new(20.0 + far * rng.normal(), 15.0 + far * rng.normal(), -4.0 + 0.1 * far * rng.normal())
                 };
                 let (from, to) = (point(20.0), point(reach));
                 let steps = ((to - from).norm() / 0.5).floor() as usize;

@@ -43,11 +43,7 @@ impl Buckets {
     pub(super) fn push(&mut self, f: u32, cell: usize, g: u32) {
         let mask = self.heads.len() - 1;
         let head = &mut self.heads[f as usize & mask];
-        let entry = Entry {
-            cell: cell as u32,
-            g,
-            next: *head,
-        };
+        let entry = Entry { cell: cell as u32, g, next: *head };
         if let Some(spare) = self.pool.get_mut(self.spare as usize) {
             *head = self.spare;
             self.spare = std::mem::replace(spare, entry).next;

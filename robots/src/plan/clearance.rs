@@ -55,10 +55,7 @@ pub(super) fn for_each(
         // From the cells of `at` to those of `to`, which are narrowed to the box along this axis.
         let mut to = at;
         to[a] = b[a];
-        let gaps2: Vec<f64> = (0..=span[a])
-            .map(|i| gap_m(g.cell_m[a], i))
-            .map(|x| x * x)
-            .collect();
+        let gaps2: Vec<f64> = (0..=span[a]).map(|i| gap_m(g.cell_m[a], i)).map(|x| x * x).collect();
         let (n, m) = (size(at), size(to));
         let inner: usize = n[..a].iter().product();
         let mut next = vec![f64::INFINITY; m.iter().product()];

@@ -44,30 +44,15 @@ impl Ends {
             self.label(room, &open);
         }
         let own = room.nearest_cell(start);
-        let begin = self
-            .nearest(room, start, own, |l| l != 0)
-            .ok_or(NoPath::Full)?;
+        let begin = self.nearest(room, start, own, |l| l != 0).ok_or(NoPath::Full)?;
         let label = self.labels[begin];
         let wanted = room.nearest_cell(goal);
-        let end = self
-            .nearest(room, goal, wanted, |l| l == label)
-            .ok_or(NoPath::Full)?;
-        Ok(Resolved {
-            start: begin,
-            leaves_solid: begin != own,
-            goal: end,
-            at_goal: end == wanted,
-        })
+        let end = self.nearest(room, goal, wanted, |l| l == label).ok_or(NoPath::Full)?;
+        Ok(Resolved { start: begin, leaves_solid: begin != own, goal: end, at_goal: end == wanted })
     }
 
     /// The cell of a wanted component nearest to `p`; `own` is preferred to all others.
-    fn nearest(
-        &self,
-        room: &Room,
-        p: &Vector3<f64>,
-        own: usize,
-        wanted: impl Fn(u32) -> bool,
-    ) -> Option<usize> {
+    fn nearest(&self, room: &Room, p: &Vector3<f64>, own: usize, wanted: impl Fn(u32) -> bool) -> Option<usize> {
         if wanted(self.labels[own]) {
             return Some(own);
         }
@@ -92,8 +77,7 @@ impl Ends {
         let n = room.lattice().n;
         let (row, layer, all) = (n[0], n[0] * n[1], n[0] * n[1] * n[2]);
         self.labels.clear();
-        self.labels
-            .extend((0..all).map(|c| if open(c) { UNSEEN } else { 0 }));
+        self.labels.extend((0..all).map(|c| if open(c) { UNSEEN } else { 0 }));
         let mut label = 0;
         for seed in 0..all {
             if self.labels[seed] != UNSEEN {
@@ -137,60 +121,34 @@ mod tests {
     #[test]
     fn goal_behind_a_wall_ends_before_it() {
         // A wall right across the room.
-        let r = room(
-            [20, 20, 1],
-            [1.0; 3],
-            vec![block("w", 10.0, 10.0, [2.0, 40.0, 8.0])],
-        );
+        let r = room([20, 20, 1], [1.0; 3], vec![block("w", 10.0, 10.0, [2.0, 40.0, 8.0])]);
         let mut ends = Ends::default();
         let free = |c| r.free(c);
-        let e = ends
-            .resolve(&r, free, &at(2.5, 2.5), &at(18.5, 2.5))
-            .unwrap();
+        let e = ends.resolve(&r, free, &at(2.5, 2.5), &at(18.5, 2.5)).unwrap();
         assert!(!e.at_goal && !e.leaves_solid);
         let stop = r.lattice().centre(e.goal);
         // Face at 9 m, 0.4 m of hull, 0.71 m of half diagonal: the last free middle is at 7.5 m.
         assert_eq!((stop.x, stop.y), (7.5, 2.5));
-        let same = ends
-            .resolve(&r, free, &at(12.5, 2.5), &at(18.5, 2.5))
-            .unwrap();
+        let same = ends.resolve(&r, free, &at(12.5, 2.5), &at(18.5, 2.5)).unwrap();
         assert!(same.at_goal);
     }
 
     #[test]
     fn goal_and_start_in_a_solid_give_the_nearest_free_cells() {
-        let r = room(
-            [20, 20, 1],
-            [1.0; 3],
-            vec![block("b", 10.0, 10.0, [4.0, 4.0, 8.0])],
-        );
+        let r = room([20, 20, 1], [1.0; 3], vec![block("b", 10.0, 10.0, [4.0, 4.0, 8.0])]);
         let mut ends = Ends::default();
         let free = |c| r.free(c);
-        let e = ends
-            .resolve(&r, free, &at(2.5, 2.5), &at(11.2, 10.1))
-            .unwrap();
-        assert_eq!(
-            r.lattice().centre(e.goal).xy(),
-            nalgebra::Vector2::new(13.5, 10.5)
-        );
+        let e = ends.resolve(&r, free, &at(2.5, 2.5), &at(11.2, 10.1)).unwrap();
+        assert_eq!(r.lattice().centre(e.goal).xy(), nalgebra::Vector2::new(13.5, 10.5));
         assert!(!e.at_goal);
-        let e = ends
-            .resolve(&r, free, &at(10.2, 11.9), &at(2.5, 2.5))
-            .unwrap();
+        let e = ends.resolve(&r, free, &at(10.2, 11.9), &at(2.5, 2.5)).unwrap();
         assert!(e.leaves_solid && e.at_goal);
-        assert_eq!(
-            r.lattice().centre(e.start).xy(),
-            nalgebra::Vector2::new(10.5, 13.5)
-        );
+        assert_eq!(r.lattice().centre(e.start).xy(), nalgebra::Vector2::new(10.5, 13.5));
     }
 
     #[test]
     fn a_full_room_is_said_to_be_full() {
-        let r = room(
-            [8, 8, 1],
-            [1.0; 3],
-            vec![block("b", 4.0, 4.0, [20.0, 20.0, 8.0])],
-        );
+        let r = room([8, 8, 1], [1.0; 3], vec![block("b", 4.0, 4.0, [20.0, 20.0, 8.0])]);
         let said = Ends::default().resolve(&r, |c| r.free(c), &at(1.0, 1.0), &at(7.0, 7.0));
         assert_eq!(said, Err(NoPath::Full));
     }

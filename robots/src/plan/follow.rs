@@ -46,12 +46,7 @@ impl Follow {
             let last = upto_m[upto_m.len() - 1];
             upto_m.push(last + (w[1] - w[0]).xy().norm());
         }
-        Self {
-            points: Arc::new(path.points.clone()),
-            upto_m,
-            ahead_m,
-            s_m: 0.0,
-        }
+        Self { points: Arc::new(path.points.clone()), upto_m, ahead_m, s_m: 0.0 }
     }
 
     /// The path.
@@ -91,30 +86,18 @@ impl Follow {
         let ahead = self.at(self.s_m + self.ahead_m);
         let to = (ahead - p_W).xy();
         let beyond = self.points.len() > 1 && self.s_m >= length - 1e-9;
-        let course = if to.norm() > 1e-6 {
-            Heading::of(to)
-        } else {
-            self.last_course()
-        };
+        let course = if to.norm() > 1e-6 { Heading::of(to) } else { self.last_course() };
         Steer {
             course,
             z_m: ahead.z,
-            off_m: if beyond {
-                0.0
-            } else {
-                (self.at(self.s_m) - p_W).xy().norm()
-            },
+            off_m: if beyond { 0.0 } else { (self.at(self.s_m) - p_W).xy().norm() },
             left_m: length - self.s_m,
         }
     }
 
     fn last_course(&self) -> Heading {
         let n = self.points.len();
-        let leg = if n > 1 {
-            (self.points[n - 1] - self.points[n - 2]).xy()
-        } else {
-            nalgebra::Vector2::y()
-        };
+        let leg = if n > 1 { (self.points[n - 1] - self.points[n - 2]).xy() } else { nalgebra::Vector2::y() };
         Heading::of(leg)
     }
 

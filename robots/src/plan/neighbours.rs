@@ -38,11 +38,7 @@ pub(super) struct Neighbours {
 
 impl Neighbours {
     pub(super) fn new(n: [usize; 3], plane: bool, octile: &Octile) -> Self {
-        let mut new = Self {
-            plane,
-            middle: 1 + n[0] + if plane { 0 } else { n[0] * n[1] },
-            ..Self::default()
-        };
+        let mut new = Self { plane, middle: 1 + n[0] + if plane { 0 } else { n[0] * n[1] }, ..Self::default() };
         for row in 0..new.count() {
             new.rows[row] = (row % 3) * n[0] + (row / 3) * n[0] * n[1];
             for place in 0..3 {
@@ -124,13 +120,7 @@ impl Neighbours {
 
     /// The same without a look at which moves there are.
     #[inline]
-    fn cheaper<const ROWS: usize>(
-        &self,
-        cell: usize,
-        own: u32,
-        g: &[u32],
-        penalty: &[u8],
-    ) -> (u64, Lanes) {
+    fn cheaper<const ROWS: usize>(&self, cell: usize, own: u32, g: &[u32], penalty: &[u8]) -> (u64, Lanes) {
         let mut costs = [[0; 4]; 9];
         let mut less = [[0_u8; 4]; 9];
         let first = cell - self.middle;
@@ -205,16 +195,8 @@ mod tests {
                     u => (250.0 * u) as u8,
                 })
                 .collect();
-            let g: Vec<u32> = penalty
-                .iter()
-                .map(|p| {
-                    if *p == BLOCKED {
-                        0
-                    } else {
-                        (9000.0 * rng.uniform()) as u32
-                    }
-                })
-                .collect();
+            let g: Vec<u32> =
+                penalty.iter().map(|p| if *p == BLOCKED { 0 } else { (9000.0 * rng.uniform()) as u32 }).collect();
             let mut found = 0;
             for cell in (0..all).filter(|c| penalty[*c] != BLOCKED) {
                 let (lanes, costs) = near.better(cell, 3000, &g, &penalty);

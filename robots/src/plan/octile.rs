@@ -11,16 +11,7 @@
 
 /// Axes that are changed least and most by what of d0 < d1, d0 < d2 and d1 < d2 is true, as bits; two of the eight
 /// cannot be.
-const ORDER: [(usize, usize); 8] = [
-    (2, 0),
-    (2, 1),
-    (2, 0),
-    (0, 1),
-    (1, 0),
-    (0, 2),
-    (1, 2),
-    (0, 2),
-];
+const ORDER: [(usize, usize); 8] = [(2, 0), (2, 1), (2, 0), (0, 1), (1, 0), (0, 2), (1, 2), (0, 2)];
 
 /// Lengths of moves.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,13 +24,7 @@ impl Octile {
     pub(super) fn new(side: [f64; 3]) -> Self {
         let mut lengths = [0.0; 8];
         for (set, length) in lengths.iter_mut().enumerate() {
-            let squares = (0..3).map(|a| {
-                if set >> a & 1 == 1 {
-                    side[a] * side[a]
-                } else {
-                    0.0
-                }
-            });
+            let squares = (0..3).map(|a| if set >> a & 1 == 1 { side[a] * side[a] } else { 0.0 });
             *length = squares.sum::<f64>().sqrt();
         }
         Self { lengths }
@@ -56,9 +41,7 @@ impl Octile {
         let d = [0, 1, 2].map(|axis| a[axis].abs_diff(b[axis]) as u32);
         let (lo, hi) = (d[0].min(d[1]).min(d[2]), d[0].max(d[1]).max(d[2]));
         let middle = d[0] + d[1] + d[2] - lo - hi;
-        let less = usize::from(d[0] < d[1])
-            | usize::from(d[0] < d[2]) << 1
-            | usize::from(d[1] < d[2]) << 2;
+        let less = usize::from(d[0] < d[1]) | usize::from(d[0] < d[2]) << 1 | usize::from(d[1] < d[2]) << 2;
         let (least, most) = ORDER[less];
         let sum = f64::from(lo) * self.lengths[7]
             + f64::from(middle - lo) * self.lengths[7 ^ (1 << least)]

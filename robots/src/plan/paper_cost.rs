@@ -19,16 +19,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// The eight directions, anticlockwise from the grid's first axis.
-const ROUND: [[isize; 2]; 8] = [
-    [1, 0],
-    [1, 1],
-    [0, 1],
-    [-1, 1],
-    [-1, 0],
-    [-1, -1],
-    [0, -1],
-    [1, -1],
-];
+const ROUND: [[isize; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
 /// The five moves in eighths of a turn to the left, forward first.
 const FIVE: [usize; 5] = [0, 1, 7, 2, 6];
 /// Cost of entering an obstacle cell (eq. 8).
@@ -44,15 +35,8 @@ pub(super) struct FiveMoves {
 }
 
 impl FiveMoves {
-    pub(super) fn plan(
-        &mut self,
-        room: &Room,
-        start: &From,
-        goal: &Vector3<f64>,
-    ) -> Result<Path, NoPath> {
-        let e = self
-            .ends
-            .resolve(room, |c| !room.solid(c), &start.p_W, goal)?;
+    pub(super) fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+        let e = self.ends.resolve(room, |c| !room.solid(c), &start.p_W, goal)?;
         let grid = room.lattice();
         let [nx, ny, _] = grid.n.map(|n| n as isize);
         let target = grid.place(e.goal);
@@ -96,22 +80,14 @@ impl FiveMoves {
                     self.g[entered] = more;
                     self.from[entered] = state;
                     count += 1;
-                    self.open
-                        .push((Reverse(more + h(next)), count, entered as u32));
+                    self.open.push((Reverse(more + h(next)), count, entered as u32));
                 }
             }
         }
         Ok(self.path(room, start, goal, e.leaves_solid, nearest.1))
     }
 
-    fn path(
-        &self,
-        room: &Room,
-        start: &From,
-        goal: &Vector3<f64>,
-        leaves_solid: bool,
-        end: usize,
-    ) -> Path {
+    fn path(&self, room: &Room, start: &From, goal: &Vector3<f64>, leaves_solid: bool, end: usize) -> Path {
         let mut states = vec![end];
         while let Some(&before) = states.last().map(|s| &self.from[*s]) {
             if before == u32::MAX {
@@ -136,11 +112,7 @@ impl FiveMoves {
         let there = room.lattice().cell(goal) == Some(end / 8);
         let (last, wish) = (points[points.len() - 1].xy(), goal.xy());
         Path {
-            reach: if there {
-                Reach::Goal
-            } else {
-                Reach::Nearest((last - wish).norm())
-            },
+            reach: if there { Reach::Goal } else { Reach::Nearest((last - wish).norm()) },
             tightest_m: if points.len() > 2 { 0.0 } else { f64::INFINITY },
             leaves_solid,
             points,
@@ -157,9 +129,7 @@ fn facing(room: &Room, start: &From) -> usize {
         let d = Vector2::new(d[0] as f64 * grid.cell_m[0], d[1] as f64 * grid.cell_m[1]);
         d.normalize().dot(&v)
     };
-    (0..8)
-        .max_by(|a, b| along(&ROUND[*a]).total_cmp(&along(&ROUND[*b])))
-        .unwrap_or(0)
+    (0..8).max_by(|a, b| along(&ROUND[*a]).total_cmp(&along(&ROUND[*b]))).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -169,28 +139,17 @@ mod tests {
     use world::units::Heading;
 
     fn from(x: f64, y: f64, deg: f64) -> From {
-        From {
-            p_W: Vector3::new(x, y, -4.0),
-            heading: Heading::from_deg(deg),
-            turning_radius_m: 0.0,
-        }
+        From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 }
     }
 
     /// The paper's room: 40 × 25 cells of 2.5 × 4 m, its block and its ends.
     #[test]
     fn goes_round_the_papers_block_in_cells() {
-        let r = room(
-            [40, 25, 1],
-            [2.5, 4.0, 8.0],
-            vec![block("b", 43.75, 50.0, [7.5, 20.0, 8.0])],
-        );
+        let r = room([40, 25, 1], [2.5, 4.0, 8.0], vec![block("b", 43.75, 50.0, [7.5, 20.0, 8.0])]);
         let solid = (0..1000).filter(|c| r.solid(*c)).count();
         assert_eq!(solid, 15);
         let goal = Vector3::new(21.25, 50.0, -4.0);
-        for (start, most) in [
-            (from(61.25, 10.0, 0.0), 30.0 * 4.0),
-            (from(61.25, 50.0, 270.0), 100.0),
-        ] {
+        for (start, most) in [(from(61.25, 10.0, 0.0), 30.0 * 4.0), (from(61.25, 50.0, 270.0), 100.0)] {
             let path = FiveMoves::default().plan(&r, &start, &goal).unwrap();
             assert_eq!(path.reach, Reach::Goal);
             assert!(path.length_m() < most, "{path:?}");
@@ -213,13 +172,7 @@ mod tests {
     fn never_turns_back_in_one_move() {
         let r = room([40, 25, 1], [2.5, 4.0, 8.0], vec![]);
         // Facing west with the goal due east: two turns at least.
-        let path = FiveMoves::default()
-            .plan(
-                &r,
-                &from(50.0, 50.0, 270.0),
-                &Vector3::new(90.0, 50.0, -4.0),
-            )
-            .unwrap();
+        let path = FiveMoves::default().plan(&r, &from(50.0, 50.0, 270.0), &Vector3::new(90.0, 50.0, -4.0)).unwrap();
         assert_eq!(path.reach, Reach::Goal);
         let first = path.points[1] - path.points[0];
         assert!(path.points.len() > 3 && first.x < 1.3, "{path:?}");
@@ -227,21 +180,8 @@ mod tests {
 
     #[test]
     fn a_goal_in_the_block_ends_beside_it() {
-        let r = room(
-            [40, 25, 1],
-            [2.5, 4.0, 8.0],
-            vec![block("b", 43.75, 50.0, [7.5, 20.0, 8.0])],
-        );
-        let path = FiveMoves::default()
-            .plan(
-                &r,
-                &from(61.25, 10.0, 0.0),
-                &Vector3::new(43.75, 50.0, -4.0),
-            )
-            .unwrap();
-        assert!(
-            matches!(path.reach, Reach::Nearest(m) if m < 6.0),
-            "{path:?}"
-        );
+        let r = room([40, 25, 1], [2.5, 4.0, 8.0], vec![block("b", 43.75, 50.0, [7.5, 20.0, 8.0])]);
+        let path = FiveMoves::default().plan(&r, &from(61.25, 10.0, 0.0), &Vector3::new(43.75, 50.0, -4.0)).unwrap();
+        assert!(matches!(path.reach, Reach::Nearest(m) if m < 6.0), "{path:?}");
     }
 }

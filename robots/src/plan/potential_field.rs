@@ -140,9 +140,7 @@ impl PotentialField {
                 problem: format!("must be at most half of push_m, {reach} m, got {step}"),
             });
         }
-        Ok(Self {
-            params: params.clone(),
-        })
+        Ok(Self { params: params.clone() })
     }
 
     /// Downhill direction of the potential (not a unit vector).
@@ -235,11 +233,7 @@ impl Planner for PotentialField {
         let left = (goal - way[way.len() - 1]).norm();
         Ok(Path {
             points: thinned(&way, step),
-            reach: if arrived {
-                Reach::Goal
-            } else {
-                Reach::Caught(left)
-            },
+            reach: if arrived { Reach::Goal } else { Reach::Caught(left) },
             leaves_solid: room.solid(room.nearest_cell(&start.p_W)),
             tightest_m: 0.0,
         })
@@ -272,46 +266,27 @@ mod tests {
     use world::units::Heading;
 
     fn from(x: f64, y: f64) -> From {
-        From {
-            p_W: Vector3::new(x, y, -4.0),
-            heading: Heading::from_deg(270.0),
-            turning_radius_m: 0.0,
-        }
+        From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
     }
 
     fn plan(room: &Room, start: From, goal: Vector3<f64>) -> Path {
-        PotentialField::new(&Params::default())
-            .unwrap()
-            .plan(room, &start, &goal)
-            .unwrap()
+        PotentialField::new(&Params::default()).unwrap().plan(room, &start, &goal).unwrap()
     }
 
     #[test]
     fn open_water_is_a_straight_line() {
-        let path = plan(
-            &room([60, 60, 1], [1.0; 3], vec![]),
-            from(50.0, 10.0),
-            Vector3::new(10.0, 40.0, -4.0),
-        );
+        let path = plan(&room([60, 60, 1], [1.0; 3], vec![]), from(50.0, 10.0), Vector3::new(10.0, 40.0, -4.0));
         assert_eq!(path.reach, Reach::Goal);
         assert_eq!(path.points.len(), 2);
     }
 
     #[test]
     fn slips_past_a_block_that_lies_aside_and_is_caught_in_a_u() {
-        let one = room(
-            [60, 60, 1],
-            [1.0; 3],
-            vec![block("b", 30.0, 24.0, [6.0, 6.0, 8.0])],
-        );
+        let one = room([60, 60, 1], [1.0; 3], vec![block("b", 30.0, 24.0, [6.0, 6.0, 8.0])]);
         let goal = Vector3::new(10.0, 32.0, -4.0);
         let path = plan(&one, from(52.0, 32.0), goal);
         assert_eq!(path.reach, Reach::Goal);
-        assert!(
-            path.points
-                .windows(2)
-                .all(|w| one.line(&w[0], &w[1], |c| !one.solid(c)))
-        );
+        assert!(path.points.windows(2).all(|w| one.line(&w[0], &w[1], |c| !one.solid(c))));
         let u = vec![
             block("back", 22.0, 30.0, [3.0, 26.0, 8.0]),
             block("north", 30.0, 42.0, [16.0, 3.0, 8.0]),
@@ -319,10 +294,7 @@ mod tests {
         ];
         let trap = room([60, 60, 1], [1.0; 3], u);
         let path = plan(&trap, from(52.0, 31.0), Vector3::new(10.0, 30.0, -4.0));
-        assert!(
-            matches!(path.reach, Reach::Caught(m) if m > 10.0),
-            "{path:?}"
-        );
+        assert!(matches!(path.reach, Reach::Caught(m) if m > 10.0), "{path:?}");
         let end = path.points[path.points.len() - 1];
         assert!(end.x > 23.0 && end.x < 38.0, "inside the U: {end:?}");
     }

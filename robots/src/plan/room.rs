@@ -84,12 +84,7 @@ impl Room {
 
     /// Adds charted solids to the room; in a room of three dimensions also bed and surface. In a room of the plane,
     /// `level` gives the height (z, m) at which the vehicle moves over a place (east, north).
-    pub fn chart(
-        &mut self,
-        solids: &Obstacles,
-        terrain: &Terrain,
-        level: &dyn Fn(f64, f64) -> f64,
-    ) {
+    pub fn chart(&mut self, solids: &Obstacles, terrain: &Terrain, level: &dyn Fn(f64, f64) -> f64) {
         let plane = self.plane();
         let boxes: Vec<_> = solids.0.iter().map(|o| (o, o.bounds())).collect();
         for cell in 0..self.lattice.len() {
@@ -157,9 +152,7 @@ impl Room {
         let lifted = std::mem::take(&mut self.lifted);
         let Some(first) = lifted.first() else { return };
         // All boxes at once, unless that is more work than one after the other.
-        let whole = lifted.iter().fold(*first, |w, b| {
-            [0, 1, 2].map(|a| (w[a].0.min(b[a].0), w[a].1.max(b[a].1)))
-        });
+        let whole = lifted.iter().fold(*first, |w, b| [0, 1, 2].map(|a| (w[a].0.min(b[a].0), w[a].1.max(b[a].1))));
         let work = |b: &CellBox| clearance::count(clearance::wider(*b, self.span, self.lattice.n));
         if work(&whole) <= lifted.iter().map(work).sum() {
             self.clear(whole);
@@ -173,23 +166,15 @@ impl Room {
     fn clear(&mut self, b: CellBox) {
         for k in b[2].0..b[2].1 {
             for j in b[1].0..b[1].1 {
-                let row =
-                    self.lattice.index([b[0].0, j, k])..=self.lattice.index([b[0].1 - 1, j, k]);
+                let row = self.lattice.index([b[0].0, j, k])..=self.lattice.index([b[0].1 - 1, j, k]);
                 self.clearance_m[row.clone()].copy_from_slice(&self.charted_m[row]);
             }
         }
         let limits = (self.reach_m, self.half_diagonal_m);
         let clearance_m = &mut self.clearance_m;
-        clearance::for_each(
-            &self.lattice,
-            b,
-            self.span,
-            limits,
-            &self.found,
-            |cell, d| {
-                clearance_m[cell] = clearance_m[cell].min(d as f32);
-            },
-        );
+        clearance::for_each(&self.lattice, b, self.span, limits, &self.found, |cell, d| {
+            clearance_m[cell] = clearance_m[cell].min(d as f32);
+        });
     }
 
     /// Updates the clearances around a new solid cell.
@@ -284,25 +269,12 @@ impl Room {
 
     /// Whether `open` is true for all cells that a straight line (ENU, m) passes.
     #[must_use]
-    pub fn line(
-        &self,
-        a: &Vector3<f64>,
-        b: &Vector3<f64>,
-        mut open: impl FnMut(usize) -> bool,
-    ) -> bool {
+    pub fn line(&self, a: &Vector3<f64>, b: &Vector3<f64>, mut open: impl FnMut(usize) -> bool) -> bool {
         let g = &self.lattice;
         let local = |p: &Vector3<f64>| {
             let d = p.xy() - g.corner.xy();
-            let z = if self.plane() {
-                0.5
-            } else {
-                (p.z - g.corner.z) / g.cell_m[2]
-            };
-            [
-                d.dot(&g.axes[0]) / g.cell_m[0],
-                d.dot(&g.axes[1]) / g.cell_m[1],
-                z,
-            ]
+            let z = if self.plane() { 0.5 } else { (p.z - g.corner.z) / g.cell_m[2] };
+            [d.dot(&g.axes[0]) / g.cell_m[0], d.dot(&g.axes[1]) / g.cell_m[1], z]
         };
         let (a, b) = (local(a), local(b));
         let mut at = a.map(|v| v.floor() as i64);
@@ -317,25 +289,15 @@ impl Room {
         let sign = slope.map(|s| if s > 0.0 { 1 } else { -1 });
         let mut next = [0, 1, 2].map(|k| {
             let face = at[k] + i64::from(slope[k] > 0.0);
-            if at[k] == end[k] {
-                f64::INFINITY
-            } else {
-                (face as f64 - a[k]) / slope[k]
-            }
+            if at[k] == end[k] { f64::INFINITY } else { (face as f64 - a[k]) / slope[k] }
         });
         while at != end {
-            let k = (0..3)
-                .min_by(|i, j| next[*i].total_cmp(&next[*j]))
-                .unwrap_or(0);
+            let k = (0..3).min_by(|i, j| next[*i].total_cmp(&next[*j])).unwrap_or(0);
             if !next[k].is_finite() {
                 return true;
             }
             at[k] += sign[k];
-            next[k] = if at[k] == end[k] {
-                f64::INFINITY
-            } else {
-                next[k] + 1.0 / slope[k].abs()
-            };
+            next[k] = if at[k] == end[k] { f64::INFINITY } else { next[k] + 1.0 / slope[k].abs() };
             if !go(at) {
                 return false;
             }
@@ -351,12 +313,7 @@ impl Room {
 }
 
 /// The cells within reach of a solid one, which counts as solid as a whole.
-fn round(
-    lattice: &BeliefGrid,
-    span: [usize; 3],
-    reach_m: f64,
-    half_diagonal_m: f64,
-) -> Vec<([i32; 3], f32)> {
+fn round(lattice: &BeliefGrid, span: [usize; 3], reach_m: f64, half_diagonal_m: f64) -> Vec<([i32; 3], f32)> {
     let span = span.map(|s| s as i32);
     let gap = |a: usize, i: i32| clearance::gap_m(lattice.cell_m[a], i.unsigned_abs() as usize);
     let mut round = Vec::new();

@@ -73,13 +73,7 @@ impl Search {
 
     /// Cheapest way between two cells that are both free and joined, and its cost in units; `blind` leaves the
     /// heuristic out (Dijkstra's search, for tests).
-    pub(super) fn run(
-        &mut self,
-        room: &Room,
-        start: usize,
-        goal: usize,
-        blind: bool,
-    ) -> Option<(Vec<usize>, u32)> {
+    pub(super) fn run(&mut self, room: &Room, start: usize, goal: usize, blind: bool) -> Option<(Vec<usize>, u32)> {
         if self.of.as_ref() != Some(room.revision()) {
             self.take_in(room);
         }
@@ -134,11 +128,7 @@ impl Search {
         for cell in 0..lattice.len() {
             let spare = room.clearance_m(cell) - room.needed_m();
             if spare >= 0.0 {
-                let share = if most > 0.0 {
-                    (1.0 - spare / most).max(0.0)
-                } else {
-                    0.0
-                };
+                let share = if most > 0.0 { (1.0 - spare / most).max(0.0) } else { 0.0 };
                 let at = self.padded(room, cell);
                 self.penalty[at] = (parts * share).round().min(f64::from(BLOCKED - 1)) as u8;
             }

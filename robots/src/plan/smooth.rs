@@ -100,18 +100,11 @@ fn arc(start: Vector3<f64>, centre: Vector2<f64>, angle: f64, z: f64) -> Vec<Vec
 
 fn free(room: &Room, from: &Vector3<f64>, points: &[Vector3<f64>]) -> bool {
     let mut last = from;
-    points
-        .iter()
-        .all(|p| room.line_free(std::mem::replace(&mut last, p), p))
+    points.iter().all(|p| room.line_free(std::mem::replace(&mut last, p), p))
 }
 
 /// The turn from the start's own direction towards `to` on one of the two turning circles: the shorter free one.
-fn first_turn(
-    room: &Room,
-    start: &From,
-    to: &Vector3<f64>,
-    radius_m: f64,
-) -> Option<Vec<Vector3<f64>>> {
+fn first_turn(room: &Room, start: &From, to: &Vector3<f64>, radius_m: f64) -> Option<Vec<Vector3<f64>>> {
     let mut best: Option<(f64, Vec<Vector3<f64>>)> = None;
     for turn in [1.0, -1.0] {
         let centre = start.p_W.xy() + start.heading.turned(turn * FRAC_PI_2).unit() * radius_m;
@@ -129,10 +122,7 @@ fn first_turn(
         let z = start.p_W.z + (to.z - start.p_W.z) * (angle * radius_m / length);
         let points = arc(start.p_W, centre, turn * angle, z);
         let ends_free = points.last().is_some_and(|p| room.line_free(p, to));
-        if ends_free
-            && free(room, &start.p_W, &points)
-            && best.as_ref().is_none_or(|(l, _)| length < *l)
-        {
+        if ends_free && free(room, &start.p_W, &points) && best.as_ref().is_none_or(|(l, _)| length < *l) {
             best = Some((length, points));
         }
     }
@@ -140,21 +130,13 @@ fn first_turn(
 }
 
 /// Rounds the corners; returns the path and the radius of its tightest turn, m.
-pub(super) fn round(
-    room: &Room,
-    start: &From,
-    points: &[Vector3<f64>],
-    radius_m: f64,
-) -> (Vec<Vector3<f64>>, f64) {
+pub(super) fn round(room: &Room, start: &From, points: &[Vector3<f64>], radius_m: f64) -> (Vec<Vector3<f64>>, f64) {
     let mut tightest = f64::INFINITY;
     let mut made = vec![points[0]];
     let Some(second) = points.get(1) else {
         return (made, tightest);
     };
-    let aside = start
-        .heading
-        .turn_to(Heading::of(second.xy() - points[0].xy()))
-        .abs();
+    let aside = start.heading.turn_to(Heading::of(second.xy() - points[0].xy())).abs();
     if aside > STRAIGHT_RAD {
         match first_turn(room, start, second, radius_m) {
             Some(turn) => {
@@ -208,11 +190,7 @@ mod tests {
     use super::*;
     use crate::plan::testing::{block, room};
 
-    const COSTS: Costs = Costs {
-        climb: 1.0,
-        weight: 0.0,
-        soft_m: 0.0,
-    };
+    const COSTS: Costs = Costs { climb: 1.0, weight: 0.0, soft_m: 0.0 };
 
     fn at(x: f64, y: f64) -> Vector3<f64> {
         Vector3::new(x, y, -4.0)
@@ -221,19 +199,11 @@ mod tests {
     #[test]
     fn a_string_is_pulled_tight_in_free_water_and_holds_at_a_block() {
         let open = room([60, 60, 1], [1.0; 3], vec![]);
-        let stairs: Vec<_> = (0..40_i32)
-            .map(|k| at(5.0 + f64::from(k / 2), 5.0 + f64::from((k + 1) / 2)))
-            .collect();
+        let stairs: Vec<_> = (0..40_i32).map(|k| at(5.0 + f64::from(k / 2), 5.0 + f64::from((k + 1) / 2))).collect();
         assert_eq!(pull(&open, &COSTS, &stairs), [stairs[0], stairs[39]]);
-        let held = room(
-            [60, 60, 1],
-            [1.0; 3],
-            vec![block("b", 20.0, 20.0, [10.0, 10.0, 8.0])],
-        );
-        let round: Vec<_> = (10..=30)
-            .map(|y| at(10.5, f64::from(y)))
-            .chain((11..=30).map(|x| at(f64::from(x), 30.0)))
-            .collect();
+        let held = room([60, 60, 1], [1.0; 3], vec![block("b", 20.0, 20.0, [10.0, 10.0, 8.0])]);
+        let round: Vec<_> =
+            (10..=30).map(|y| at(10.5, f64::from(y))).chain((11..=30).map(|x| at(f64::from(x), 30.0))).collect();
         let pulled = pull(&held, &COSTS, &round);
         assert!(pulled.len() >= 3 && pulled.len() < 8, "{pulled:?}");
         assert!(pulled.windows(2).all(|w| held.line_free(&w[0], &w[1])));
@@ -242,41 +212,20 @@ mod tests {
     #[test]
     fn corners_become_arcs_of_the_radius() {
         let open = room([80, 80, 1], [1.0; 3], vec![]);
-        let start = From {
-            p_W: at(10.0, 10.0),
-            heading: Heading::from_deg(0.0),
-            turning_radius_m: 0.0,
-        };
-        let (path, tightest) = round(
-            &open,
-            &start,
-            &[at(10.0, 10.0), at(10.0, 60.0), at(60.0, 60.0)],
-            12.0,
-        );
+        let start = From { p_W: at(10.0, 10.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
+        let (path, tightest) = round(&open, &start, &[at(10.0, 10.0), at(10.0, 60.0), at(60.0, 60.0)], 12.0);
         assert_eq!(tightest, 12.0);
         // Round the corner every point of the arc lies 12 m from its centre.
         let centre = Vector2::new(22.0, 48.0);
         let bow: Vec<_> = path.iter().filter(|p| p.x < 21.9 && p.y > 48.1).collect();
-        assert!(
-            bow.len() >= 6
-                && bow
-                    .iter()
-                    .all(|p| ((p.xy() - centre).norm() - 12.0).abs() < 1e-9)
-        );
+        assert!(bow.len() >= 6 && bow.iter().all(|p| ((p.xy() - centre).norm() - 12.0).abs() < 1e-9));
         let length: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-        assert!(
-            (length - (38.0 + 38.0 + 12.0 * FRAC_PI_2)).abs() < 0.1,
-            "{length}"
-        );
+        assert!((length - (38.0 + 38.0 + 12.0 * FRAC_PI_2)).abs() < 0.1, "{length}");
     }
 
     #[test]
     fn the_first_turn_is_on_a_turning_circle_to_the_free_side() {
-        let start = From {
-            p_W: at(40.0, 40.0),
-            heading: Heading::from_deg(0.0),
-            turning_radius_m: 0.0,
-        };
+        let start = From { p_W: at(40.0, 40.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
         let legs = [at(40.0, 40.0), at(40.0, 5.0)];
         let open = room([80, 80, 1], [1.0; 3], vec![]);
         let (path, tightest) = round(&open, &start, &legs, 10.0);
@@ -284,22 +233,12 @@ mod tests {
         let first = path[1] - path[0];
         assert!(first.y > 0.0, "it begins the way it moves");
         // With the right side walled off it turns left.
-        let walled = room(
-            [80, 80, 1],
-            [1.0; 3],
-            vec![block("w", 52.0, 45.0, [4.0, 40.0, 8.0])],
-        );
+        let walled = room([80, 80, 1], [1.0; 3], vec![block("w", 52.0, 45.0, [4.0, 40.0, 8.0])]);
         let (path, tightest) = round(&walled, &start, &legs, 10.0);
         assert_eq!(tightest, 10.0);
         assert!(path.iter().all(|p| p.x <= 40.0 + 1e-9));
         // Between two walls no turn is free, and the path says so.
-        let gorge = vec![
-            block("e", 48.0, 45.0, [4.0, 60.0, 8.0]),
-            block("w", 32.0, 45.0, [4.0, 60.0, 8.0]),
-        ];
-        assert_eq!(
-            round(&room([80, 80, 1], [1.0; 3], gorge), &start, &legs, 10.0).1,
-            0.0
-        );
+        let gorge = vec![block("e", 48.0, 45.0, [4.0, 60.0, 8.0]), block("w", 32.0, 45.0, [4.0, 60.0, 8.0])];
+        assert_eq!(round(&room([80, 80, 1], [1.0; 3], gorge), &start, &legs, 10.0).1, 0.0);
     }
 }

@@ -10,22 +10,12 @@ use world::terrain::Terrain;
 
 /// Cells from the datum on, with axes east and north, on a bed 8 m deep.
 pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
-    BeliefGrid {
-        corner: Vector3::new(0.0, 0.0, -8.0),
-        axes: [Vector2::x(), Vector2::y()],
-        cell_m,
-        n,
-    }
+    BeliefGrid { corner: Vector3::new(0.0, 0.0, -8.0), axes: [Vector2::x(), Vector2::y()], cell_m, n }
 }
 
 /// A block on a bed 8 m down.
 pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Obstacle {
-    testing::block(
-        &Terrain::Level { depth_m: 8.0 },
-        id,
-        [east_m, north_m],
-        size_m,
-    )
+    testing::block(&Terrain::Level { depth_m: 8.0 }, id, [east_m, north_m], size_m)
 }
 
 /// A room with blocks in it.

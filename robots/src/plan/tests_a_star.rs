@@ -10,18 +10,12 @@ fn a_star() -> AStar {
 }
 
 fn from(x: f64, y: f64, z: f64) -> From {
-    From {
-        p_W: Vector3::new(x, y, z),
-        heading: Heading::from_deg(270.0),
-        turning_radius_m: 0.0,
-    }
+    From { p_W: Vector3::new(x, y, z), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
 }
 
 fn free(room: &Room, path: &Path) -> bool {
     let skip = usize::from(path.leaves_solid);
-    path.points[skip..]
-        .windows(2)
-        .all(|w| room.line_free(&w[0], &w[1]))
+    path.points[skip..].windows(2).all(|w| room.line_free(&w[0], &w[1]))
 }
 
 /// A U that is open to the vehicle's side.
@@ -46,10 +40,7 @@ fn leaves_the_dead_end_that_holds_the_potential_field() {
     assert!(free(&r, &path));
     let mut field = PotentialField::new(&PotentialFieldParams::default()).unwrap();
     let caught = field.plan(&r, &start, &goal).unwrap();
-    assert!(
-        matches!(caught.reach, Reach::Caught(m) if m > 15.0),
-        "{caught:?}"
-    );
+    assert!(matches!(caught.reach, Reach::Caught(m) if m > 15.0), "{caught:?}");
 }
 
 /// The setting is the least radius; a hull that turns wider gets wider turns.
@@ -58,10 +49,7 @@ fn turns_are_as_wide_as_the_hull_needs() {
     let r = room([200, 200, 1], [1.0; 3], vec![]);
     let goal = Vector3::new(100.0, 20.0, -4.0);
     let tightest = |radius_m: f64| {
-        let start = From {
-            turning_radius_m: radius_m,
-            ..from(150.0, 150.0, -4.0)
-        };
+        let start = From { turning_radius_m: radius_m, ..from(150.0, 150.0, -4.0) };
         let path = a_star().plan(&r, &start, &goal).unwrap();
         assert_eq!(path.reach, Reach::Goal);
         path.tightest_m
@@ -74,19 +62,12 @@ fn turns_are_as_wide_as_the_hull_needs() {
 
 #[test]
 fn ends_are_the_ends_asked_for_and_turns_are_the_vehicles() {
-    let r = room(
-        [120, 120, 1],
-        [1.0; 3],
-        vec![block("b", 60.0, 60.0, [12.0, 40.0, 8.0])],
-    );
+    let r = room([120, 120, 1], [1.0; 3], vec![block("b", 60.0, 60.0, [12.0, 40.0, 8.0])]);
     let (start, goal) = (from(100.3, 61.2, -4.0), Vector3::new(18.7, 58.4, -9.0));
     let path = a_star().plan(&r, &start, &goal).unwrap();
     assert_eq!((path.reach, path.leaves_solid), (Reach::Goal, false));
     assert_eq!(path.points[0], start.p_W);
-    assert_eq!(
-        path.points[path.points.len() - 1],
-        Vector3::new(18.7, 58.4, -4.0)
-    );
+    assert_eq!(path.points[path.points.len() - 1], Vector3::new(18.7, 58.4, -4.0));
     assert!(free(&r, &path) && path.tightest_m >= 3.0, "{path:?}");
     assert!(path.length_m() < 110.0, "{}", path.length_m());
 }
@@ -95,69 +76,28 @@ fn ends_are_the_ends_asked_for_and_turns_are_the_vehicles() {
 fn what_cannot_be_reached_has_a_defined_answer() {
     let r = trap();
     let in_wall = Vector3::new(40.0, 50.0, -4.0);
-    let path = a_star()
-        .plan(&r, &from(60.0, 50.0, -4.0), &in_wall)
-        .unwrap();
-    assert!(
-        matches!(path.reach, Reach::Nearest(m) if (3.0..5.0).contains(&m)),
-        "{path:?}"
-    );
+    let path = a_star().plan(&r, &from(60.0, 50.0, -4.0), &in_wall).unwrap();
+    assert!(matches!(path.reach, Reach::Nearest(m) if (3.0..5.0).contains(&m)), "{path:?}");
     assert!(free(&r, &path));
-    let out = a_star()
-        .plan(
-            &r,
-            &From {
-                p_W: in_wall,
-                ..from(0.0, 0.0, 0.0)
-            },
-            &Vector3::new(90.0, 50.0, -4.0),
-        )
-        .unwrap();
+    let out =
+        a_star().plan(&r, &From { p_W: in_wall, ..from(0.0, 0.0, 0.0) }, &Vector3::new(90.0, 50.0, -4.0)).unwrap();
     assert!(out.leaves_solid && out.reach == Reach::Goal && free(&r, &out));
-    let outside = a_star()
-        .plan(
-            &r,
-            &from(60.0, 50.0, -4.0),
-            &Vector3::new(60.0, 300.0, -4.0),
-        )
-        .unwrap();
-    assert!(
-        matches!(outside.reach, Reach::Nearest(m) if (m - 200.5).abs() < 1.0),
-        "{outside:?}"
-    );
-    let here = a_star()
-        .plan(&r, &from(60.0, 50.0, -4.0), &Vector3::new(60.1, 50.0, -4.0))
-        .unwrap();
+    let outside = a_star().plan(&r, &from(60.0, 50.0, -4.0), &Vector3::new(60.0, 300.0, -4.0)).unwrap();
+    assert!(matches!(outside.reach, Reach::Nearest(m) if (m - 200.5).abs() < 1.0), "{outside:?}");
+    let here = a_star().plan(&r, &from(60.0, 50.0, -4.0), &Vector3::new(60.1, 50.0, -4.0)).unwrap();
     assert_eq!(here.reach, Reach::Goal);
-    let full = room(
-        [8, 8, 1],
-        [1.0; 3],
-        vec![block("b", 4.0, 4.0, [20.0, 20.0, 8.0])],
-    );
-    assert_eq!(
-        a_star().plan(&full, &from(1.0, 1.0, -4.0), &in_wall),
-        Err(NoPath::Full)
-    );
+    let full = room([8, 8, 1], [1.0; 3], vec![block("b", 4.0, 4.0, [20.0, 20.0, 8.0])]);
+    assert_eq!(a_star().plan(&full, &from(1.0, 1.0, -4.0), &in_wall), Err(NoPath::Full));
 }
 
 #[test]
 fn goes_over_a_reef_in_space_and_stays_off_bed_and_surface() {
     // A wall from side to side, 4 m high on a bed 8 m deep.
-    let r = room(
-        [60, 30, 16],
-        [1.0, 1.0, 0.5],
-        vec![block("reef", 30.0, 15.0, [4.0, 60.0, 4.0])],
-    );
-    let path = a_star()
-        .plan(&r, &from(50.0, 15.0, -6.0), &Vector3::new(10.0, 15.0, -6.0))
-        .unwrap();
+    let r = room([60, 30, 16], [1.0, 1.0, 0.5], vec![block("reef", 30.0, 15.0, [4.0, 60.0, 4.0])]);
+    let path = a_star().plan(&r, &from(50.0, 15.0, -6.0), &Vector3::new(10.0, 15.0, -6.0)).unwrap();
     assert_eq!(path.reach, Reach::Goal);
     assert!(free(&r, &path));
-    let over = path
-        .points
-        .iter()
-        .map(|p| p.z)
-        .fold(f64::NEG_INFINITY, f64::max);
+    let over = path.points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
     assert!((-4.0..-0.8).contains(&over), "{over}");
 }
 
@@ -174,29 +114,16 @@ fn replans_when_the_room_changes() {
     r.refresh();
     assert!(!free(&r, &before));
     let after = planner.plan(&r, &start, &goal).unwrap();
-    assert!(
-        free(&r, &after)
-            && after.reach == Reach::Goal
-            && after.length_m() > before.length_m() + 5.0
-    );
+    assert!(free(&r, &after) && after.reach == Reach::Goal && after.length_m() > before.length_m() + 5.0);
 }
 
 #[test]
 fn one_planner_serves_many_rooms() {
     // The same number of changes and of cells: only the contents differ.
-    let wall = |east_m| {
-        room(
-            [60, 60, 1],
-            [1.0; 3],
-            vec![block("w", east_m, 30.0, [4.0, 40.0, 8.0])],
-        )
-    };
+    let wall = |east_m| room([60, 60, 1], [1.0; 3], vec![block("w", east_m, 30.0, [4.0, 40.0, 8.0])]);
     let (start, goal) = (from(55.0, 30.0, -4.0), Vector3::new(5.0, 30.0, -4.0));
     for cost in [Cost::Metric, Cost::Paper] {
-        let params = Params {
-            cost,
-            ..Params::default()
-        };
+        let params = Params { cost, ..Params::default() };
         let mut used = AStar::new(&params).unwrap();
         for r in [wall(20.0), wall(40.0), wall(55.0), wall(20.0)] {
             let fresh = AStar::new(&params).unwrap().plan(&r, &start, &goal);

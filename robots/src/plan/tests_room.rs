@@ -43,23 +43,14 @@ fn echoes_make_solid_and_beams_through_make_free_again() {
     (0..3).for_each(|_| r.beam(&from, &beyond, false));
     r.refresh();
     assert!(r.free(cell) && r.sensed() == 0);
-    assert!(
-        (0..r.lattice().len()).all(|c| r.free(c)),
-        "no shadow is left"
-    );
+    assert!((0..r.lattice().len()).all(|c| r.free(c)), "no shadow is left");
 }
 
 #[test]
 fn nearest_cell_takes_points_from_outside_in() {
     let r = room();
-    assert_eq!(
-        r.nearest_cell(&Vector3::new(-50.0, 3.2, 9.0)),
-        r.lattice().index([0, 3, 0])
-    );
-    assert_eq!(
-        r.nearest_cell(&Vector3::new(19.99, 900.0, 9.0)),
-        r.lattice().index([19, 19, 0])
-    );
+    assert_eq!(r.nearest_cell(&Vector3::new(-50.0, 3.2, 9.0)), r.lattice().index([0, 3, 0]));
+    assert_eq!(r.nearest_cell(&Vector3::new(19.99, 900.0, 9.0)), r.lattice().index([19, 19, 0]));
 }
 
 proptest! {

@@ -7,11 +7,7 @@ use crate::plan::testing::{block, room, speckled};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-const COSTS: Costs = Costs {
-    climb: 3.0,
-    weight: 2.0,
-    soft_m: 4.0,
-};
+const COSTS: Costs = Costs { climb: 3.0, weight: 2.0, soft_m: 4.0 };
 
 /// The cells to which a free cell has a move, and what the move costs, written out: no corner cut.
 fn steps(s: &Search, room: &Room, cell: usize) -> Vec<(usize, u32)> {
@@ -31,10 +27,7 @@ fn steps(s: &Search, room: &Room, cell: usize) -> Vec<(usize, u32)> {
             let set = (0..3).filter(|a| to[*a] != at[*a]).map(|a| 1 << a).sum();
             let length = s.octile.length(set).ceil() as u32 + 1;
             let next = s.padded(room, g.index(to.map(|v| v as usize)));
-            out.push((
-                next,
-                length + (length * u32::from(s.penalty[next])).div_ceil(PARTS),
-            ));
+            out.push((next, length + (length * u32::from(s.penalty[next])).div_ceil(PARTS)));
         }
     }
     out
@@ -71,15 +64,10 @@ fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
 fn ends(room: &Room, a: [f64; 2], b: [f64; 2]) -> Option<(usize, usize)> {
     let g = room.lattice();
     let point = |[u, v]: [f64; 2]| {
-        let (x, y) = (
-            u * g.n[0] as f64 * g.cell_m[0],
-            v * g.n[1] as f64 * g.cell_m[1],
-        );
+        let (x, y) = (u * g.n[0] as f64 * g.cell_m[0], v * g.n[1] as f64 * g.cell_m[1]);
         Vector3::new(x, y, g.corner.z + u * g.n[2] as f64 * g.cell_m[2])
     };
-    let e = Ends::default()
-        .resolve(room, |c| room.free(c), &point(a), &point(b))
-        .ok()?;
+    let e = Ends::default().resolve(room, |c| room.free(c), &point(a), &point(b)).ok()?;
     Some((e.start, e.goal))
 }
 
@@ -142,9 +130,7 @@ proptest! {
 fn a_straight_way_costs_its_length() {
     let r = room([60, 60, 1], [1.0; 3], vec![]);
     let at = |i, j| r.lattice().index([i, j, 0]);
-    let (way, cost) = Search::new(COSTS)
-        .run(&r, at(5, 5), at(45, 25), false)
-        .unwrap();
+    let (way, cost) = Search::new(COSTS).run(&r, at(5, 5), at(45, 25), false).unwrap();
     assert_eq!(way.len(), 41);
     let length = 20.0 * 2f64.sqrt() + 20.0;
     assert!((f64::from(cost) / UNITS - length).abs() < 40.0 * 2.0 / UNITS);
@@ -152,23 +138,12 @@ fn a_straight_way_costs_its_length() {
 
 #[test]
 fn clearance_is_kept_where_there_is_room_for_it() {
-    let r = room(
-        [60, 60, 1],
-        [1.0; 3],
-        vec![block("b", 30.0, 20.0, [10.0, 20.0, 8.0])],
-    );
+    let r = room([60, 60, 1], [1.0; 3], vec![block("b", 30.0, 20.0, [10.0, 20.0, 8.0])]);
     let at = |i, j| r.lattice().index([i, j, 0]);
     let nearest = |weight| {
         let mut s = Search::new(Costs { weight, ..COSTS });
         let (way, _) = s.run(&r, at(10, 20), at(50, 20), false).unwrap();
-        way.iter()
-            .map(|c| r.clearance_m(*c))
-            .fold(f64::INFINITY, f64::min)
+        way.iter().map(|c| r.clearance_m(*c)).fold(f64::INFINITY, f64::min)
     };
-    assert!(
-        nearest(2.0) > nearest(0.0) + 0.9,
-        "{} {}",
-        nearest(2.0),
-        nearest(0.0)
-    );
+    assert!(nearest(2.0) > nearest(0.0) + 0.9, "{} {}", nearest(2.0), nearest(0.0));
 }

@@ -137,13 +137,7 @@ impl Adcp {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        flow: &dyn Flow,
-        below: &Below,
-    ) -> Option<AdcpReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow, below: &Below) -> Option<AdcpReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -173,11 +167,7 @@ impl Adcp {
         } else {
             Vector3::zeros()
         };
-        Some(AdcpReading {
-            v_body_m_s,
-            above_m: self.p_BS.z + self.axis_B.z * middle_m,
-            valid,
-        })
+        Some(AdcpReading { v_body_m_s, above_m: self.p_BS.z + self.axis_B.z * middle_m, valid })
     }
 }
 
@@ -210,20 +200,11 @@ mod tests {
     }
 
     fn spec(look: Look, noise_m_s: f64) -> AdcpSpec {
-        AdcpSpec {
-            look,
-            noise_m_s: NonNegative::new(noise_m_s),
-            ..Default::default()
-        }
+        AdcpSpec { look, noise_m_s: NonNegative::new(noise_m_s), ..Default::default() }
     }
 
     fn read(truth: Truth, look: Look) -> AdcpReading {
-        let mut a = Adcp::new(
-            &spec(look, 0.0),
-            Vector3::zeros(),
-            &OnBoard::new("auv0", 1, 0.02),
-        )
-        .unwrap();
+        let mut a = Adcp::new(&spec(look, 0.0), Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap();
         run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &bare(&BED)))[0]
     }
 
@@ -273,12 +254,7 @@ mod tests {
 
     #[test]
     fn reads_once_a_second_with_its_noise() {
-        let mut a = Adcp::new(
-            &spec(Look::Up, 0.02),
-            Vector3::zeros(),
-            &OnBoard::new("auv0", 1, 0.02),
-        )
-        .unwrap();
+        let mut a = Adcp::new(&spec(Look::Up, 0.02), Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let t = sailing(-5.0);
         let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &bare(&BED)));
         assert_eq!(v.len(), 2000);
@@ -291,15 +267,8 @@ mod tests {
 
     #[test]
     fn impossible_beams_are_refused() {
-        let bad = AdcpSpec {
-            beam_angle_deg: Finite::new(75.0),
-            ..Default::default()
-        };
-        let e =
-            Adcp::new(&bad, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("75 degrees");
-        assert_eq!(
-            e.to_string(),
-            "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75"
-        );
+        let bad = AdcpSpec { beam_angle_deg: Finite::new(75.0), ..Default::default() };
+        let e = Adcp::new(&bad, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("75 degrees");
+        assert_eq!(e.to_string(), "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75");
     }
 }

@@ -63,11 +63,7 @@ impl Listed for AltimeterSpec {
 
 impl SensorParams for AltimeterSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        Ok(Box::new(Altimeter::new(
-            self,
-            on.place("altimeter")?,
-            &on.robot,
-        )?))
+        Ok(Box::new(Altimeter::new(self, on.place("altimeter")?, &on.robot)?))
     }
 }
 
@@ -110,12 +106,7 @@ impl Altimeter {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        below: &Below,
-    ) -> Option<AltimeterReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &Below) -> Option<AltimeterReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -123,17 +114,10 @@ impl Altimeter {
         let noise = self.noise_m * self.rng.normal();
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
-        let echo =
-            super::tools::range_down(below, &p, &down).filter(|range| self.range_m.contains(range));
+        let echo = super::tools::range_down(below, &p, &down).filter(|range| self.range_m.contains(range));
         Some(match echo {
-            Some(range) => AltimeterReading {
-                altitude_m: (range + noise) * -down.z,
-                valid: true,
-            },
-            None => AltimeterReading {
-                altitude_m: 0.0,
-                valid: false,
-            },
+            Some(range) => AltimeterReading { altitude_m: (range + noise) * -down.z, valid: true },
+            None => AltimeterReading { altitude_m: 0.0, valid: false },
         })
     }
 }
@@ -147,22 +131,12 @@ mod tests {
     use world::units::Heading;
 
     fn altimeter(noise_m: f64) -> Altimeter {
-        let spec = AltimeterSpec {
-            noise_m: NonNegative::new(noise_m),
-            ..Default::default()
-        };
-        Altimeter::new(
-            &spec,
-            Vector3::new(0.0, 0.0, -0.1),
-            &OnBoard::new("auv0", 1, 0.02),
-        )
-        .unwrap()
+        let spec = AltimeterSpec { noise_m: NonNegative::new(noise_m), ..Default::default() };
+        Altimeter::new(&spec, Vector3::new(0.0, 0.0, -0.1), &OnBoard::new("auv0", 1, 0.02)).unwrap()
     }
 
     fn read(t: Truth, bed: &Terrain) -> AltimeterReading {
-        altimeter(0.0)
-            .read(&Clock::new(0.02), &t, &bare(bed))
-            .unwrap()
+        altimeter(0.0).read(&Clock::new(0.02), &t, &bare(bed)).unwrap()
     }
 
     #[test]
@@ -212,14 +186,8 @@ mod tests {
         let bed = Terrain::Level { depth_m: 8.0 };
         let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 4.0])]);
         let read = |obstacles: &Obstacles| {
-            let below = Below {
-                terrain: &bed,
-                obstacles,
-            };
-            altimeter(0.0)
-                .read(&Clock::new(0.02), &t, &below)
-                .unwrap()
-                .altitude_m
+            let below = Below { terrain: &bed, obstacles };
+            altimeter(0.0).read(&Clock::new(0.02), &t, &below).unwrap().altitude_m
         };
         assert!((read(&solids) - 1.9).abs() < 1e-9, "{}", read(&solids));
         assert!((read(&Obstacles::default()) - 5.9).abs() < 1e-9);

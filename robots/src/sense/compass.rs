@@ -136,23 +136,11 @@ mod tests {
         assert_eq!(v.len(), 10_000);
         let of = |f: &dyn Fn(&AttitudeReading) -> f64| v.iter().map(f).collect::<Vec<f64>>();
         let north = Heading::from_deg(0.0);
-        assert_normal(
-            &of(&|r| north.turn_to(r.heading)),
-            c.bias_rad,
-            0.3_f64.to_radians(),
-        );
+        assert_normal(&of(&|r| north.turn_to(r.heading)), c.bias_rad, 0.3_f64.to_radians());
         assert_normal(&of(&|r| r.roll_rad), 0.0, 0.2_f64.to_radians());
-        assert_normal(
-            &of(&|r| r.pitch_rad),
-            10_f64.to_radians(),
-            0.2_f64.to_radians(),
-        );
+        assert_normal(&of(&|r| r.pitch_rad), 10_f64.to_radians(), 0.2_f64.to_radians());
         for axis in 0..3 {
-            assert_normal(
-                &of(&|r| r.rates_rad_s[axis]),
-                t.w_WB_B[axis],
-                0.1_f64.to_radians(),
-            );
+            assert_normal(&of(&|r| r.rates_rad_s[axis]), t.w_WB_B[axis], 0.1_f64.to_radians());
         }
     }
 
@@ -178,10 +166,7 @@ mod tests {
         let (roll, pitch) = (5_f64.to_radians(), 15_f64.to_radians());
         t.pose.R_WB = UnitQuaternion::from_euler_angles(roll, -pitch, 0.0);
         assert!((t.pose.R_WB * Vector3::x()).z > 0.25, "the nose is up");
-        assert!(
-            (t.pose.R_WB * -Vector3::y()).z < -0.08,
-            "the right side is down"
-        );
+        assert!((t.pose.R_WB * -Vector3::y()).z < -0.08, "the right side is down");
         let r = c.read(&Clock::new(0.02), &t).unwrap();
         assert!((r.heading.deg() - 90.0).abs() < 1e-9);
         assert!((r.pitch_rad - pitch).abs() < 1e-12 && (r.roll_rad - roll).abs() < 1e-12);

@@ -42,11 +42,7 @@ pub struct CtdSpec {
 
 impl Default for CtdSpec {
     fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(10.0),
-            response_s: NonNegative::new(0.1),
-            noise_kg_m3: NonNegative::new(0.01),
-        }
+        Self { rate_hz: Positive::new(10.0), response_s: NonNegative::new(0.1), noise_kg_m3: NonNegative::new(0.01) }
     }
 }
 
@@ -92,11 +88,7 @@ impl Ctd {
         let every = on.every("sensors.ctd.rate_hz", spec.rate_hz.get())?;
         let response_s = spec.response_s.get();
         Ok(Self {
-            lag: if response_s > 0.0 {
-                math::exp(-every.period_s(on.dt_s) / response_s)
-            } else {
-                0.0
-            },
+            lag: if response_s > 0.0 { math::exp(-every.period_s(on.dt_s) / response_s) } else { 0.0 },
             every,
             p_BS,
             noise_kg_m3: spec.noise_kg_m3.get(),
@@ -121,10 +113,7 @@ impl Ctd {
         );
         let inside = outside + (self.inside.unwrap_or(outside) - outside) * self.lag;
         self.inside = Some(inside);
-        Some(CtdReading {
-            density_kg_m3: inside + self.noise_kg_m3 * self.rng.normal(),
-            below_m: -self.p_BS.z,
-        })
+        Some(CtdReading { density_kg_m3: inside + self.noise_kg_m3 * self.rng.normal(), below_m: -self.p_BS.z })
     }
 }
 
@@ -147,8 +136,7 @@ mod tests {
     #[test]
     fn reads_the_density_at_its_mount_with_its_noise() {
         let mount = Vector3::new(0.0, 0.0, 0.2);
-        let mut c = Ctd::new(&CtdSpec::default(), mount, &OnBoard::new("auv0", 1, 0.02))
-            .expect("10 Hz fit");
+        let mut c = Ctd::new(&CtdSpec::default(), mount, &OnBoard::new("auv0", 1, 0.02)).expect("10 Hz fit");
         for (z, want) in [(-3.1, 1020.0), (-5.0, 1024.0)] {
             let t = at(0.0, 0.0, z);
             let all = run(30_000, 0.02, |k| c.read(k, &t, &TwoLayers));
@@ -161,13 +149,9 @@ mod tests {
 
     #[test]
     fn follows_a_step_by_its_time_constant() {
-        let spec = CtdSpec {
-            response_s: NonNegative::new(0.5),
-            noise_kg_m3: NonNegative::new(0.0),
-            ..Default::default()
-        };
-        let mut c =
-            Ctd::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).expect("10 Hz fit");
+        let spec =
+            CtdSpec { response_s: NonNegative::new(0.5), noise_kg_m3: NonNegative::new(0.0), ..Default::default() };
+        let mut c = Ctd::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).expect("10 Hz fit");
         let read = |c: &mut Ctd, n: u64, z: f64| {
             let t = at(0.0, 0.0, z);
             let all = run(n, 0.02, |k| c.read(k, &t, &TwoLayers));

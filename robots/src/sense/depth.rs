@@ -36,10 +36,7 @@ pub struct DepthSpec {
 
 impl Default for DepthSpec {
     fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(25.0),
-            noise_m: NonNegative::new(0.01),
-        }
+        Self { rate_hz: Positive::new(25.0), noise_m: NonNegative::new(0.01) }
     }
 }
 
@@ -93,9 +90,7 @@ impl Depth {
         }
         let p = truth.pose.point(self.p_BS);
         let head_m = flow.head(&p, clock.t_s());
-        Some(DepthReading {
-            depth_m: -p.z + head_m + self.noise_m * self.rng.normal(),
-        })
+        Some(DepthReading { depth_m: -p.z + head_m + self.noise_m * self.rng.normal() })
     }
 }
 
@@ -108,8 +103,7 @@ mod tests {
     #[test]
     fn reads_the_depth_of_its_mount_with_its_noise() {
         let nose = Vector3::new(0.5, 0.0, 0.1);
-        let mut d =
-            Depth::new(&DepthSpec::default(), nose, &OnBoard::new("auv0", 1, 0.02)).unwrap();
+        let mut d = Depth::new(&DepthSpec::default(), nose, &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let t = nose_up(at(0.0, 0.0, -5.0), 30.0);
         let v = run(20_000, 0.02, |c| d.read(c, &t, &Still));
         assert_eq!(v.len(), 10_000);
@@ -130,10 +124,7 @@ mod tests {
 
     #[test]
     fn feels_the_pressure_of_waves() {
-        let spec = DepthSpec {
-            noise_m: NonNegative::new(0.0),
-            ..Default::default()
-        };
+        let spec = DepthSpec { noise_m: NonNegative::new(0.0), ..Default::default() };
         let mut d = Depth::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let v = run(101, 0.02, |c| d.read(c, &at(0.0, 0.0, -5.0), &Swell));
         assert!((v[0].depth_m - 5.05).abs() < 1e-12);

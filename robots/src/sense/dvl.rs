@@ -125,13 +125,8 @@ impl Dvl {
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
-        let valid = super::tools::range_down(below, &p, &down)
-            .is_some_and(|range| self.lock_m.contains(&range));
-        let v_body_m_s = if valid {
-            truth.v_WB_B * self.scale + noise
-        } else {
-            Vector3::zeros()
-        };
+        let valid = super::tools::range_down(below, &p, &down).is_some_and(|range| self.lock_m.contains(&range));
+        let v_body_m_s = if valid { truth.v_WB_B * self.scale + noise } else { Vector3::zeros() };
         Some(DvlReading { v_body_m_s, valid })
     }
 }
@@ -143,19 +138,11 @@ mod tests {
     use world::terrain::Terrain;
 
     fn dvl(spec: &DvlSpec, seed: u64) -> Dvl {
-        Dvl::new(
-            spec,
-            Vector3::new(0.0, 0.0, -0.1),
-            &OnBoard::new("auv0", seed, 0.02),
-        )
-        .unwrap()
+        Dvl::new(spec, Vector3::new(0.0, 0.0, -0.1), &OnBoard::new("auv0", seed, 0.02)).unwrap()
     }
 
     fn moving(z: f64) -> Truth {
-        Truth {
-            v_WB_B: Vector3::new(2.0, -0.3, 0.1),
-            ..at(0.0, 0.0, z)
-        }
+        Truth { v_WB_B: Vector3::new(2.0, -0.3, 0.1), ..at(0.0, 0.0, z) }
     }
 
     #[test]
@@ -172,9 +159,7 @@ mod tests {
 
     #[test]
     fn scale_errors_of_many_runs_have_the_specified_spread() {
-        let scales: Vec<f64> = (0..1000)
-            .map(|seed| dvl(&DvlSpec::default(), seed).scale)
-            .collect();
+        let scales: Vec<f64> = (0..1000).map(|seed| dvl(&DvlSpec::default(), seed).scale).collect();
         assert_normal(&scales, 1.0, 0.002);
     }
 
@@ -210,14 +195,8 @@ mod tests {
 
     #[test]
     fn an_empty_range_is_refused() {
-        let spec = DvlSpec {
-            max_altitude_m: Positive::new(0.2),
-            ..Default::default()
-        };
+        let spec = DvlSpec { max_altitude_m: Positive::new(0.2), ..Default::default() };
         let e = Dvl::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("empty");
-        assert_eq!(
-            e.to_string(),
-            "sensors.dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m"
-        );
+        assert_eq!(e.to_string(), "sensors.dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m");
     }
 }

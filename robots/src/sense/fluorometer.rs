@@ -74,11 +74,7 @@ impl Listed for FluorometerSpec {
 
 impl SensorParams for FluorometerSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        Ok(Box::new(Fluorometer::new(
-            self,
-            on.place("fluorometer")?,
-            &on.robot,
-        )?))
+        Ok(Box::new(Fluorometer::new(self, on.place("fluorometer")?, &on.robot)?))
     }
 }
 
@@ -116,12 +112,7 @@ struct Response {
 
 impl Response {
     fn new(period_s: f64, tau_s: f64) -> Self {
-        Self {
-            period_s,
-            tau_s,
-            decay: math::exp(-period_s / tau_s),
-            state: None,
-        }
+        Self { period_s, tau_s, decay: math::exp(-period_s / tau_s), state: None }
     }
 
     fn next(&mut self, input: f64) -> f64 {
@@ -142,11 +133,7 @@ impl Fluorometer {
     ///
     /// # Errors
     /// If the rate does not fit the step, or if the converter has no or too many bits.
-    pub fn new(
-        spec: &FluorometerSpec,
-        p_BS: Vector3<f64>,
-        on: &OnBoard,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &FluorometerSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         if !(1..=24).contains(&spec.adc_bits) {
             return Err(RobotError::Invalid {
                 field: "sensors.fluorometer.adc_bits".into(),
@@ -169,12 +156,7 @@ impl Fluorometer {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        dye: &dyn Concentration,
-    ) -> Option<ChemicalReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, dye: &dyn Concentration) -> Option<ChemicalReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -211,12 +193,7 @@ mod tests {
     }
 
     fn fluorometer(spec: FluorometerSpec) -> Fluorometer {
-        Fluorometer::new(
-            &spec,
-            Vector3::new(0.8, 0.0, 0.0),
-            &OnBoard::new("auv0", 1, 0.02),
-        )
-        .unwrap()
+        Fluorometer::new(&spec, Vector3::new(0.8, 0.0, 0.0), &OnBoard::new("auv0", 1, 0.02)).unwrap()
     }
 
     fn quiet(response_s: f64) -> FluorometerSpec {
@@ -230,9 +207,7 @@ mod tests {
     #[test]
     fn reads_ten_times_a_second_with_its_noise() {
         let mut f = fluorometer(FluorometerSpec::default());
-        let v = run(100_000, 0.02, |c| {
-            f.read(c, &at(0.0, 0.0, -5.0), &Even(5.0))
-        });
+        let v = run(100_000, 0.02, |c| f.read(c, &at(0.0, 0.0, -5.0), &Even(5.0)));
         assert_eq!(v.len(), 20_000);
         let volts: Vec<f64> = v.iter().map(|r| r.volts).collect();
         // Rounding to 5 V / 4095 adds a deviation of 0.35 mV, 0.02 % of the noise's square.
@@ -245,11 +220,7 @@ mod tests {
         for (ug_l, volts) in [(0.0, 0.0), (1.234, 0.617), (7.7, 3.85), (25.0, 5.0)] {
             let mut f = fluorometer(quiet(0.0));
             let r = run(1, 0.02, |c| f.read(c, &at(0.0, 0.0, -5.0), &Even(ug_l)))[0];
-            assert!(
-                (r.volts - volts).abs() <= step / 2.0 + 1e-12,
-                "{ug_l} µg/L: {}",
-                r.volts
-            );
+            assert!((r.volts - volts).abs() <= step / 2.0 + 1e-12, "{ug_l} µg/L: {}", r.volts);
             assert!((r.volts / step - (r.volts / step).round()).abs() < 1e-9);
             assert!((r.of_full_scale - r.volts / 5.0).abs() < 1e-12);
         }
@@ -283,10 +254,7 @@ mod tests {
             }
             // Half a step of the converter, and the 1e-4 of the fine integration.
             let want = y * 0.5;
-            assert!(
-                (got[k].volts - want).abs() < 0.5 * 5.0 / 4095.0 + 1e-4,
-                "sample {k}"
-            );
+            assert!((got[k].volts - want).abs() < 0.5 * 5.0 / 4095.0 + 1e-4, "sample {k}");
         }
     }
 
@@ -312,22 +280,11 @@ mod tests {
 
     #[test]
     fn impossible_instruments_are_refused() {
-        let new = |spec: FluorometerSpec| {
-            Fluorometer::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
-        };
-        let none = FluorometerSpec {
-            adc_bits: 0,
-            ..Default::default()
-        };
+        let new = |spec: FluorometerSpec| Fluorometer::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02));
+        let none = FluorometerSpec { adc_bits: 0, ..Default::default() };
         let e = new(none).expect_err("no bits").to_string();
-        assert_eq!(
-            e,
-            "sensors.fluorometer.adc_bits: must be from 1 to 24, got 0"
-        );
-        let fast = FluorometerSpec {
-            rate_hz: Positive::new(100.0),
-            ..Default::default()
-        };
+        assert_eq!(e, "sensors.fluorometer.adc_bits: must be from 1 to 24, got 0");
+        let fast = FluorometerSpec { rate_hz: Positive::new(100.0), ..Default::default() };
         let e = new(fast).expect_err("too fast").to_string();
         assert_eq!(
             e,

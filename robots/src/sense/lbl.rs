@@ -40,11 +40,7 @@ pub struct LblSpec {
 
 impl Default for LblSpec {
     fn default() -> Self {
-        Self {
-            period_s: Positive::new(30.0),
-            noise_m: NonNegative::new(5.0),
-            dropout: Fraction::new(0.3),
-        }
+        Self { period_s: Positive::new(30.0), noise_m: NonNegative::new(5.0), dropout: Fraction::new(0.3) }
     }
 }
 
@@ -101,9 +97,7 @@ impl Lbl {
         // All numbers are drawn for a failed fix too, so that the share of failures changes no later numbers.
         let heard = self.rng.uniform() >= self.dropout;
         let (east, north) = (self.rng.normal(), self.rng.normal());
-        heard.then(|| LblFix {
-            position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.noise_m,
-        })
+        heard.then(|| LblFix { position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.noise_m })
     }
 }
 
@@ -132,26 +126,16 @@ mod tests {
         let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 4, 0.5)).unwrap();
         let v = run(600_000, 0.5, |c| l.read(c, &at(0.0, 0.0, -5.0)));
         // Pairs that share no fix: the squares are independent, and their spread is as large as their mean.
-        let squares: Vec<f64> = (v.chunks_exact(2))
-            .map(|f| (f[1].position - f[0].position).norm_squared())
-            .collect();
+        let squares: Vec<f64> = (v.chunks_exact(2)).map(|f| (f[1].position - f[0].position).norm_squared()).collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        assert!(
-            (mean / 100.0 - 1.0).abs() < 5.0 / (squares.len() as f64).sqrt(),
-            "{mean}"
-        );
+        assert!((mean / 100.0 - 1.0).abs() < 5.0 / (squares.len() as f64).sqrt(), "{mean}");
     }
 
     #[test]
     fn the_first_fix_comes_a_period_after_the_start() {
-        let never_failing = LblSpec {
-            dropout: Fraction::new(0.0),
-            ..Default::default()
-        };
+        let never_failing = LblSpec { dropout: Fraction::new(0.0), ..Default::default() };
         let mut l = Lbl::new(&never_failing, &OnBoard::new("auv0", 1, 0.5)).unwrap();
-        let when = run(181, 0.5, |c| {
-            l.read(c, &at(0.0, 0.0, -5.0)).map(|_| c.t_s())
-        });
+        let when = run(181, 0.5, |c| l.read(c, &at(0.0, 0.0, -5.0)).map(|_| c.t_s()));
         assert_eq!(when, [30.0, 60.0, 90.0]);
     }
 }

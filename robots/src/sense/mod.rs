@@ -33,7 +33,5 @@ pub use on_board::OnBoard;
 pub use probe::{Probes, ProbesSpec};
 pub use ranging::{Ranging, RangingSpec};
 pub use sidescan::{Sidescan, SidescanSpec};
-pub use suite::{
-    Around, Asked, Fitting, Sensor, SensorParams, SensorSuite, Sensors, SensorsSpec, cost,
-};
+pub use suite::{Around, Asked, Fitting, Sensor, SensorParams, SensorSuite, Sensors, SensorsSpec, cost};
 pub use tools::Below;

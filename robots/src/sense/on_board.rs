@@ -18,11 +18,7 @@ pub struct OnBoard<'a> {
 impl<'a> OnBoard<'a> {
     /// On the robot `robot_id` of a run with this seed and a step of `dt_s`, s.
     pub fn new(robot_id: &'a str, seed: impl Into<Seed>, dt_s: f64) -> Self {
-        Self {
-            robot_id,
-            seed: seed.into(),
-            dt_s,
-        }
+        Self { robot_id, seed: seed.into(), dt_s }
     }
 
     /// The random stream of the instrument of a name.

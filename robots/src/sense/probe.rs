@@ -87,16 +87,10 @@ impl Probes {
     /// If there are none or too many, if the rate does not fit the step, if the range is empty or if the converter
     /// has no or too many bits.
     pub fn new(spec: &ProbesSpec, names: &[String], on: &OnBoard) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("probes{field}"),
-            problem,
-        };
+        let invalid = |field: &str, problem: String| RobotError::Invalid { field: format!("probes{field}"), problem };
         if names.is_empty() || names.len() > MAX_PROBES {
             let n = names.len();
-            return Err(invalid(
-                "",
-                format!("a head carries 1 to {MAX_PROBES} probes, got {n}"),
-            ));
+            return Err(invalid("", format!("a head carries 1 to {MAX_PROBES} probes, got {n}")));
         }
         if !(1..=24).contains(&spec.adc_bits) {
             let problem = format!("must be from 1 to 24, got {}", spec.adc_bits);
@@ -104,16 +98,12 @@ impl Probes {
         }
         let [bottom_v, top_v] = spec.range_v.map(Finite::get);
         if top_v <= bottom_v {
-            let problem =
-                format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
+            let problem = format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
             return Err(invalid(".range_v", problem));
         }
         let every = on.every("probes.rate_hz", spec.rate_hz.get())?;
         let tau_periods = spec.response_s.get() / every.period_s(on.dt_s);
-        let channel = |name: &String| Channel {
-            rng: on.stream(&format!("probe {name}")),
-            latest: None,
-        };
+        let channel = |name: &String| Channel { rng: on.stream(&format!("probe {name}")), latest: None };
         Ok(Self {
             every,
             bottom_v,
@@ -121,11 +111,7 @@ impl Probes {
             full_scale_kg_m3: spec.full_scale_kg_m3.get(),
             noise_v: spec.noise_v.get(),
             levels: f64::from((1_u32 << spec.adc_bits) - 1),
-            decay: if tau_periods > 0.0 {
-                math::exp(-1.0 / tau_periods)
-            } else {
-                0.0
-            },
+            decay: if tau_periods > 0.0 { math::exp(-1.0 / tau_periods) } else { 0.0 },
             tau_periods,
             channels: names.iter().map(channel).collect(),
         })
@@ -133,12 +119,7 @@ impl Probes {
 
     /// The scan of this step, if one is due; `tips` are the probes' places in the world (m), in the order of their
     /// names.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        tips: &[Vector3<f64>],
-        dye: &dyn Concentration,
-    ) -> Option<ProbeScan> {
+    pub fn read(&mut self, clock: &Clock, tips: &[Vector3<f64>], dye: &dyn Concentration) -> Option<ProbeScan> {
         assert!(
             tips.len() == self.channels.len(),
             "{} tips for {} probes: the head and its probes were assembled from different descriptions",
@@ -148,11 +129,7 @@ impl Probes {
         if !self.every.due(clock) {
             return None;
         }
-        let mut scan = ProbeScan {
-            t_s: clock.t_s(),
-            volts: [self.bottom_v; MAX_PROBES],
-            count: tips.len(),
-        };
+        let mut scan = ProbeScan { t_s: clock.t_s(), volts: [self.bottom_v; MAX_PROBES], count: tips.len() };
         for ((channel, p), volts) in self.channels.iter_mut().zip(tips).zip(&mut scan.volts) {
             let c = dye.at(p);
             assert!(
@@ -201,23 +178,15 @@ mod tests {
     }
 
     fn quiet() -> ProbesSpec {
-        ProbesSpec {
-            noise_v: NonNegative::new(0.0),
-            ..Default::default()
-        }
+        ProbesSpec { noise_v: NonNegative::new(0.0), ..Default::default() }
     }
 
     #[test]
     fn clean_water_is_minus_five_and_full_scale_five_in_steps_of_the_converter() {
         let mut p = probes(&quiet(), 4);
-        let scan = run(1, 0.01, |c| {
-            p.read(c, &tips(&[-1.0, 0.5, 1.0, 7.0]), &Slope(4.7))
-        })[0];
+        let scan = run(1, 0.01, |c| p.read(c, &tips(&[-1.0, 0.5, 1.0, 7.0]), &Slope(4.7)))[0];
         assert_eq!(scan.count, 4);
-        assert_eq!(
-            (scan.volts[0], scan.volts[2], scan.volts[3]),
-            (-5.0, 5.0, 5.0)
-        );
+        assert_eq!((scan.volts[0], scan.volts[2], scan.volts[3]), (-5.0, 5.0, 5.0));
         let step = 10.0 / 4095.0;
         assert!(scan.volts[1].abs() <= step / 2.0 + 1e-12);
         let n = (scan.volts[1] + 5.0) / step;
@@ -226,14 +195,9 @@ mod tests {
 
     #[test]
     fn twenty_scans_a_second_each_probe_with_noise_of_its_own() {
-        let spec = ProbesSpec {
-            noise_v: NonNegative::new(0.1),
-            ..Default::default()
-        };
+        let spec = ProbesSpec { noise_v: NonNegative::new(0.1), ..Default::default() };
         let mut p = probes(&spec, 2);
-        let scans = run(100_000, 0.01, |c| {
-            p.read(c, &tips(&[0.5, 0.5]), &Slope(4.7))
-        });
+        let scans = run(100_000, 0.01, |c| p.read(c, &tips(&[0.5, 0.5]), &Slope(4.7)));
         assert_eq!(scans.len(), 20_000);
         assert!((scans[1].t_s - scans[0].t_s - 0.05).abs() < 1e-12);
         for i in 0..2 {
@@ -247,20 +211,12 @@ mod tests {
         // Another probe beside it changes nobody's numbers.
         let mut alone = probes(&spec, 1);
         let first = run(100, 0.01, |c| alone.read(c, &tips(&[0.5]), &Slope(4.7)));
-        assert!(
-            first
-                .iter()
-                .zip(&scans)
-                .all(|(a, b)| a.volts[0] == b.volts[0])
-        );
+        assert!(first.iter().zip(&scans).all(|(a, b)| a.volts[0] == b.volts[0]));
     }
 
     #[test]
     fn a_slow_probe_follows_its_time_constant() {
-        let spec = ProbesSpec {
-            response_s: NonNegative::new(0.1),
-            ..quiet()
-        };
+        let spec = ProbesSpec { response_s: NonNegative::new(0.1), ..quiet() };
         let mut p = probes(&spec, 1);
         let v = run(60, 0.01, |c| {
             let y = if c.step < 5 { 0.0 } else { 1.0 };
@@ -271,43 +227,24 @@ mod tests {
             let after = (k as f64 - 1.0) * 0.05;
             let rest = 0.1 / 0.05 * (math::exp(0.5) - 1.0) * math::exp(-0.5 - after / 0.1);
             let want = -5.0 + 10.0 * (1.0 - rest);
-            assert!(
-                (scan.volts[0] - want).abs() < 5.0 / 4095.0 + 1e-9,
-                "scan {k}"
-            );
+            assert!((scan.volts[0] - want).abs() < 5.0 / 4095.0 + 1e-9, "scan {k}");
         }
     }
 
     #[test]
     fn impossible_probes_are_refused() {
         let new = |spec: &ProbesSpec, n| {
-            let e =
-                Probes::new(spec, &names(n), &OnBoard::new("g", 1, 0.01)).expect_err("impossible");
+            let e = Probes::new(spec, &names(n), &OnBoard::new("g", 1, 0.01)).expect_err("impossible");
             e.to_string()
         };
         let ok = ProbesSpec::default();
         assert_eq!(new(&ok, 0), "probes: a head carries 1 to 8 probes, got 0");
         assert_eq!(new(&ok, 9), "probes: a head carries 1 to 8 probes, got 9");
-        let bits = ProbesSpec {
-            adc_bits: 30,
-            ..ok.clone()
-        };
-        assert_eq!(
-            new(&bits, 3),
-            "probes.adc_bits: must be from 1 to 24, got 30"
-        );
-        let range = ProbesSpec {
-            range_v: [Finite::new(5.0), Finite::new(5.0)],
-            ..ok.clone()
-        };
-        assert_eq!(
-            new(&range, 3),
-            "probes.range_v: must rise from clean water to full scale, got 5 to 5 V"
-        );
-        let fast = ProbesSpec {
-            rate_hz: Positive::new(800.0),
-            ..ok
-        };
+        let bits = ProbesSpec { adc_bits: 30, ..ok.clone() };
+        assert_eq!(new(&bits, 3), "probes.adc_bits: must be from 1 to 24, got 30");
+        let range = ProbesSpec { range_v: [Finite::new(5.0), Finite::new(5.0)], ..ok.clone() };
+        assert_eq!(new(&range, 3), "probes.range_v: must rise from clean water to full scale, got 5 to 5 V");
+        let fast = ProbesSpec { rate_hz: Positive::new(800.0), ..ok };
         assert!(new(&fast, 3).starts_with("probes.rate_hz: 800 Hz is more than one reading"));
     }
 }

@@ -92,11 +92,7 @@ impl Listed for RangingSpec {
 
 impl SensorParams for RangingSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        Ok(Box::new(Ranging::new(
-            self,
-            on.place("ranging")?,
-            &on.robot,
-        )?))
+        Ok(Box::new(Ranging::new(self, on.place("ranging")?, &on.robot)?))
     }
 
     fn cost(&self, obstacles: f64, _: f64, times: &Times) -> Cost {
@@ -104,11 +100,7 @@ impl SensorParams for RangingSpec {
         let each_s = BEAM_S[0] + obstacles * BEAM_S[1] + self.max_range_m.get() * BEAM_S[2];
         let rate_hz = self.rate_hz.get();
         let what = format!("{:.0} beams per second", beams * rate_hz);
-        Cost::of(
-            Part::new("rate_hz", what)
-                .takes(times.mission_s * rate_hz * beams * each_s)
-                .by(rate_hz, 1.0),
-        )
+        Cost::of(Part::new("rate_hz", what).takes(times.mission_s * rate_hz * beams * each_s).by(rate_hz, 1.0))
     }
 }
 
@@ -137,42 +129,24 @@ impl Ranging {
     /// # Errors
     /// If the rate does not fit the step, or if the fan is out of range.
     pub fn new(spec: &RangingSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("sensors.ranging.{field}"),
-            problem,
-        };
+        let wrong =
+            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.ranging.{field}"), problem };
         for (field, n) in [("beams", spec.beams), ("rows", spec.rows)] {
             if n == 0 || spec.beams.saturating_mul(spec.rows) > MOST {
-                return Err(wrong(
-                    field,
-                    format!("must be at least 1, and beams times rows at most {MOST}, got {n}"),
-                ));
+                return Err(wrong(field, format!("must be at least 1, and beams times rows at most {MOST}, got {n}")));
             }
         }
-        for (field, angle, most) in [
-            ("width_deg", spec.width_deg, 360.0),
-            ("height_deg", spec.height_deg, 180.0),
-        ] {
+        for (field, angle, most) in [("width_deg", spec.width_deg, 360.0), ("height_deg", spec.height_deg, 180.0)] {
             if angle.get() > most {
-                return Err(wrong(
-                    field,
-                    format!("must be from 0 to {most}, got {}", angle.get()),
-                ));
+                return Err(wrong(field, format!("must be from 0 to {most}, got {}", angle.get())));
             }
         }
         let (min_m, max_m) = (spec.min_range_m.get(), spec.max_range_m.get());
         if min_m >= max_m {
-            return Err(wrong(
-                "max_range_m",
-                format!("must be greater than min_range_m, {min_m} m, got {max_m}"),
-            ));
+            return Err(wrong("max_range_m", format!("must be greater than min_range_m, {min_m} m, got {max_m}")));
         }
         let spread = |k: u32, n: u32, whole_deg: f64| {
-            let part = if n > 1 {
-                f64::from(k) / f64::from(n - 1) - 0.5
-            } else {
-                0.0
-            };
+            let part = if n > 1 { f64::from(k) / f64::from(n - 1) - 0.5 } else { 0.0 };
             math::sin_cos((part * whole_deg).to_radians())
         };
         let dirs_B = (0..spec.rows)
@@ -220,31 +194,18 @@ impl Ranging {
             let echo_m = solid.into_iter().chain(bed).min_by(f64::total_cmp);
             match echo_m {
                 Some(range) if range < self.min_m => {}
-                Some(range) => beams.push(Beam {
-                    dir_B: *dir_B,
-                    echo_m: Some((range + self.noise_m * noise).max(0.0)),
-                }),
-                None => beams.push(Beam {
-                    dir_B: *dir_B,
-                    echo_m: None,
-                }),
+                Some(range) => {
+                    beams.push(Beam { dir_B: *dir_B, echo_m: Some((range + self.noise_m * noise).max(0.0)) })
+                }
+                None => beams.push(Beam { dir_B: *dir_B, echo_m: None }),
             }
         }
-        Some(RangeScan {
-            p_BS: self.p_BS,
-            max_m: self.max_m,
-            beams: beams.into(),
-        })
+        Some(RangeScan { p_BS: self.p_BS, max_m: self.max_m, beams: beams.into() })
     }
 }
 
 /// Distance along a unit vector to the bed within `max_m`, m.
-fn way_to_bed(
-    terrain: &Terrain,
-    from: &Vector3<f64>,
-    dir: &Vector3<f64>,
-    max_m: f64,
-) -> Option<f64> {
+fn way_to_bed(terrain: &Terrain, from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
     let above = |range: f64| {
         let p = from + dir * range;
         p.z - terrain.bed_z(p.x, p.y)

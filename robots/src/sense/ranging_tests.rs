@@ -12,10 +12,7 @@ fn pile(east_m: f64, north_m: f64) -> Obstacles {
     let spec = ObstacleSpec {
         surface: Default::default(),
         id: "pile".into(),
-        shape: ShapeSpec::Cylinder(CylinderShape {
-            radius_m: Positive::new(0.5),
-            height_m: Positive::new(8.0),
-        }),
+        shape: ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(0.5), height_m: Positive::new(8.0) }),
         east_m: Finite::new(east_m),
         north_m: Finite::new(north_m),
         base: Base::default(),
@@ -25,26 +22,15 @@ fn pile(east_m: f64, north_m: f64) -> Obstacles {
 }
 
 fn ranging(spec: RangingSpec) -> Ranging {
-    Ranging::new(
-        &spec,
-        Vector3::new(0.8, 0.0, 0.0),
-        &OnBoard::new("auv0", 1, 0.02),
-    )
-    .unwrap()
+    Ranging::new(&spec, Vector3::new(0.8, 0.0, 0.0), &OnBoard::new("auv0", 1, 0.02)).unwrap()
 }
 
 fn quiet() -> RangingSpec {
-    RangingSpec {
-        noise_m: NonNegative::new(0.0),
-        dropout: Fraction::new(0.0),
-        ..Default::default()
-    }
+    RangingSpec { noise_m: NonNegative::new(0.0), dropout: Fraction::new(0.0), ..Default::default() }
 }
 
 fn ping(spec: RangingSpec, truth: &Truth, solids: &Obstacles, bed: &Terrain) -> RangeScan {
-    ranging(spec)
-        .read(&Clock::new(0.02), truth, solids, bed)
-        .unwrap()
+    ranging(spec).read(&Clock::new(0.02), truth, solids, bed).unwrap()
 }
 
 #[test]
@@ -73,20 +59,13 @@ fn beyond_its_range_it_hears_nothing_and_too_near_it_says_nothing() {
 
 #[test]
 fn noise_and_dropout_are_those_asked_for() {
-    let spec = RangingSpec {
-        noise_m: NonNegative::new(0.2),
-        dropout: Fraction::new(0.1),
-        beams: 1,
-        ..Default::default()
-    };
+    let spec =
+        RangingSpec { noise_m: NonNegative::new(0.2), dropout: Fraction::new(0.1), beams: 1, ..Default::default() };
     let mut r = ranging(spec);
     let (t, solids) = (at(0.0, 0.0, -4.0), pile(0.0, 20.0));
     let scans = run(500_000, 0.02, |c| r.read(c, &t, &solids, &BED));
     assert_eq!(scans.len(), 20_000);
-    let got: Vec<f64> = scans
-        .iter()
-        .flat_map(|s| s.beams.iter().filter_map(|b| b.echo_m))
-        .collect();
+    let got: Vec<f64> = scans.iter().flat_map(|s| s.beams.iter().filter_map(|b| b.echo_m)).collect();
     // 20 000 draws at 0.9: five standard errors are 212.
     assert!((got.len() as f64 - 18_000.0).abs() < 212.0, "{}", got.len());
     assert_normal(&got, 18.7, 0.2);
@@ -101,11 +80,7 @@ fn beams_that_look_down_end_on_the_bed() {
         deep_m: 14.0,
         run_m: 100.0,
     };
-    let fan = RangingSpec {
-        rows: 5,
-        height_deg: NonNegative::new(40.0),
-        ..quiet()
-    };
+    let fan = RangingSpec { rows: 5, height_deg: NonNegative::new(40.0), ..quiet() };
     for truth in [at(0.0, 0.0, -5.0), nose_up(at(0.0, 0.0, -5.0), -10.0)] {
         let scan = ping(fan.clone(), &truth, &Obstacles::default(), &slope);
         let from = truth.pose.point(scan.p_BS);
@@ -127,44 +102,11 @@ fn beams_that_look_down_end_on_the_bed() {
 #[test]
 fn impossible_fans_are_refused() {
     let says = |spec: RangingSpec| {
-        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
-            .expect_err("impossible")
-            .to_string()
+        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
     };
-    assert!(
-        says(RangingSpec {
-            beams: 0,
-            ..quiet()
-        })
-        .starts_with("sensors.ranging.beams: must be at least 1")
-    );
-    assert!(
-        says(RangingSpec {
-            beams: 200,
-            rows: 200,
-            ..quiet()
-        })
-        .contains("at most 1024")
-    );
-    assert!(
-        says(RangingSpec {
-            width_deg: NonNegative::new(400.0),
-            ..quiet()
-        })
-        .contains("from 0 to 360")
-    );
-    assert!(
-        says(RangingSpec {
-            min_range_m: NonNegative::new(40.0),
-            ..quiet()
-        })
-        .contains("greater than min_range_m")
-    );
-    assert!(
-        says(RangingSpec {
-            rate_hz: Positive::new(80.0),
-            ..quiet()
-        })
-        .contains("at most 50 Hz")
-    );
+    assert!(says(RangingSpec { beams: 0, ..quiet() }).starts_with("sensors.ranging.beams: must be at least 1"));
+    assert!(says(RangingSpec { beams: 200, rows: 200, ..quiet() }).contains("at most 1024"));
+    assert!(says(RangingSpec { width_deg: NonNegative::new(400.0), ..quiet() }).contains("from 0 to 360"));
+    assert!(says(RangingSpec { min_range_m: NonNegative::new(40.0), ..quiet() }).contains("greater than min_range_m"));
+    assert!(says(RangingSpec { rate_hz: Positive::new(80.0), ..quiet() }).contains("at most 50 Hz"));
 }

@@ -112,11 +112,7 @@ impl Listed for SidescanSpec {
 
 impl SensorParams for SidescanSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        Ok(Box::new(Sidescan::new(
-            self,
-            on.place("sidescan")?,
-            &on.robot,
-        )?))
+        Ok(Box::new(Sidescan::new(self, on.place("sidescan")?, &on.robot)?))
     }
 
     fn cost(&self, obstacles: f64, used: f64, times: &Times) -> Cost {
@@ -134,13 +130,8 @@ impl SensorParams for SidescanSpec {
 
 impl Sensor for Sidescan {
     fn sense(&mut self, around: &Around, readings: &mut Readings) {
-        readings.sidescan = self.read(
-            around.clock,
-            around.truth,
-            around.obstacles,
-            around.terrain,
-            around.asked.survey,
-        );
+        readings.sidescan =
+            self.read(around.clock, around.truth, around.obstacles, around.terrain, around.asked.survey);
     }
 }
 
@@ -165,10 +156,8 @@ impl Sidescan {
     /// # Errors
     /// If the rate does not fit range or step, or if the beam is out of range.
     pub fn new(spec: &SidescanSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("sensors.sidescan.{field}"),
-            problem,
-        };
+        let wrong =
+            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.sidescan.{field}"), problem };
         if spec.samples == 0 || spec.samples > MOST {
             let problem = format!("must be from 1 to {MOST}, got {}", spec.samples);
             return Err(wrong("samples", problem));
@@ -231,14 +220,7 @@ impl Sidescan {
         let mut side = |port: bool| -> Arc<[f32]> {
             self.echo.fill(0.0);
             let from = truth.pose.point(self.p_BS);
-            (self.fan).sound(
-                &from,
-                &truth.pose.R_WB,
-                port,
-                obstacles,
-                terrain,
-                &mut self.echo,
-            );
+            (self.fan).sound(&from, &truth.pose.R_WB, port, obstacles, terrain, &mut self.echo);
             let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
                 // Echo and noise are sums of many waves of random phase, so the intensity of their sum is
                 // exponential.
@@ -248,12 +230,7 @@ impl Sidescan {
             });
             heard.collect()
         };
-        Some(SidescanPing {
-            p_BS: self.p_BS,
-            max_m: self.fan.range_m,
-            port_db: side(true),
-            starboard_db: side(false),
-        })
+        Some(SidescanPing { p_BS: self.p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
     }
 }
 

@@ -70,16 +70,7 @@ impl Fan {
         let share = 1.0 / across.len() as f64;
         let mut ray = |angle: f64, width: f64| {
             for part in across {
-                self.ray(
-                    from,
-                    R_WB,
-                    &axes,
-                    (angle, width, share),
-                    part * self.beam_rad,
-                    &near,
-                    terrain,
-                    echo,
-                );
+                self.ray(from, R_WB, &axes, (angle, width, share), part * self.beam_rad, &near, terrain, echo);
             }
         };
         // The cells of angle that the samples cut out of a plane bed, and those above it.
@@ -117,19 +108,12 @@ impl Fan {
     }
 
     /// The obstacles that the fan may meet.
-    fn near<'a>(
-        &self,
-        from: &Vector3<f64>,
-        axes: &Axes,
-        obstacles: &'a Obstacles,
-    ) -> Vec<&'a Obstacle> {
+    fn near<'a>(&self, from: &Vector3<f64>, axes: &Axes, obstacles: &'a Obstacles) -> Vec<&'a Obstacle> {
         let half = 0.5 * self.beam_rad * self.range_m;
         let meets = |o: &&Obstacle| {
             let (middle, r) = o.ball();
             let to = middle - from;
-            to.norm() < self.range_m + r
-                && to.dot(&axes.ahead).abs() < half + r
-                && to.dot(&axes.side) > -r
+            to.norm() < self.range_m + r && to.dot(&axes.ahead).abs() < half + r && to.dot(&axes.side) > -r
         };
         obstacles.0.iter().filter(meets).collect()
     }
@@ -206,14 +190,6 @@ fn axes(R_WB: &UnitQuaternion<f64>, port: bool) -> Axes {
     let ahead = R_WB * Vector3::x();
     let level = Vector3::z().cross(&ahead);
     // A vehicle that stands on its tail has no level side: then use its own.
-    let left = if level.norm() > 1e-6 {
-        level.normalize()
-    } else {
-        R_WB * Vector3::y()
-    };
-    Axes {
-        side: if port { left } else { -left },
-        down: left.cross(&ahead),
-        ahead,
-    }
+    let left = if level.norm() > 1e-6 { level.normalize() } else { R_WB * Vector3::y() };
+    Axes { side: if port { left } else { -left }, down: left.cross(&ahead), ahead }
 }

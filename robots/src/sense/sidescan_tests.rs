@@ -8,12 +8,7 @@ use world::units::Heading;
 
 /// A block of a metre on the bed.
 fn block(east_m: f64, north_m: f64, bed: &Terrain) -> Obstacles {
-    Obstacles(vec![testing::block(
-        bed,
-        "block",
-        [east_m, north_m],
-        [1.0; 3],
-    )])
+    Obstacles(vec![testing::block(bed, "block", [east_m, north_m], [1.0; 3])])
 }
 
 fn sonar(spec: SidescanSpec) -> Sidescan {
@@ -26,10 +21,7 @@ fn mean(truth: &Truth, solids: &Obstacles, bed: &Terrain, pings: u64) -> Vec<f64
     let got = run(5 * pings, 0.02, |c| s.read(c, truth, solids, bed, true));
     assert_eq!(got.len() as u64, pings);
     let power = |k: usize| {
-        let sum: f64 = got
-            .iter()
-            .map(|p| from_db(f64::from(p.starboard_db[k])))
-            .sum();
+        let sum: f64 = got.iter().map(|p| from_db(f64::from(p.starboard_db[k]))).sum();
         10.0 / LN_10 * math::ln(sum / got.len() as f64)
     };
     (0..400).map(power).collect()
@@ -96,22 +88,14 @@ fn a_block_is_bright_and_throws_a_shadow_of_the_right_length() {
 fn speckle_is_rayleigh_in_amplitude() {
     let mut s = sonar(SidescanSpec::default());
     let t = low();
-    let got = run(50_000, 0.02, |c| {
-        s.read(c, &t, &Obstacles::default(), &BED, true)
-    });
-    let power: Vec<f64> = got
-        .iter()
-        .map(|p| from_db(f64::from(p.port_db[200])))
-        .collect();
+    let got = run(50_000, 0.02, |c| s.read(c, &t, &Obstacles::default(), &BED, true));
+    let power: Vec<f64> = got.iter().map(|p| from_db(f64::from(p.port_db[200]))).collect();
     let n = power.len() as f64;
     let mean = power.iter().sum::<f64>() / n;
     // An exponential: a share e^-2 above twice its mean; five standard errors sqrt(p q / n).
     let above = power.iter().filter(|p| **p > 2.0 * mean).count() as f64 / n;
     let p = math::exp(-2.0);
-    assert!(
-        (above - p).abs() < 5.0 * (p * (1.0 - p) / n).sqrt(),
-        "{above} for {p}"
-    );
+    assert!((above - p).abs() < 5.0 * (p * (1.0 - p) / n).sqrt(), "{above} for {p}");
 }
 
 #[test]
@@ -131,11 +115,7 @@ fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
     let k = 300;
     let off = |deg: f64| 6.0206 * ((deg - 20.0) / 25.0) * ((deg - 20.0) / 25.0);
     let want = off(7.6) - off(7.6 - 5.7);
-    assert!(
-        (bare[k] - level[k] - want).abs() < 1.5,
-        "{} for {want}",
-        bare[k] - level[k]
-    );
+    assert!((bare[k] - level[k] - want).abs() < 1.5, "{} for {want}", bare[k] - level[k]);
     // No gaps and no peaks: neighbouring samples differ by no more than speckle and the law's own decrease.
     for k in 60..399 {
         assert!((bare[k] - bare[k + 1]).abs() < 2.5, "{k}");
@@ -146,52 +126,19 @@ fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
 fn off_a_survey_it_is_silent_unless_told() {
     let t = low();
     let read = |always: bool, surveying: bool| {
-        let mut s = sonar(SidescanSpec {
-            always,
-            ..Default::default()
-        });
-        s.read(
-            &Clock::new(0.02),
-            &t,
-            &Obstacles::default(),
-            &BED,
-            surveying,
-        )
-        .is_some()
+        let mut s = sonar(SidescanSpec { always, ..Default::default() });
+        s.read(&Clock::new(0.02), &t, &Obstacles::default(), &BED, surveying).is_some()
     };
-    assert_eq!(
-        [read(false, false), read(false, true), read(true, false)],
-        [false, true, true]
-    );
+    assert_eq!([read(false, false), read(false, true), read(true, false)], [false, true, true]);
 }
 
 #[test]
 fn what_cannot_be_is_refused() {
     let says = |spec: SidescanSpec| {
-        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
-            .expect_err("impossible")
-            .to_string()
+        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
     };
     let default = SidescanSpec::default;
-    assert!(
-        says(SidescanSpec {
-            samples: 0,
-            ..default()
-        })
-        .contains("from 1 to 4096")
-    );
-    assert!(
-        says(SidescanSpec {
-            rate_hz: Positive::new(40.0),
-            ..default()
-        })
-        .contains("at most 37.5 Hz")
-    );
-    assert!(
-        says(SidescanSpec {
-            tilt_deg: NonNegative::new(100.0),
-            ..default()
-        })
-        .contains("at most 90")
-    );
+    assert!(says(SidescanSpec { samples: 0, ..default() }).contains("from 1 to 4096"));
+    assert!(says(SidescanSpec { rate_hz: Positive::new(40.0), ..default() }).contains("at most 37.5 Hz"));
+    assert!(says(SidescanSpec { tilt_deg: NonNegative::new(100.0), ..default() }).contains("at most 90"));
 }

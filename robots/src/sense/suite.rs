@@ -4,8 +4,8 @@ use super::camera::{CameraSpec, Optics};
 use super::on_board::OnBoard;
 use super::tools::Below;
 use super::{
-    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
-    RangingSpec, SidescanSpec,
+    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, RangingSpec,
+    SidescanSpec,
 };
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Decision, Readings};
@@ -39,7 +39,9 @@ impl Fitting<'_> {
     pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
         (self.mounts)(name).ok_or_else(|| RobotError::Invalid {
             field: format!("sensors.{name}"),
-            problem: format!("the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"),
+            problem: format!(
+                "the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"
+            ),
         })
     }
 
@@ -77,10 +79,7 @@ impl Around<'_> {
     /// What an echo sounder may hear.
     #[must_use]
     pub fn below(&self) -> Below<'_> {
-        Below {
-            terrain: self.terrain,
-            obstacles: self.obstacles,
-        }
+        Below { terrain: self.terrain, obstacles: self.obstacles }
     }
 }
 
@@ -122,7 +121,8 @@ impl Kind for Sensors {
     type Spec = dyn SensorParams;
     const NAME: &'static str = "SensorsSpec";
     const HEADING: &'static str = "Sensors";
-    const WHAT: &'static str = "Instruments of a robot, each under its name. A robot has those that are given, and no others.";
+    const WHAT: &'static str =
+        "Instruments of a robot, each under its name. A robot has those that are given, and no others.";
 
     fn built_in() -> Vec<Row<Self>> {
         vec![
@@ -171,10 +171,7 @@ pub struct Asked {
 
 impl From<&Decision> for Asked {
     fn from(decision: &Decision) -> Self {
-        Self {
-            picture: decision.picture,
-            survey: decision.behaviour == Behaviour::Survey,
-        }
+        Self { picture: decision.picture, survey: decision.behaviour == Behaviour::Survey }
     }
 }
 
@@ -194,20 +191,13 @@ impl SensorSuite {
     ///
     /// # Errors
     /// If a mount is missing, or if an instrument's parameter is out of range.
-    pub fn new(
-        spec: &SensorsSpec,
-        mounts: &dyn Fn(&str) -> Option<Pose>,
-        robot: OnBoard,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &SensorsSpec, mounts: &dyn Fn(&str) -> Option<Pose>, robot: OnBoard) -> Result<Self, RobotError> {
         let on = Fitting { mounts, robot };
         let all = spec.iter().map(|s| {
             let own = s.is_own().then(|| s.name());
             s.build(&on).map(|sensor| (sensor, own))
         });
-        Ok(Self {
-            all: all.collect::<Result<_, _>>()?,
-            robot: robot.robot_id.to_string(),
-        })
+        Ok(Self { all: all.collect::<Result<_, _>>()?, robot: robot.robot_id.to_string() })
     }
 
     /// The readings of all instruments in this step.
@@ -241,20 +231,8 @@ impl SensorSuite {
 
 /// Makes readings empty, in their place: they are large.
 fn empty(readings: &mut Readings) {
-    let Readings {
-        chemical,
-        dvl,
-        adcp,
-        attitude,
-        depth,
-        ctd,
-        altimeter,
-        lbl,
-        ranging,
-        sidescan,
-        picture,
-        other,
-    } = readings;
+    let Readings { chemical, dvl, adcp, attitude, depth, ctd, altimeter, lbl, ranging, sidescan, picture, other } =
+        readings;
     *chemical = None;
     *dvl = None;
     *adcp = None;
@@ -287,20 +265,11 @@ mod tests {
             .with(AltimeterSpec::default())
             .with(LblSpec::default())
             .with(RangingSpec::default())
-            .with(SidescanSpec {
-                rate_hz: world::ranges::Positive::new(1.0),
-                always: true,
-                ..SidescanSpec::default()
-            })
+            .with(SidescanSpec { rate_hz: world::ranges::Positive::new(1.0), always: true, ..SidescanSpec::default() })
     }
 
     fn readings(spec: &SensorsSpec, robot_id: &str) -> Vec<Readings> {
-        let mounts = |_: &str| {
-            Some(Pose::level(
-                Vector3::zeros(),
-                world::units::Heading::from_deg(90.0),
-            ))
-        };
+        let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), world::units::Heading::from_deg(90.0)));
         let mut suite = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
         let mut again = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
         let mut kept = Readings::default();
@@ -328,18 +297,8 @@ mod tests {
     fn taking_an_instrument_off_shifts_no_other() {
         let whole = readings(&all(), "auv0");
         let mut lost = 0;
-        for name in [
-            "fluorometer",
-            "dvl",
-            "adcp",
-            "compass",
-            "depth",
-            "ctd",
-            "altimeter",
-            "lbl",
-            "ranging",
-            "sidescan",
-        ] {
+        for name in ["fluorometer", "dvl", "adcp", "compass", "depth", "ctd", "altimeter", "lbl", "ranging", "sidescan"]
+        {
             let (spec, mut want) = (all().without(name), whole.clone());
             for r in &mut want {
                 let before = r.clone();
@@ -361,10 +320,7 @@ mod tests {
         }
         // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and the successful ones of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
-        assert_eq!(
-            lost,
-            1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + 100 + fixes
-        );
+        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + 100 + fixes);
     }
 
     #[test]
@@ -376,12 +332,9 @@ mod tests {
 
     #[test]
     fn a_missing_mount_is_named() {
-        let none = |name: &str| {
-            (name != "adcp")
-                .then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)))
-        };
-        let e = SensorSuite::new(&all(), &none, OnBoard::new("auv0", 1, 0.02))
-            .expect_err("no adcp mount");
+        let none =
+            |name: &str| (name != "adcp").then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)));
+        let e = SensorSuite::new(&all(), &none, OnBoard::new("auv0", 1, 0.02)).expect_err("no adcp mount");
         assert_eq!(
             e.to_string(),
             "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the \

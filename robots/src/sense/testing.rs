@@ -45,21 +45,12 @@ pub(super) fn assert_normal(values: &[f64], mean: f64, std: f64) {
     assert!(n > 100.0, "too few values: {n}");
     let m = values.iter().sum::<f64>() / n;
     let s = (values.iter().map(|v| (v - m) * (v - m)).sum::<f64>() / (n - 1.0)).sqrt();
-    assert!(
-        (m - mean).abs() < 5.0 * std / n.sqrt(),
-        "mean {m}, not {mean}"
-    );
-    assert!(
-        (s - std).abs() < 5.0 * std / (2.0 * n).sqrt(),
-        "deviation {s}, not {std}"
-    );
+    assert!((m - mean).abs() < 5.0 * std / n.sqrt(), "mean {m}, not {mean}");
+    assert!((s - std).abs() < 5.0 * std / (2.0 * n).sqrt(), "deviation {s}, not {std}");
 }
 
 /// A bed without anything on it.
 pub(super) fn bare(terrain: &Terrain) -> Below<'_> {
     static NONE: Obstacles = Obstacles(Vec::new());
-    Below {
-        terrain,
-        obstacles: &NONE,
-    }
+    Below { terrain, obstacles: &NONE }
 }

@@ -14,8 +14,8 @@ use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
-    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Need, Observation,
-    Order, Outcome, Setting, Told, Vertical,
+    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Need, Observation, Order, Outcome,
+    Setting, Told, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,11 +40,7 @@ pub struct ExternalSpec {
 
 impl Default for ExternalSpec {
     fn default() -> Self {
-        Self {
-            period_s: Positive::new(1.0),
-            deadline_s: Positive::new(1.0),
-            on_late: OnLate::Hold,
-        }
+        Self { period_s: Positive::new(1.0), deadline_s: Positive::new(1.0), on_late: OnLate::Hold }
     }
 }
 
@@ -105,10 +101,7 @@ impl StrategyParams for ExternalSpec {
     }
 
     fn consulted(&self) -> Option<Consulted> {
-        Some(Consulted {
-            period_s: self.period_s.get(),
-            deadline_s: self.deadline_s.get(),
-        })
+        Some(Consulted { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
     }
 
     fn needs(&self) -> Vec<Need> {
@@ -121,9 +114,7 @@ impl StrategyParams for ExternalSpec {
     }
 
     fn wishes(&self) -> Wishes {
-        self.fallback()
-            .map(|spec| spec.wishes().within("on_late"))
-            .unwrap_or_default()
+        self.fallback().map(|spec| spec.wishes().within("on_late")).unwrap_or_default()
     }
 
     fn declares_at_most(&self) -> usize {
@@ -182,16 +173,11 @@ impl Strategy for External {
             self.goal = Some(decision.goal);
             self.behaviour = decision.behaviour;
             self.outcome = self.outcome.or(decision.outcome);
-            return Decision {
-                outcome: self.outcome,
-                ..decision
-            };
+            return Decision { outcome: self.outcome, ..decision };
         }
         let goal = self.goal.unwrap_or(goal);
         let behaviour = self.behaviour;
-        let nothing = self
-            .nothing
-            .get_or_insert_with(|| Decision::new(behaviour, goal));
+        let nothing = self.nothing.get_or_insert_with(|| Decision::new(behaviour, goal));
         Decision {
             behaviour,
             goal,
@@ -223,33 +209,19 @@ fn setting_out(seen: &Observation) -> Goal {
     let e = &seen.estimate;
     Goal {
         id: 0,
-        manoeuvre: Manoeuvre::Steer {
-            heading: e.attitude.heading,
-        },
+        manoeuvre: Manoeuvre::Steer { heading: e.attitude.heading },
         vertical: Vertical::Depth(e.depth_m.max(0.0)),
         speed_m_s: e.v_ground_body.x.max(seen.able.least_speed_m_s),
     }
 }
 
 /// A decision of the fallback. It counts its goals from 0, so it is shown the guidance's answers in its own numbers.
-fn stand_in(
-    strategy: &mut dyn Strategy,
-    base: u32,
-    seen: &Observation,
-    rng: &mut Stream,
-) -> Decision {
+fn stand_in(strategy: &mut dyn Strategy, base: u32, seen: &Observation, rng: &mut Stream) -> Decision {
     let guidance = match seen.guidance.goal_id.checked_sub(base) {
-        Some(goal_id) => GuidanceStatus {
-            goal_id,
-            ..seen.guidance
-        },
+        Some(goal_id) => GuidanceStatus { goal_id, ..seen.guidance },
         None => GuidanceStatus::default(),
     };
-    let own = Observation {
-        guidance,
-        told: None,
-        ..seen.clone()
-    };
+    let own = Observation { guidance, told: None, ..seen.clone() };
     let mut decision = strategy.step(&own, rng);
     decision.goal.id = decision.goal.id.saturating_add(base);
     decision

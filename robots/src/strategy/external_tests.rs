@@ -7,25 +7,15 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 fn external(on_late: OnLate) -> Result<Box<dyn Strategy>, RobotError> {
-    let setting = Setting {
-        area: area(),
-        bed: Terrain::Level { depth_m: 8.0 },
-        chart: Obstacles::default(),
-        maps: false,
-    };
-    let spec = ExternalSpec {
-        on_late,
-        ..ExternalSpec::default()
-    };
+    let setting =
+        Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
+    let spec = ExternalSpec { on_late, ..ExternalSpec::default() };
     spec.build(&setting)
 }
 
 fn route() -> StrategySpec {
     let spec = crate::strategy::RouteSpec {
-        points: vec![(
-            world::ranges::Finite::new(50.0),
-            world::ranges::Finite::new(60.0),
-        )],
+        points: vec![(world::ranges::Finite::new(50.0), world::ranges::Finite::new(60.0))],
         speed_m_s: Positive::new(1.0),
         vertical: None,
         stay_s: world::ranges::NonNegative::new(0.0),
@@ -34,19 +24,14 @@ fn route() -> StrategySpec {
 }
 
 fn at(t_s: f64, told: Option<Told>) -> Observation {
-    Observation {
-        told,
-        ..seen(t_s, Vector2::zeros(), 30.0, None)
-    }
+    Observation { told, ..seen(t_s, Vector2::zeros(), 30.0, None) }
 }
 
 fn steer(deg: f64, id: Option<u32>) -> Option<Told> {
     Some(Told::Answer(Box::new(Answer {
         order: Some(Order::Move(MoveOrder {
             id,
-            manoeuvre: Manoeuvre::Steer {
-                heading: Heading::from_deg(deg),
-            },
+            manoeuvre: Manoeuvre::Steer { heading: Heading::from_deg(deg) },
             vertical: None,
             speed_m_s: Some(1.2),
         })),
@@ -80,12 +65,8 @@ fn an_order_without_a_speed_moves_a_vehicle_that_starts_at_rest() {
     let mut rng = Stream::new(1, "auv0", "strategy");
     let mut at_rest = at(0.0, None);
     at_rest.estimate.v_ground_body.x = 0.0;
-    let Some(Told::Answer(mut answer)) = steer(90.0, None) else {
-        unreachable!("an order")
-    };
-    let Some(Order::Move(order)) = &mut answer.order else {
-        unreachable!("a move")
-    };
+    let Some(Told::Answer(mut answer)) = steer(90.0, None) else { unreachable!("an order") };
+    let Some(Order::Move(order)) = &mut answer.order else { unreachable!("a move") };
     order.speed_m_s = None;
     at_rest.told = Some(Told::Answer(answer));
     let least = at_rest.able.least_speed_m_s;
@@ -116,17 +97,11 @@ fn a_fallback_stands_in_with_its_own_numbers_until_the_next_answer() {
     s.step(&at(0.0, steer(90.0, Some(7))), &mut rng);
     let stood_in = s.step(&at(1.0, Some(Told::Nothing)), &mut rng);
     assert_eq!(stood_in.goal.id, 8);
-    assert!(
-        matches!(stood_in.goal.manoeuvre, Manoeuvre::GoToPoint { point, .. } if point.x == 50.0)
-    );
+    assert!(matches!(stood_in.goal.manoeuvre, Manoeuvre::GoToPoint { point, .. } if point.x == 50.0));
     assert_eq!(s.step(&at(2.0, None), &mut rng).goal, stood_in.goal);
     // It has arrived at the fallback's only point: the fallback is told so in its own numbers.
     let mut there = at(3.0, None);
-    there.guidance = GuidanceStatus {
-        goal_id: 8,
-        done: true,
-        aborted: false,
-    };
+    there.guidance = GuidanceStatus { goal_id: 8, done: true, aborted: false };
     let mut answered = external(OnLate::Fallback(Box::new(route()))).expect("legal");
     answered.step(&at(0.0, steer(90.0, Some(7))), &mut rng);
     answered.step(&at(1.0, Some(Told::Nothing)), &mut rng);

@@ -16,8 +16,7 @@ use super::wishes::Wishes;
 use crate::behave::Stride;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting,
-    Vertical,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Vertical,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -139,12 +138,7 @@ impl Inspect {
     }
 
     fn begin(&mut self, manoeuvre: Manoeuvre, vertical: Vertical) {
-        self.goal = Goal {
-            id: self.goal.id + 1,
-            manoeuvre,
-            vertical,
-            ..self.goal
-        };
+        self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, ..self.goal };
     }
 
     /// One step of the survey; at its end, the declaration with its verdict.
@@ -175,10 +169,7 @@ impl Inspect {
         match self.places.get(self.now) {
             Some(point) => {
                 let point = *point;
-                let to = Manoeuvre::GoToPoint {
-                    point,
-                    radius_m: None,
-                };
+                let to = Manoeuvre::GoToPoint { point, radius_m: None };
                 self.begin(to, self.vertical);
             }
             None => self.outcome = Some(Outcome::Completed),
@@ -231,19 +222,13 @@ mod tests {
     use crate::vision::place::AddUpSpec;
 
     fn spec(places: &[[f64; 2]]) -> InspectSpec {
-        let told = |p: &[f64; 2]| ToldSpec {
-            east_m: Finite::new(p[0]),
-            north_m: Finite::new(p[1]),
-        };
+        let told = |p: &[f64; 2]| ToldSpec { east_m: Finite::new(p[0]), north_m: Finite::new(p[1]) };
         InspectSpec {
             places: places.iter().map(told).collect(),
             survey: SurveySpec {
                 sidescan: None,
                 camera: Some(CameraPasses {
-                    add_up: Some(AddUpSpec {
-                        most_lines: 2,
-                        ..AddUpSpec::default()
-                    }),
+                    add_up: Some(AddUpSpec { most_lines: 2, ..AddUpSpec::default() }),
                     ..CameraPasses::default()
                 }),
                 verify: Verify::Camera,
@@ -284,10 +269,7 @@ mod tests {
                 break;
             }
         }
-        let got: Vec<_> = said
-            .iter()
-            .map(|d| (d.number, d.position, d.verdict))
-            .collect();
+        let got: Vec<_> = said.iter().map(|d| (d.number, d.position, d.verdict)).collect();
         let want = |n: u32| (n, Vector2::from(places[n as usize]), Verdict::Unchecked);
         // Each once when it is reached, and once with the verdict: without a camera, none.
         assert_eq!(got, [want(0), want(0), want(1), want(1)]);
@@ -303,25 +285,16 @@ mod tests {
             c.held_pictures = 51;
         }
         let said = Inspect::new(&many).unwrap_err().to_string();
-        assert_eq!(
-            said,
-            "strategy.survey.camera.held_pictures: must be from 0 to 50, got 51"
-        );
+        assert_eq!(said, "strategy.survey.camera.held_pictures: must be from 0 to 50, got 51");
         let mut blind = spec(&[[0.0, 0.0]]);
         blind.survey.camera = None;
         let said = Inspect::new(&blind).unwrap_err().to_string();
-        assert!(
-            said.starts_with("strategy.survey.verify: Camera needs passes"),
-            "{said}"
-        );
+        assert!(said.starts_with("strategy.survey.verify: Camera needs passes"), "{said}");
         let mut low = spec(&[[0.0, 0.0]]);
         if let Some(c) = &mut low.survey.camera {
             c.altitude_m = Positive::new(1.0);
         }
         let said = Inspect::new(&low).unwrap_err().to_string();
-        assert!(
-            said.starts_with("strategy.survey.camera.add_up.least_altitude_m: must be from"),
-            "{said}"
-        );
+        assert!(said.starts_with("strategy.survey.camera.add_up.least_altitude_m: must be from"), "{said}");
     }
 }

@@ -17,20 +17,13 @@ pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::{Strategies, StrategySpec};
 pub use external::{ExternalSpec, OnLate};
 pub use inspect::{Inspect, InspectSpec, ToldSpec};
-pub use map_and_plan::{
-    AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
-};
+pub use map_and_plan::{AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec};
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use route::{Route, RouteSpec};
 pub use spec::{Strategy, StrategyParams, VerticalSpec};
 pub use subregions::{
-    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,
-    SubregionsSpec,
+    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions, SubregionsSpec,
 };
-pub use subsumption::{
-    EyesSpec, GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
-};
-pub use survey::{
-    AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify,
-};
+pub use subsumption::{EyesSpec, GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec};
+pub use survey::{AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify};
 pub use wishes::Wishes;

@@ -10,9 +10,7 @@ use super::spec::{Strategy, StrategyParams};
 use crate::behave::TimeTable;
 use crate::behave::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{
-    Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
-};
+use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use crate::memory::PlumeMemory;
 use world::catalogue::Entry;
 use world::registry::Listed;
@@ -52,12 +50,7 @@ impl OpenLoop {
     /// # Errors
     /// [`RobotError::Invalid`] if the table's times are not in order.
     pub fn new(spec: &OpenLoopSpec) -> Result<Self, RobotError> {
-        Ok(Self {
-            table: TimeTable::new(spec)?,
-            memory: PlumeMemory::default(),
-            goal: None,
-            over: false,
-        })
+        Ok(Self { table: TimeTable::new(spec)?, memory: PlumeMemory::default(), goal: None, over: false })
     }
 }
 
@@ -66,11 +59,7 @@ impl Strategy for OpenLoop {
         if self.goal.is_none() {
             self.table.enter(seen, &self.memory);
         }
-        let stride = if self.over {
-            Stride::Keep
-        } else {
-            self.table.step(seen, false, &mut self.memory, rng)
-        };
+        let stride = if self.over { Stride::Keep } else { self.table.step(seen, false, &mut self.memory, rng) };
         let last_id = self.goal.map_or(0, |g| g.id);
         match stride {
             Stride::Start(manoeuvre) | Stride::Adjust(manoeuvre) => {
@@ -79,21 +68,10 @@ impl Strategy for OpenLoop {
             Stride::Over => self.over = true,
             Stride::Keep => {}
         }
-        let still = Manoeuvre::Direct {
-            rudder_rad: 0.0,
-            stern_rad: 0.0,
-            rpm: 0.0,
-        };
-        let behaviour = if self.over {
-            Behaviour::Done
-        } else {
-            Behaviour::OpenLoop
-        };
+        let still = Manoeuvre::Direct { rudder_rad: 0.0, stern_rad: 0.0, rpm: 0.0 };
+        let behaviour = if self.over { Behaviour::Done } else { Behaviour::OpenLoop };
         let goal = self.goal.unwrap_or_else(|| direct(0, still, seen));
-        Decision {
-            outcome: self.over.then_some(Outcome::Completed),
-            ..Decision::new(behaviour, goal)
-        }
+        Decision { outcome: self.over.then_some(Outcome::Completed), ..Decision::new(behaviour, goal) }
     }
 }
 
@@ -123,18 +101,12 @@ mod tests {
             stern_deg: Finite::new(0.0),
             rpm: Finite::new(1500.0),
         };
-        let spec = OpenLoopSpec {
-            table: vec![row(0.0, 0.0), row(2.0, 5.0)],
-            end_s: Positive::new(4.0),
-        };
+        let spec = OpenLoopSpec { table: vec![row(0.0, 0.0), row(2.0, 5.0)], end_s: Positive::new(4.0) };
         let mut s = OpenLoop::new(&spec).expect("legal");
         let mut rng = Stream::new(1, "auv0", "strategy");
         let mut step = |t_s| s.step(&seen(t_s, Vector2::zeros(), 0.0, None), &mut rng);
         let first = step(0.0);
-        assert_eq!(
-            (first.behaviour, first.outcome),
-            (Behaviour::OpenLoop, None)
-        );
+        assert_eq!((first.behaviour, first.outcome), (Behaviour::OpenLoop, None));
         assert_eq!(step(1.0).goal, first.goal);
         let second = step(2.0);
         assert_eq!(second.goal.id, first.goal.id + 1);
@@ -143,10 +115,7 @@ mod tests {
             Manoeuvre::Direct { rudder_rad, .. } if rudder_rad == 5f64.to_radians()
         ));
         let end = step(4.0);
-        assert_eq!(
-            (end.behaviour, end.outcome),
-            (Behaviour::Done, Some(Outcome::Completed))
-        );
+        assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)));
         assert_eq!(step(5.0).outcome, Some(Outcome::Completed));
     }
 }

@@ -10,9 +10,7 @@
 use super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{
-    Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
-};
+use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,10 +55,7 @@ impl Listed for RouteSpec {
 impl StrategyParams for RouteSpec {
     fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
         if self.points.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "points".into(),
-                problem: "must name at least one place".into(),
-            });
+            return Err(RobotError::Invalid { field: "points".into(), problem: "must name at least one place".into() });
         }
         Ok(Box::new(Route::new(self)))
     }
@@ -94,9 +89,7 @@ impl Route {
     #[must_use]
     pub fn new(spec: &RouteSpec) -> Self {
         Self {
-            points: (spec.points.iter())
-                .map(|(east, north)| Vector2::new(east.get(), north.get()))
-                .collect(),
+            points: (spec.points.iter()).map(|(east, north)| Vector2::new(east.get(), north.get())).collect(),
             speed_m_s: spec.speed_m_s.get(),
             vertical: spec.vertical.map(Vertical::from),
             stay_s: spec.stay_s.get(),
@@ -121,17 +114,11 @@ impl Route {
 impl Strategy for Route {
     fn step(&mut self, seen: &Observation, _: &mut Stream) -> Decision {
         let Some(goal) = self.goal else {
-            let first = Manoeuvre::GoToPoint {
-                point: self.points[0],
-                radius_m: None,
-            };
+            let first = Manoeuvre::GoToPoint { point: self.points[0], radius_m: None };
             return Decision::new(Behaviour::GoTo, self.to(first, seen));
         };
         if self.next == self.points.len() {
-            return Decision {
-                outcome: Some(Outcome::Completed),
-                ..Decision::new(Behaviour::Done, goal)
-            };
+            return Decision { outcome: Some(Outcome::Completed), ..Decision::new(Behaviour::Done, goal) };
         }
         let point = self.points[self.next];
         match self.stays_until_s {
@@ -140,10 +127,7 @@ impl Strategy for Route {
             None if seen.guidance.done && seen.guidance.goal_id == goal.id => {
                 if self.stay_s > 0.0 {
                     self.stays_until_s = Some(seen.t_s + self.stay_s);
-                    let hold = Manoeuvre::Hold {
-                        point,
-                        heading: None,
-                    };
+                    let hold = Manoeuvre::Hold { point, heading: None };
                     return Decision::new(Behaviour::GoTo, self.to(hold, seen));
                 }
             }
@@ -153,10 +137,7 @@ impl Strategy for Route {
         let Some(point) = self.points.get(self.next).copied() else {
             return Decision::new(Behaviour::GoTo, goal);
         };
-        let on = Manoeuvre::GoToPoint {
-            point,
-            radius_m: None,
-        };
+        let on = Manoeuvre::GoToPoint { point, radius_m: None };
         Decision::new(Behaviour::GoTo, self.to(on, seen))
     }
 }

@@ -30,25 +30,14 @@ impl Wishes {
         }
         let mut needs = vec![Need::vital("", "compass", "cannot steer a course")];
         // A vehicle that holds no height is told so elsewhere.
-        let heights = self
-            .verticals
-            .iter()
-            .filter(|_| able.dives && able.holds_depth);
+        let heights = self.verticals.iter().filter(|_| able.dives && able.holds_depth);
         needs.extend(heights.map(|(field, vertical)| match vertical {
             Vertical::Altitude(_) => Need::vital(field, "altimeter", "cannot hold an altitude"),
             Vertical::Depth(_) => Need::vital(field, "depth", NO_DEPTH),
         }));
         if able.dives && !able.holds_depth {
-            needs.push(Need::vital(
-                "",
-                "depth",
-                "never turns at the depths of its autopilot",
-            ));
-            needs.push(Need::wish(
-                "",
-                "altimeter",
-                "does not turn up before the bed",
-            ));
+            needs.push(Need::vital("", "depth", "never turns at the depths of its autopilot"));
+            needs.push(Need::wish("", "altimeter", "does not turn up before the bed"));
         }
         needs
     }
@@ -70,11 +59,7 @@ impl Wishes {
 
     /// The demands of a mission at one speed, at whatever height.
     pub(super) fn speed(speed_m_s: Positive) -> Self {
-        Self {
-            verticals: Vec::new(),
-            speeds_m_s: vec![("speed_m_s".to_string(), speed_m_s.get())],
-            waits: Vec::new(),
-        }
+        Self { verticals: Vec::new(), speeds_m_s: vec![("speed_m_s".to_string(), speed_m_s.get())], waits: Vec::new() }
     }
 
     /// With those of a survey, by its field.
@@ -108,15 +93,9 @@ impl Wishes {
     /// The same as demands of a strategy within another one, below its field.
     pub(super) fn within(self, path: &str) -> Self {
         Self {
-            verticals: (self.verticals.into_iter())
-                .map(|(at, v)| (format!("{path}.{at}"), v))
-                .collect(),
-            speeds_m_s: (self.speeds_m_s.into_iter())
-                .map(|(at, v)| (format!("{path}.{at}"), v))
-                .collect(),
-            waits: (self.waits.into_iter())
-                .map(|at| format!("{path}.{at}"))
-                .collect(),
+            verticals: (self.verticals.into_iter()).map(|(at, v)| (format!("{path}.{at}"), v)).collect(),
+            speeds_m_s: (self.speeds_m_s.into_iter()).map(|(at, v)| (format!("{path}.{at}"), v)).collect(),
+            waits: (self.waits.into_iter()).map(|at| format!("{path}.{at}")).collect(),
         }
     }
 }

@@ -102,12 +102,7 @@ impl Side {
         let mut column = Vec::with_capacity(rows);
         for k in 0..columns {
             column.clear();
-            column.extend(
-                lines
-                    .iter()
-                    .map(|l| f64::from(l[k]))
-                    .filter(|v| v.is_finite()),
-            );
+            column.extend(lines.iter().map(|l| f64::from(l[k])).filter(|v| v.is_finite()));
             // A change of height moves the blind strip below the vehicle.
             if column.len() < FEWEST.max(rows / 2) {
                 continue;
@@ -137,14 +132,7 @@ impl Side {
             _ => 0.0,
         };
         let sums = [sum(&|n| over_db[n]), sum(&units)];
-        Self {
-            port,
-            rows,
-            columns,
-            over_db,
-            spread_db,
-            sums,
-        }
+        Self { port, rows, columns, over_db, spread_db, sums }
     }
 
     /// Mean over a window of dB (0) or standard units (1).
@@ -162,30 +150,18 @@ impl Side {
         let Some(first) = self.spread_db.iter().position(|s| s.is_finite()) else {
             return Vec::new();
         };
-        let heard = self
-            .spread_db
-            .iter()
-            .rposition(|s| s.is_finite())
-            .unwrap_or(first)
-            + 1;
+        let heard = self.spread_db.iter().rposition(|s| s.is_finite()).unwrap_or(first) + 1;
         let mut peaks: Vec<(f64, Window, usize)> = Vec::new();
-        for (length, width, shade) in LENGTHS_M.into_iter().flat_map(|l| {
-            WIDTHS_M
-                .into_iter()
-                .flat_map(move |w| SHADOWS_M.into_iter().map(move |s| (l, w, s)))
-        }) {
+        for (length, width, shade) in LENGTHS_M
+            .into_iter()
+            .flat_map(|l| WIDTHS_M.into_iter().flat_map(move |w| SHADOWS_M.into_iter().map(move |s| (l, w, s))))
+        {
             let (length, width, shade) = (lines(length), cells(width), cells(shade));
             for i in 0..(self.rows + 1).saturating_sub(length) {
                 for k in first..(heard + 1).saturating_sub(width + shade) {
                     let rows = (i, i + length);
-                    let light = Window {
-                        rows,
-                        columns: (k, k + width),
-                    };
-                    let dark = Window {
-                        rows,
-                        columns: (k + width, k + width + shade),
-                    };
+                    let light = Window { rows, columns: (k, k + width) };
+                    let dark = Window { rows, columns: (k + width, k + width + shade) };
                     let error = (1.0 / light.cells() + 1.0 / dark.cells()).sqrt();
                     let contrast = (self.mean(1, light) - self.mean(1, dark)) / error;
                     if contrast >= spec.contrast.get()
@@ -217,10 +193,7 @@ impl Side {
             let (apron, aside) = (cells(1.0), lines(1.0));
             taken.push(Window {
                 rows: (bright.rows.0.saturating_sub(aside), bright.rows.1 + aside),
-                columns: (
-                    bright.columns.0.saturating_sub(apron),
-                    shade.columns.1 + apron,
-                ),
+                columns: (bright.columns.0.saturating_sub(apron), shade.columns.1 + apron),
             });
             let object = self.object(picture, (contrast, bright, shade));
             let fits = |m: f64| m >= spec.least_m.get() && m <= spec.most_m.get();
@@ -235,15 +208,7 @@ impl Side {
     /// if it is not.
     fn grown(&self, mut w: Window) -> Window {
         let half = 0.5 * self.mean(0, w);
-        let line = |i: usize, w: &Window| {
-            self.mean(
-                0,
-                Window {
-                    rows: (i, i + 1),
-                    ..*w
-                },
-            ) > half
-        };
+        let line = |i: usize, w: &Window| self.mean(0, Window { rows: (i, i + 1), ..*w }) > half;
         while w.rows.0 > 0 && line(w.rows.0 - 1, &w) {
             w.rows.0 -= 1;
         }
@@ -256,15 +221,7 @@ impl Side {
         while w.rows.1 - w.rows.0 > 1 && !line(w.rows.1 - 1, &w) {
             w.rows.1 -= 1;
         }
-        let column = |k: usize, w: &Window| {
-            self.mean(
-                0,
-                Window {
-                    columns: (k, k + 1),
-                    ..*w
-                },
-            ) > half
-        };
+        let column = |k: usize, w: &Window| self.mean(0, Window { columns: (k, k + 1), ..*w }) > half;
         while w.columns.0 > 0 && column(w.columns.0 - 1, &w) {
             w.columns.0 -= 1;
         }
@@ -281,32 +238,17 @@ impl Side {
     /// bed.
     fn shade(&self, light: Window, heard: usize) -> Window {
         let from = light.columns.1.min(heard - 1);
-        let column = |k: usize| {
-            self.mean(
-                0,
-                Window {
-                    columns: (k, k + 1),
-                    ..light
-                },
-            )
-        };
+        let column = |k: usize| self.mean(0, Window { columns: (k, k + 1), ..light });
         let darkest = (from..heard.min(from + 4)).map(column).fold(0.0, f64::min);
         let lit = |k: usize| {
             // Three cells in a row, so that a speckle does not end it.
             (k..(k + 3).min(heard)).all(|k| column(k) > 0.5 * darkest)
         };
         let end = (from..heard).find(|k| lit(*k)).unwrap_or(heard);
-        Window {
-            columns: (from, end.max(from + 1)),
-            ..light
-        }
+        Window { columns: (from, end.max(from + 1)), ..light }
     }
 
-    fn object(
-        &self,
-        picture: &Waterfall,
-        (contrast, light, shade): (f64, Window, Window),
-    ) -> Object {
+    fn object(&self, picture: &Waterfall, (contrast, light, shade): (f64, Window, Window)) -> Object {
         let (rows, cell): (&[Row], f64) = (picture.rows(), picture.cell_m());
         // The middle by brightness along the track: the beam is one or two cells wide there.
         let (mut weight, mut middle) = (0.0, 0.0);
@@ -317,18 +259,10 @@ impl Side {
                 middle += over * i as f64;
             }
         }
-        let at = if weight > 0.0 {
-            middle / weight
-        } else {
-            light.rows.0 as f64
-        };
+        let at = if weight > 0.0 { middle / weight } else { light.rows.0 as f64 };
         let row = &rows[(at.round() as usize).min(rows.len() - 1)];
         let metres = |columns: usize| columns as f64 * cell;
-        let (near, far, dark) = (
-            metres(light.columns.0),
-            metres(light.columns.1),
-            metres(shade.columns.1),
-        );
+        let (near, far, dark) = (metres(light.columns.0), metres(light.columns.1), metres(shade.columns.1));
         let h = row.height_m;
         // Its top is nearer to the sonar than the bed below it: a return at ground range g on a flat bed comes from
         // farther off.
@@ -348,8 +282,7 @@ impl Side {
             port: self.port,
             along_m: row.along_m,
             ground_m,
-            length_m: rows[light.rows.1 - 1].along_m - rows[light.rows.0].along_m
-                + picture.line_m(),
+            length_m: rows[light.rows.1 - 1].along_m - rows[light.rows.0].along_m + picture.line_m(),
             width_m: back - front,
             height_m,
         }

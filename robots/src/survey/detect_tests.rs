@@ -4,19 +4,13 @@ use super::super::testing::{Bed, fly};
 use super::*;
 
 fn with_block(seed: u64, across: f64) -> Bed {
-    Bed {
-        blocks: vec![(Vector2::new(30.0, across), 1.0, 1.0)],
-        ..Bed::bare(seed)
-    }
+    Bed { blocks: vec![(Vector2::new(30.0, across), 1.0, 1.0)], ..Bed::bare(seed) }
 }
 
 #[test]
 fn a_block_is_found_where_it_is_on_either_side_near_and_far() {
     for (seed, across) in [(1, 4.0), (2, 8.0), (3, -8.0), (4, 12.0), (5, -12.0)] {
-        let found = detect(
-            &fly(&with_block(seed, across), 60.0),
-            &DetectSpec::default(),
-        );
+        let found = detect(&fly(&with_block(seed, across), 60.0), &DetectSpec::default());
         assert_eq!(found.len(), 1, "{across}: {found:?}");
         let o = &found[0];
         // The line's place is that of its end: one and a half cells along the track; across it the layover of its
@@ -35,9 +29,7 @@ fn speckle_alone_gives_no_object_in_a_third_of_a_square_kilometre() {
     // in them bounds the rate below 10 in a square kilometre with 95 % (-ln 0.05 = 3 events expected); a survey
     // images 0.007.
     let spec = DetectSpec::default();
-    let found: usize = (0..8)
-        .map(|seed| detect(&fly(&Bed::bare(seed), 1000.0), &spec).len())
-        .sum();
+    let found: usize = (0..8).map(|seed| detect(&fly(&Bed::bare(seed), 1000.0), &spec).len()).sum();
     assert_eq!(found, 0);
     // The threshold is the reason: with a lower one and no demands on dB, speckle does pass.
     let eager = DetectSpec {
@@ -51,20 +43,14 @@ fn speckle_alone_gives_no_object_in_a_third_of_a_square_kilometre() {
 
 #[test]
 fn a_bright_patch_without_a_shadow_is_no_object() {
-    let bed = Bed {
-        patches: vec![(Vector2::new(30.0, 8.0), 1.0)],
-        ..Bed::bare(7)
-    };
+    let bed = Bed { patches: vec![(Vector2::new(30.0, 8.0), 1.0)], ..Bed::bare(7) };
     assert!(detect(&fly(&bed, 60.0), &DetectSpec::default()).is_empty());
 }
 
 #[test]
 fn a_wall_is_no_object_and_two_blocks_are_two() {
     let spec = DetectSpec::default();
-    let wall = Bed {
-        blocks: vec![(Vector2::new(30.0, 10.0), 8.0, 1.0)],
-        ..Bed::bare(8)
-    };
+    let wall = Bed { blocks: vec![(Vector2::new(30.0, 10.0), 8.0, 1.0)], ..Bed::bare(8) };
     assert!(detect(&fly(&wall, 60.0), &spec).is_empty());
     let mut two = with_block(9, 7.0);
     two.blocks.push((Vector2::new(45.0, -9.0), 1.0, 0.8));

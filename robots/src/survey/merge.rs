@@ -33,10 +33,7 @@ pub fn merge(sightings: &[Object], merge_m: f64) -> Vec<Found> {
             (left.into_iter()).partition(|o| (o.place - first.place).norm() <= merge_m);
         left = rest;
         let weight: f64 = near.iter().map(|o| o.contrast * o.contrast).sum();
-        let sum: Vector2<f64> = near
-            .iter()
-            .map(|o| o.place * (o.contrast * o.contrast))
-            .sum();
+        let sum: Vector2<f64> = near.iter().map(|o| o.place * (o.contrast * o.contrast)).sum();
         found.push(Found {
             place: sum / weight,
             contrast: weight.sqrt(),

@@ -24,11 +24,7 @@ pub(super) struct Bed {
 
 impl Bed {
     pub(super) fn bare(seed: u64) -> Self {
-        Self {
-            blocks: Vec::new(),
-            patches: Vec::new(),
-            seed,
-        }
+        Self { blocks: Vec::new(), patches: Vec::new(), seed }
     }
 
     /// Strength of the echo from slant range `r` at `along` on a side (sign), as a factor of the noise.
@@ -78,12 +74,8 @@ pub(super) fn fly(bed: &Bed, length_m: f64) -> Waterfall {
             };
             (0..SAMPLES).map(level).collect()
         };
-        let ping = SidescanPing {
-            p_BS: Vector3::zeros(),
-            max_m: RANGE_M,
-            port_db: side(-1.0),
-            starboard_db: side(1.0),
-        };
+        let ping =
+            SidescanPing { p_BS: Vector3::zeros(), max_m: RANGE_M, port_db: side(-1.0), starboard_db: side(1.0) };
         let mut o = seen(0.1 * f64::from(k), Vector2::new(0.0, along), 0.0, None);
         o.estimate.altitude_m = Some(HEIGHT_M);
         w.push(&ping, &o.estimate);

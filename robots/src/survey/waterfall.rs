@@ -57,11 +57,7 @@ impl Row {
     /// A side.
     #[must_use]
     pub fn side(&self, port: bool) -> &[f32] {
-        if port {
-            &self.port_db
-        } else {
-            &self.starboard_db
-        }
+        if port { &self.port_db } else { &self.starboard_db }
     }
 }
 
@@ -82,14 +78,7 @@ impl Waterfall {
     /// An empty picture.
     #[must_use]
     pub fn new(cell_m: f64) -> Self {
-        Self {
-            cell_m,
-            rows: Vec::new(),
-            along_m: 0.0,
-            last_s: None,
-            sums: [Vec::new(), Vec::new()],
-            begun_m: 0.0,
-        }
+        Self { cell_m, rows: Vec::new(), along_m: 0.0, last_s: None, sums: [Vec::new(), Vec::new()], begun_m: 0.0 }
     }
 
     /// Size of a cell, m.
@@ -196,18 +185,8 @@ mod tests {
             assert!((pair[1].place - pair[0].place).norm() - 0.2 < 1e-6);
         }
         // After removing Lambert's fall, near and far are alike: mean of 200 lines of five looks each.
-        let mean = |k: usize| {
-            rows.iter()
-                .map(|r| f64::from(r.starboard_db[k]))
-                .sum::<f64>()
-                / rows.len() as f64
-        };
-        assert!(
-            (mean(12) - mean(60)).abs() < 0.8,
-            "{} {}",
-            mean(12),
-            mean(60)
-        );
+        let mean = |k: usize| rows.iter().map(|r| f64::from(r.starboard_db[k])).sum::<f64>() / rows.len() as f64;
+        assert!((mean(12) - mean(60)).abs() < 0.8, "{} {}", mean(12), mean(60));
         assert!(rows[0].port_db[0].is_nan() && rows[0].port_db[79].is_nan());
     }
 
@@ -216,10 +195,7 @@ mod tests {
         let w = fly(&Bed::bare(1), 5.0);
         let row = &w.rows()[3];
         // Heading north.
-        let (port, starboard) = (
-            row.at(true, 7.0) - row.place,
-            row.at(false, 7.0) - row.place,
-        );
+        let (port, starboard) = (row.at(true, 7.0) - row.place, row.at(false, 7.0) - row.place);
         assert!((port - Vector2::new(-7.0, 0.0)).norm() < 1e-9);
         assert!((starboard - Vector2::new(7.0, 0.0)).norm() < 1e-9);
     }

@@ -33,15 +33,10 @@ impl Acquisition {
     /// # Errors
     /// [`RobotError::Invalid`] if the machine has no two probes that are apart across the stream, or too many probes.
     pub fn new(layout: &GantryLayout) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid {
-            field: "tracker.probes".into(),
-            problem,
-        };
+        let invalid = |problem: String| RobotError::Invalid { field: "tracker.probes".into(), problem };
         let n = layout.probes.len();
         if !(2..=MAX_PROBES).contains(&n) {
-            return Err(invalid(format!(
-                "bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}"
-            )));
+            return Err(invalid(format!("bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}")));
         }
         let offsets_m: Vec<_> = layout.probes.iter().map(|p| p.offset_m.xy()).collect();
         let (mut left, mut right) = (0, 0);
@@ -55,16 +50,10 @@ impl Acquisition {
         }
         if offsets_m[left].y - offsets_m[right].y < APART_M {
             return Err(invalid(
-                "no two probes are apart across the stream: bilateral steering needs a left and a right one"
-                    .into(),
+                "no two probes are apart across the stream: bilateral steering needs a left and a right one".into(),
             ));
         }
-        Ok(Self {
-            range_v: layout.range_v,
-            offsets_m,
-            left,
-            right,
-        })
+        Ok(Self { range_v: layout.range_v, offsets_m, left, right })
     }
 
     /// Number of probes.
@@ -92,24 +81,13 @@ impl Acquisition {
             );
             *above = volts.clamp(bottom, top) - bottom;
         }
-        Sample {
-            t_s: scan.t_s,
-            head_m: joints.position_m,
-            speed_m_s: joints.speed_m_s,
-            above_v,
-            count: scan.count,
-        }
+        Sample { t_s: scan.t_s, head_m: joints.position_m, speed_m_s: joints.speed_m_s, above_v, count: scan.count }
     }
 
     /// A spike of `probe` in the sample `of`.
     #[must_use]
     pub fn spike(&self, of: &Sample, probe: usize) -> Spike {
-        Spike {
-            t_s: of.t_s,
-            probe,
-            magnitude_v: of.above_v[probe],
-            place_m: of.head_m + self.offsets_m[probe],
-        }
+        Spike { t_s: of.t_s, probe, magnitude_v: of.above_v[probe], place_m: of.head_m + self.offsets_m[probe] }
     }
 }
 
@@ -123,10 +101,7 @@ mod tests {
     fn signals_count_from_clean_water_and_places_from_the_head() {
         let a = Acquisition::new(&layout()).expect("legal");
         assert_eq!((a.left, a.right, a.count()), (0, 1, 3));
-        let joints = JointReadings {
-            position_m: Vector2::new(0.5, -0.1),
-            ..Default::default()
-        };
+        let joints = JointReadings { position_m: Vector2::new(0.5, -0.1), ..Default::default() };
         let s = a.sample(&scan(1.0, [-5.0, -4.5, 7.0]), &joints);
         assert_eq!(s.above_v[..3], [0.0, 0.5, 10.0]);
         let spike = a.spike(&s, 1);
@@ -139,10 +114,7 @@ mod tests {
         let mut one = layout();
         one.probes.truncate(1);
         let e = Acquisition::new(&one).expect_err("one").to_string();
-        assert_eq!(
-            e,
-            "tracker.probes: bilateral steering needs 2 to 8 probes; the head has 1"
-        );
+        assert_eq!(e, "tracker.probes: bilateral steering needs 2 to 8 probes; the head has 1");
         let mut line = layout();
         for p in &mut line.probes {
             p.offset_m = Vector3::new(0.0, 0.0, p.offset_m.z);

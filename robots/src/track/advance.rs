@@ -51,11 +51,7 @@ pub struct StepRule {
 
 impl Default for StepRule {
     fn default() -> Self {
-        Self {
-            ratio: Positive::new(1.0),
-            prediction_error: NonNegative::new(0.02),
-            signed: true,
-        }
+        Self { ratio: Positive::new(1.0), prediction_error: NonNegative::new(0.02), signed: true }
     }
 }
 
@@ -80,10 +76,7 @@ pub enum StepFrom {
 
 impl Default for Gated {
     fn default() -> Self {
-        Self {
-            spikes: NonZeroUsize::MIN,
-            from: StepFrom::Head,
-        }
+        Self { spikes: NonZeroUsize::MIN, from: StepFrom::Head }
     }
 }
 
@@ -92,13 +85,7 @@ impl AdvanceSpec {
     #[must_use]
     pub fn from_m(&self, here_m: f64, step: &StepRecord) -> f64 {
         match (self, step.foremost_m) {
-            (
-                Self::Gated(Gated {
-                    from: StepFrom::Spike,
-                    ..
-                }),
-                Some(spike_m),
-            ) => spike_m.min(here_m),
+            (Self::Gated(Gated { from: StepFrom::Spike, .. }), Some(spike_m)) => spike_m.min(here_m),
             _ => here_m,
         }
     }
@@ -110,9 +97,7 @@ impl AdvanceSpec {
             Self::Gated(p) => step.spikes >= p.spikes.get(),
             Self::StepRule(_) if step.spikes == 0 => false,
             Self::StepRule(p) => {
-                let more = step
-                    .previous_v
-                    .is_none_or(|before| step.mean_v > p.ratio.get() * before);
+                let more = step.previous_v.is_none_or(|before| step.mean_v > p.ratio.get() * before);
                 more || step.predicted_v.is_some_and(|predicted| {
                     let error = predicted - step.mean_v;
                     let error = if p.signed { error } else { error.abs() };
@@ -141,27 +126,14 @@ mod tests {
     fn more_than_before_or_within_two_per_cent_of_the_prediction() {
         let rule = AdvanceSpec::default();
         assert!(rule.allows(&step(3, 1.01, 1.0, 9.0)), "more than before");
-        assert!(
-            !rule.allows(&step(3, 1.0, 1.0, 1.03)),
-            "as before is not more"
-        );
-        assert!(
-            rule.allows(&step(3, 0.99, 1.0, 1.0)),
-            "1 % below the prediction"
-        );
+        assert!(!rule.allows(&step(3, 1.0, 1.0, 1.03)), "as before is not more");
+        assert!(rule.allows(&step(3, 0.99, 1.0, 1.0)), "1 % below the prediction");
         assert!(!rule.allows(&step(3, 0.97, 1.0, 1.0)), "3 % below it");
         assert!(rule.allows(&step(3, 0.97, 1.0, 0.5)), "above it is no loss");
         assert!(!rule.allows(&step(0, 0.0, 0.0, 0.0)), "nothing");
-        let first = StepRecord {
-            spikes: 1,
-            mean_v: 0.1,
-            ..Default::default()
-        };
+        let first = StepRecord { spikes: 1, mean_v: 0.1, ..Default::default() };
         assert!(rule.allows(&first));
-        let both = AdvanceSpec::StepRule(StepRule {
-            signed: false,
-            ..Default::default()
-        });
+        let both = AdvanceSpec::StepRule(StepRule { signed: false, ..Default::default() });
         assert!(!both.allows(&step(3, 0.97, 1.0, 0.5)));
     }
 
@@ -174,14 +146,8 @@ mod tests {
 
     #[test]
     fn a_gated_step_is_measured_from_the_most_up_stream_spike() {
-        let met_at = |m| StepRecord {
-            foremost_m: m,
-            ..step(1, 0.1, 1.0, 1.0)
-        };
-        let gate = AdvanceSpec::Gated(Gated {
-            from: StepFrom::Spike,
-            ..Gated::default()
-        });
+        let met_at = |m| StepRecord { foremost_m: m, ..step(1, 0.1, 1.0, 1.0) };
+        let gate = AdvanceSpec::Gated(Gated { from: StepFrom::Spike, ..Gated::default() });
         assert_eq!(gate.from_m(0.5, &met_at(Some(0.4))), 0.4);
         // A probe may be ahead of the head.
         assert_eq!(gate.from_m(0.5, &met_at(Some(0.6))), 0.5);

@@ -71,14 +71,7 @@ impl DataBuilder {
     /// An empty map.
     #[must_use]
     pub fn new(best: Best) -> Self {
-        Self {
-            best,
-            spikes: 0,
-            sum: 0.0,
-            moment: 0.0,
-            greatest: None,
-            up_stream: Vec::with_capacity(KEPT + 1),
-        }
+        Self { best, spikes: 0, sum: 0.0, moment: 0.0, greatest: None, up_stream: Vec::with_capacity(KEPT + 1) }
     }
 
     /// A sweep begins.
@@ -91,10 +84,7 @@ impl DataBuilder {
         self.spikes += 1;
         self.sum += spike.magnitude_v;
         self.moment += spike.magnitude_v * spike.place_m.y;
-        if self
-            .greatest
-            .is_none_or(|g| spike.magnitude_v > g.magnitude_v)
-        {
+        if self.greatest.is_none_or(|g| spike.magnitude_v > g.magnitude_v) {
             self.greatest = Some(*spike);
         }
         let at = self.up_stream.partition_point(|p| p.x >= spike.place_m.x);
@@ -134,10 +124,7 @@ mod tests {
     use super::*;
 
     fn at(x: f64, y: f64, magnitude_v: f64) -> Spike {
-        Spike {
-            place_m: Vector2::new(x, y),
-            ..spike(0.0, 0, magnitude_v)
-        }
+        Spike { place_m: Vector2::new(x, y), ..spike(0.0, 0, magnitude_v) }
     }
 
     #[test]

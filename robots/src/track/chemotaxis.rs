@@ -15,9 +15,7 @@ use super::acquire::Acquisition;
 use super::command::MotionCommand;
 use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
-use crate::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState,
-};
+use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -138,19 +136,13 @@ impl Chemotaxis {
             self.turned += 1;
             if self.turned >= self.turns {
                 self.stopped = Some(true);
-                self.command
-                    .go(t_s, GantryBehaviour::Done, here, self.speed_m_s);
+                self.command.go(t_s, GantryBehaviour::Done, here, self.speed_m_s);
                 return;
             }
         }
-        let across = if left == right {
-            0.0
-        } else {
-            (left - right).signum()
-        };
+        let across = if left == right { 0.0 } else { (left - right).signum() };
         let by = Vector2::new(self.along, across).component_mul(&self.step_m);
-        self.command
-            .go(t_s, GantryBehaviour::StepUp, here + by, self.speed_m_s);
+        self.command.go(t_s, GantryBehaviour::StepUp, here + by, self.speed_m_s);
     }
 }
 
@@ -160,8 +152,7 @@ impl GantryStrategy for Chemotaxis {
         if self.stopped.is_none() {
             if !self.begun {
                 self.begun = true;
-                self.command
-                    .go(t, GantryBehaviour::Idle, joints.position_m, self.speed_m_s);
+                self.command.go(t, GantryBehaviour::Idle, joints.position_m, self.speed_m_s);
             }
             let at = self.command.progress(t, joints);
             if let (Some(scan), Some(_)) = (&seen.readings.scan, at.rest_s) {
@@ -176,10 +167,7 @@ impl GantryStrategy for Chemotaxis {
                 self.next(t, at.here_m, at.blocked);
             }
         }
-        let working = TrackerState {
-            magnitude_v: self.before_v.unwrap_or(0.0),
-            ..Default::default()
-        };
+        let working = TrackerState { magnitude_v: self.before_v.unwrap_or(0.0), ..Default::default() };
         self.command.decision(joints, working, self.stopped)
     }
 }
@@ -193,10 +181,7 @@ mod tests {
     #[test]
     fn climbs_a_smooth_hill_and_stops_on_it() {
         let spec = GantryStrategySpec::new(ChemotaxisSpec::default());
-        let mut rig = Rig::new(
-            spec.build(&layout()).expect("legal"),
-            Vector2::new(0.2, -0.2),
-        );
+        let mut rig = Rig::new(spec.build(&layout()).expect("legal"), Vector2::new(0.2, -0.2));
         // A hill 1 m up-stream and 0.1 m to the left.
         let hill = |p: Vector2<f64>| {
             let d = p - Vector2::new(1.2, 0.1);
@@ -210,14 +195,8 @@ mod tests {
 
     #[test]
     fn a_step_longer_than_the_travel_is_refused() {
-        let spec = ChemotaxisSpec {
-            step_m: [Positive::new(0.1), Positive::new(1.5)],
-            ..Default::default()
-        };
+        let spec = ChemotaxisSpec { step_m: [Positive::new(0.1), Positive::new(1.5)], ..Default::default() };
         let e = Chemotaxis::new(&spec, &layout()).expect_err("too long");
-        assert_eq!(
-            e.to_string(),
-            "tracker.Chemotaxis.step_m.1: must be at most 1, the gantry's travel in m, got 1.5"
-        );
+        assert_eq!(e.to_string(), "tracker.Chemotaxis.step_m.1: must be at most 1, the gantry's travel in m, got 1.5");
     }
 }

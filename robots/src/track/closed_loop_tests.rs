@@ -39,10 +39,7 @@ fn sweeps_climbs_and_steers() {
     });
     assert!(diagonal, "no diagonal step");
     // Steps along the stream take as long as the paper's, 3.5 s.
-    let straight = r
-        .log
-        .windows(2)
-        .find(|w| w.iter().all(|l| l.1 == B::StepUp) && (w[0].2 - w[0].3).y == 0.0);
+    let straight = r.log.windows(2).find(|w| w.iter().all(|l| l.1 == B::StepUp) && (w[0].2 - w[0].3).y == 0.0);
     let w = straight.expect("two steps in a row");
     assert!((w[1].0 - w[0].0 - 3.5).abs() < 0.1, "{} s", w[1].0 - w[0].0);
 }
@@ -70,21 +67,14 @@ fn clean_water_ends_in_giving_up() {
 fn a_wall_is_passed_or_reported() {
     let steady = |t: f64, p: Vector3<f64>| (5.0 * t).rem_euclid(1.0) * (1.0 + p.x);
     let mut spec = CrabSpec {
-        stop: StopSpec::SpikeRate(SpikeRate {
-            hz: world::ranges::Positive::new(50.0),
-            ..Default::default()
-        }),
+        stop: StopSpec::SpikeRate(SpikeRate { hz: world::ranges::Positive::new(50.0), ..Default::default() }),
         ..CrabSpec::default()
     };
     spec.advance = AdvanceSpec::Gated(Gated::default());
     let mut open = rig(&spec, 1);
     open.wall = |p| p.x > 0.75 && p.x < 0.8 && p.y.abs() < 0.12;
     open.run(LIMIT_S, steady);
-    assert!(
-        open.head_m().x > 1.9,
-        "did not get past: {:?}",
-        open.head_m()
-    );
+    assert!(open.head_m().x > 1.9, "did not get past: {:?}", open.head_m());
     let mut closed = rig(&spec, 1);
     closed.wall = |p| p.x > 0.75;
     closed.run(LIMIT_S, steady);
@@ -93,10 +83,7 @@ fn a_wall_is_passed_or_reported() {
 }
 
 fn over_spikes() -> HistorySpec {
-    HistorySpec {
-        over: Over::Spikes,
-        ..HistorySpec::default()
-    }
+    HistorySpec { over: Over::Spikes, ..HistorySpec::default() }
 }
 
 proptest! {
@@ -124,11 +111,7 @@ fn pulses(t: f64, p: Vector3<f64>) -> f64 {
     let (dx, dy) = ((SOURCE_M.x - p.x).max(0.05), p.y - SOURCE_M.y);
     let every = (20.0 * dx / 0.6).round() as u64;
     let lit = ((20.0 * t).round() as u64).is_multiple_of(every);
-    if lit && dy.abs() < 0.2 {
-        (1.0 - 5.0 * dy.abs()) / dx
-    } else {
-        0.0
-    }
+    if lit && dy.abs() < 0.2 { (1.0 - 5.0 * dy.abs()) / dx } else { 0.0 }
 }
 
 #[test]
@@ -147,10 +130,7 @@ fn stops_where_spikes_come_twice_a_second() {
 #[test]
 fn each_adaptive_part_works_alone() {
     // Averages over spikes, with which the parts were developed on this plume.
-    let plain = CrabSpec {
-        history: over_spikes(),
-        ..CrabSpec::default()
-    };
+    let plain = CrabSpec { history: over_spikes(), ..CrabSpec::default() };
     let all = CrabSpec::adaptive();
     let with = |change: fn(&mut CrabSpec, CrabSpec)| {
         let mut spec = plain.clone();
@@ -167,10 +147,7 @@ fn each_adaptive_part_works_alone() {
     let first_step = |r: &Rig| r.log.iter().find(|l| l.1 == B::StepUp).expect("a step").0;
     assert!(first_step(&fast) < first_step(&base) - 5.0);
     // Where the plume passes below the probes, the fixed rule finds no end; the other one does.
-    assert_eq!(
-        (base.stopped(), stopping.stopped()),
-        (Some(false), Some(true))
-    );
+    assert_eq!((base.stopped(), stopping.stopped()), (Some(false), Some(true)));
     assert!(distance(&stopping) < 0.3);
 }
 

@@ -68,13 +68,7 @@ impl MotionCommand {
     }
 
     /// A new command.
-    pub fn go(
-        &mut self,
-        t_s: f64,
-        behaviour: GantryBehaviour,
-        target_m: Vector2<f64>,
-        speed_m_s: Vector2<f64>,
-    ) {
+    pub fn go(&mut self, t_s: f64, behaviour: GantryBehaviour, target_m: Vector2<f64>, speed_m_s: Vector2<f64>) {
         assert!(
             target_m.x.is_finite() && target_m.y.is_finite(),
             "the decision unit asks for {target_m:?}, which is not a place"
@@ -96,37 +90,22 @@ impl MotionCommand {
                 self.rest_since_s.get_or_insert(t_s);
             }
         }
-        let to_go = (self.target_m - joints.position_m)
-            .abs()
-            .component_div(&self.speed_m_s);
+        let to_go = (self.target_m - joints.position_m).abs().component_div(&self.speed_m_s);
         Progress {
             rest_s: self.rest_since_s.map(|since| t_s - since),
             to_go_s: to_go.x.max(to_go.y),
             blocked: self.blocked,
-            here_m: if self.blocked || self.id == 0 {
-                joints.position_m
-            } else {
-                self.target_m
-            },
+            here_m: if self.blocked || self.id == 0 { joints.position_m } else { self.target_m },
         }
     }
 
     /// The present command as a decision; before the first one it holds the head in place.
     #[must_use]
-    pub fn decision(
-        &self,
-        joints: &JointReadings,
-        working: TrackerState,
-        stopped: Option<bool>,
-    ) -> GantryDecision {
+    pub fn decision(&self, joints: &JointReadings, working: TrackerState, stopped: Option<bool>) -> GantryDecision {
         GantryDecision {
             behaviour: self.behaviour,
             id: self.id,
-            target_m: if self.id == 0 {
-                self.within(joints.position_m)
-            } else {
-                self.target_m
-            },
+            target_m: if self.id == 0 { self.within(joints.position_m) } else { self.target_m },
             speed_m_s: self.speed_m_s,
             working,
             stopped,
@@ -142,18 +121,10 @@ mod tests {
     #[test]
     fn targets_and_speeds_stay_within_the_machine() {
         let mut m = MotionCommand::new(&layout());
-        let at = JointReadings {
-            position_m: Vector2::new(0.3, 0.1),
-            ..Default::default()
-        };
+        let at = JointReadings { position_m: Vector2::new(0.3, 0.1), ..Default::default() };
         let idle = m.decision(&at, TrackerState::default(), None);
         assert_eq!((idle.id, idle.target_m), (0, at.position_m));
-        m.go(
-            0.0,
-            GantryBehaviour::StepUp,
-            Vector2::new(9.0, -9.0),
-            Vector2::new(9.0, 0.01),
-        );
+        m.go(0.0, GantryBehaviour::StepUp, Vector2::new(9.0, -9.0), Vector2::new(9.0, 0.01));
         let d = m.decision(&at, TrackerState::default(), None);
         assert_eq!((d.id, d.behaviour), (1, GantryBehaviour::StepUp));
         assert_eq!(d.target_m, Vector2::new(2.0, -0.5));
@@ -163,16 +134,8 @@ mod tests {
     #[test]
     fn an_old_answer_is_no_answer_and_a_block_ends_the_way() {
         let mut m = MotionCommand::new(&layout());
-        m.go(
-            1.0,
-            GantryBehaviour::StepUp,
-            Vector2::new(0.1, 0.0),
-            Vector2::new(0.05, 0.03),
-        );
-        let mut joints = JointReadings {
-            arrived: true,
-            ..Default::default()
-        };
+        m.go(1.0, GantryBehaviour::StepUp, Vector2::new(0.1, 0.0), Vector2::new(0.05, 0.03));
+        let mut joints = JointReadings { arrived: true, ..Default::default() };
         let p = m.progress(1.05, &joints);
         assert_eq!((p.rest_s, p.to_go_s), (None, 2.0));
         joints.arrived = false;

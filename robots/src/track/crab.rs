@@ -19,8 +19,7 @@ use super::stop::StopRule;
 use super::threshold::ThresholdAnalyser;
 use crate::error::RobotError;
 use crate::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, JointReadings, ProbeScan,
-    TrackerState,
+    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, JointReadings, ProbeScan, TrackerState,
 };
 use world::catalogue::Entry;
 use world::registry::Listed;
@@ -98,13 +97,7 @@ impl CrabTracker {
                 }
             }
         }
-        for (i, v) in self
-            .working
-            .threshold_v
-            .iter_mut()
-            .enumerate()
-            .take(now.count)
-        {
+        for (i, v) in self.working.threshold_v.iter_mut().enumerate().take(now.count) {
             *v = self.bottom_v + self.threshold.above_v(i);
         }
         self.working.spike_hz = self.decision.stop.hz();

@@ -84,10 +84,7 @@ impl CrabSpec {
     pub fn adaptive() -> Self {
         Self {
             step_m: [Positive::new(0.18), Positive::new(0.06)],
-            threshold: ThresholdSpec::HalfMean(HalfMean {
-                share: Fraction::new(0.0),
-                ..HalfMean::default()
-            }),
+            threshold: ThresholdSpec::HalfMean(HalfMean { share: Fraction::new(0.0), ..HalfMean::default() }),
             advance: AdvanceSpec::Gated(advance::Gated::default()),
             contrast: ContrastSpec::Adaptive(steer::Adaptive::default()),
             speed: PaceSpec::Adaptive(pace::Adaptive::default()),
@@ -113,38 +110,23 @@ impl CrabSpec {
         let [along, across] = layout.travel_m;
         let [step_f, step_l] = self.step_m.map(Positive::get);
         let width = across[1] - across[0];
-        most(
-            "step_m.0",
-            step_f,
-            along[1] - along[0],
-            "travel along the stream in m",
-        )?;
+        most("step_m.0", step_f, along[1] - along[0], "travel along the stream in m")?;
         most("step_m.1", step_l, width, "travel across the stream in m")?;
         if let Some(travel_m) = self.travel_m {
             let all = along[1] - along[0];
-            most(
-                "travel_m",
-                travel_m.get(),
-                all,
-                "travel along the stream in m",
-            )?;
+            most("travel_m", travel_m.get(), all, "travel along the stream in m")?;
         }
         if self.history.over == Over::Time && matches!(self.predictor, PredictorSpec::Trend(_)) {
             return Err(RobotError::Invalid {
                 field: "tracker.Crab.predictor".into(),
-                problem:
-                    "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean"
-                        .into(),
+                problem: "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean".into(),
             });
         }
         let span = self.sweep.span_m.get();
         most("sweep.span_m", span, width, "travel across the stream in m")?;
         let [max_f, max_l] = layout.max_speed_m_s;
         let (speeds_f, speeds_l) = match &self.speed {
-            PaceSpec::Fixed(p) => (
-                vec![("forward_m_s", p.forward_m_s)],
-                vec![("left_m_s", p.left_m_s)],
-            ),
+            PaceSpec::Fixed(p) => (vec![("forward_m_s", p.forward_m_s)], vec![("left_m_s", p.left_m_s)]),
             PaceSpec::Adaptive(p) => {
                 if p.least_m_s > p.most_m_s {
                     return Err(RobotError::Invalid {
@@ -152,29 +134,16 @@ impl CrabSpec {
                         problem: format!("must not exceed most_m_s, {}", p.most_m_s.get()),
                     });
                 }
-                let across = vec![
-                    ("left_m_s", p.left_m_s),
-                    ("sweep_m_s", p.sweep_m_s),
-                    ("reacquire_m_s", p.reacquire_m_s),
-                ];
+                let across =
+                    vec![("left_m_s", p.left_m_s), ("sweep_m_s", p.sweep_m_s), ("reacquire_m_s", p.reacquire_m_s)];
                 (vec![("most_m_s", p.most_m_s)], across)
             }
         };
         for (name, v) in speeds_f {
-            most(
-                &format!("speed.{name}"),
-                v.get(),
-                max_f,
-                "speed along the stream in m/s",
-            )?;
+            most(&format!("speed.{name}"), v.get(), max_f, "speed along the stream in m/s")?;
         }
         for (name, v) in speeds_l {
-            most(
-                &format!("speed.{name}"),
-                v.get(),
-                max_l,
-                "speed across the stream in m/s",
-            )?;
+            most(&format!("speed.{name}"), v.get(), max_l, "speed across the stream in m/s")?;
         }
         if let StopSpec::Experience(p) = &self.stop {
             let n = p.points.get();
@@ -224,9 +193,7 @@ mod tests {
     fn both_defaults_fit_the_machine() {
         for spec in [CrabSpec::default(), CrabSpec::adaptive()] {
             let r = spec.rules(&layout()).expect("legal");
-            assert!(
-                (r.sweep_left_m[0] - 0.3).abs() < 1e-12 && (r.sweep_left_m[1] + 0.3).abs() < 1e-12
-            );
+            assert!((r.sweep_left_m[0] - 0.3).abs() < 1e-12 && (r.sweep_left_m[1] + 0.3).abs() < 1e-12);
         }
     }
 
@@ -236,31 +203,16 @@ mod tests {
             refused(|s| s.sweep.span_m = Positive::new(1.2)),
             "tracker.Crab.sweep.span_m: must be at most 1, the gantry's travel across the stream in m, got 1.2"
         );
-        assert!(
-            refused(|s| s.step_m[0] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.0: ")
-        );
-        assert!(
-            refused(|s| s.step_m[1] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.1: ")
-        );
-        let fast = pace::Adaptive {
-            most_m_s: Positive::new(0.2),
-            ..Default::default()
-        };
+        assert!(refused(|s| s.step_m[0] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.0: "));
+        assert!(refused(|s| s.step_m[1] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.1: "));
+        let fast = pace::Adaptive { most_m_s: Positive::new(0.2), ..Default::default() };
         assert_eq!(
             refused(|s| s.speed = PaceSpec::Adaptive(fast)),
             "tracker.Crab.speed.most_m_s: must be at most 0.15, the gantry's speed along the stream in m/s, got 0.2"
         );
         let trend = refused(|s| s.predictor = PredictorSpec::Trend(Default::default()));
-        assert!(
-            trend.starts_with("tracker.Crab.predictor: Trend predicts"),
-            "{trend}"
-        );
-        let turned = stop::Experience {
-            least_hz: Positive::new(9.0),
-            ..Default::default()
-        };
-        assert!(
-            refused(|s| s.stop = StopSpec::Experience(turned)).contains("must not exceed most_hz")
-        );
+        assert!(trend.starts_with("tracker.Crab.predictor: Trend predicts"), "{trend}");
+        let turned = stop::Experience { least_hz: Positive::new(9.0), ..Default::default() };
+        assert!(refused(|s| s.stop = StopSpec::Experience(turned)).contains("must not exceed most_hz"));
     }
 }

@@ -67,11 +67,7 @@ impl Tally {
     /// Mean magnitude, V; zero without spikes.
     #[must_use]
     pub fn mean_v(&self) -> f64 {
-        if self.count == 0 {
-            0.0
-        } else {
-            self.sum_v / self.count as f64
-        }
+        if self.count == 0 { 0.0 } else { self.sum_v / self.count as f64 }
     }
 }
 

@@ -140,11 +140,7 @@ impl DecisionUnit {
             return self.rules.contrast.pull(step);
         }
         let [left, right] = &self.gathered;
-        self.rules.contrast.pull(&StepRecord {
-            left: step.left.with(left),
-            right: step.right.with(right),
-            ..*step
-        })
+        self.rules.contrast.pull(&StepRecord { left: step.left.with(left), right: step.right.with(right), ..*step })
     }
 
     /// Speeds after a step without spikes, m/s.
@@ -262,21 +258,10 @@ impl DecisionUnit {
             return (ask, Memory::Next);
         }
         let cast = match self.cast {
-            None => Cast {
-                home_left_m: at.here_m.y,
-                side: first_side(&pull, rng),
-                second: false,
-            },
-            Some(first) if !first.second => Cast {
-                side: -first.side,
-                second: true,
-                ..first
-            },
+            None => Cast { home_left_m: at.here_m.y, side: first_side(&pull, rng), second: false },
+            Some(first) if !first.second => Cast { side: -first.side, second: true, ..first },
             Some(_) => {
-                let last = self
-                    .stop
-                    .silent()
-                    .and_then(|n| self.trail_end(at.here_m.x, n, map));
+                let last = self.stop.silent().and_then(|n| self.trail_end(at.here_m.x, n, map));
                 return last.unwrap_or_else(|| self.sweep(at));
             }
         };
@@ -299,10 +284,7 @@ impl DecisionUnit {
             return self.end(self.rules.at_end == AtEnd::Stops).0;
         }
         self.phase = TrackPhase::Step { up: true };
-        let place = Vector2::new(
-            from_m + self.rules.step_m.x,
-            here.y + side * self.rules.step_m.y,
-        );
+        let place = Vector2::new(from_m + self.rules.step_m.x, here.y + side * self.rules.step_m.y);
         let speed = self.rules.pace.speed_m_s(spikes);
         Ask::Go(GantryBehaviour::StepUp, place, speed)
     }
@@ -319,11 +301,7 @@ impl DecisionUnit {
         self.cast = None;
         let [least, greatest] = self.rules.across_m;
         let mut side = self.dodge.unwrap_or_else(|| first_side(pull, rng));
-        let room = if side > 0.0 {
-            greatest - at.here_m.y
-        } else {
-            at.here_m.y - least
-        };
+        let room = if side > 0.0 { greatest - at.here_m.y } else { at.here_m.y - least };
         if room < STILL_M {
             side = -side;
         }

@@ -30,12 +30,7 @@ impl Hand {
 
     /// The answer at rest after such a step; the head then goes there.
     fn ask(&mut self, step: StepRecord, blocked: bool) -> Ask {
-        let at = Progress {
-            rest_s: Some(5.0),
-            to_go_s: 0.0,
-            blocked,
-            here_m: self.here,
-        };
+        let at = Progress { rest_s: Some(5.0), to_go_s: 0.0, blocked, here_m: self.here };
         let (ask, _) = self
             .unit
             .next(&at, &step, &mut self.map, &mut self.rng)
@@ -48,31 +43,11 @@ impl Hand {
 
     /// The head one step up-stream of the best place, `left_m`, of a sweep.
     fn swept(mut self, left_m: f64) -> Self {
-        assert!(is(
-            self.ask(StepRecord::default(), false),
-            B::Sweep,
-            0.2,
-            0.3
-        ));
-        assert!(is(
-            self.ask(StepRecord::default(), false),
-            B::Sweep,
-            0.2,
-            -0.3
-        ));
+        assert!(is(self.ask(StepRecord::default(), false), B::Sweep, 0.2, 0.3));
+        assert!(is(self.ask(StepRecord::default(), false), B::Sweep, 0.2, -0.3));
         self.met(0.2, left_m, 1.0);
-        assert!(is(
-            self.ask(StepRecord::default(), false),
-            B::ToBest,
-            0.2,
-            left_m
-        ));
-        assert!(is(
-            self.ask(StepRecord::default(), false),
-            B::StepUp,
-            0.3,
-            left_m
-        ));
+        assert!(is(self.ask(StepRecord::default(), false), B::ToBest, 0.2, left_m));
+        assert!(is(self.ask(StepRecord::default(), false), B::StepUp, 0.3, left_m));
         self
     }
 
@@ -118,15 +93,8 @@ fn sweeps_goes_to_the_best_place_and_up() {
 #[test]
 fn the_adaptive_contrast_gathers_until_it_suffices() {
     let contrast = CrabSpec::adaptive().contrast;
-    let mut h = Hand::new(&CrabSpec {
-        contrast,
-        ..CrabSpec::default()
-    })
-    .swept(0.0);
-    let left = StepRecord {
-        right: Tally::default(),
-        ..step(true, 1.0, 0.0)
-    };
+    let mut h = Hand::new(&CrabSpec { contrast, ..CrabSpec::default() }).swept(0.0);
+    let left = StepRecord { right: Tally::default(), ..step(true, 1.0, 0.0) };
     // One spike per step, on the left only: 1, 1.41, 1.73 standard errors.
     assert!(is(h.ask(left, false), B::StepUp, 0.4, 0.0));
     assert!(is(h.ask(left, false), B::StepUp, 0.5, 0.0));
@@ -139,19 +107,10 @@ fn the_adaptive_contrast_gathers_until_it_suffices() {
 fn a_gated_step_may_be_measured_from_the_most_up_stream_spike() {
     for (from, beyond_m) in [(StepFrom::Head, 0.3), (StepFrom::Spike, 0.24)] {
         let spikes = NonZeroUsize::MIN;
-        let mut h = Hand::new(&CrabSpec {
-            advance: AdvanceSpec::Gated(Gated { spikes, from }),
-            ..CrabSpec::default()
-        })
-        .swept(0.0);
-        let met = StepRecord {
-            foremost_m: Some(0.24),
-            ..step(true, 1.0, 1.0)
-        };
-        assert!(
-            is(h.ask(met, false), B::StepUp, beyond_m + 0.1, 0.0),
-            "{from:?}"
-        );
+        let mut h = Hand::new(&CrabSpec { advance: AdvanceSpec::Gated(Gated { spikes, from }), ..CrabSpec::default() })
+            .swept(0.0);
+        let met = StepRecord { foremost_m: Some(0.24), ..step(true, 1.0, 1.0) };
+        assert!(is(h.ask(met, false), B::StepUp, beyond_m + 0.1, 0.0), "{from:?}");
     }
 }
 
@@ -212,10 +171,7 @@ fn goes_round_what_blocks_it_or_gives_up() {
 
 #[test]
 fn an_empty_sweep_at_the_end_of_the_trail_ends_the_search_there() {
-    let spec = CrabSpec {
-        stop: StopSpec::Experience(Experience::default()),
-        ..CrabSpec::default()
-    };
+    let spec = CrabSpec { stop: StopSpec::Experience(Experience::default()), ..CrabSpec::default() };
     let mut h = Hand::new(&spec).swept(0.0);
     for x in [0.52, 0.51, 0.50, 0.45] {
         h.met(x, 0.02, 1.0);

@@ -9,8 +9,7 @@
 use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
 use crate::handoff::{
-    Consulted, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, Order, Outcome,
-    Told, TrackerState,
+    Consulted, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, Order, Outcome, Told, TrackerState,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -37,11 +36,7 @@ pub struct ExternalSpec {
 
 impl Default for ExternalSpec {
     fn default() -> Self {
-        Self {
-            period_s: Positive::new(0.2),
-            deadline_s: Positive::new(1.0),
-            on_late: OnLate::Hold,
-        }
+        Self { period_s: Positive::new(0.2), deadline_s: Positive::new(1.0), on_late: OnLate::Hold }
     }
 }
 
@@ -82,10 +77,7 @@ impl GantryStrategyParams for ExternalSpec {
     }
 
     fn consulted(&self) -> Option<Consulted> {
-        Some(Consulted {
-            period_s: self.period_s.get(),
-            deadline_s: self.deadline_s.get(),
-        })
+        Some(Consulted { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
     }
 }
 
@@ -132,10 +124,7 @@ impl External {
     /// The nearest place that the axes reach.
     fn within(&self, target_m: Vector2<f64>) -> Vector2<f64> {
         let [forward, left] = self.travel_m;
-        Vector2::new(
-            target_m.x.clamp(forward[0], forward[1]),
-            target_m.y.clamp(left[0], left[1]),
-        )
+        Vector2::new(target_m.x.clamp(forward[0], forward[1]), target_m.y.clamp(left[0], left[1]))
     }
 }
 
@@ -152,19 +141,12 @@ mod tests {
             range_v: [-5.0, 5.0],
             scan_hz: 10.0,
         };
-        let spec = ExternalSpec {
-            on_late,
-            ..ExternalSpec::default()
-        };
+        let spec = ExternalSpec { on_late, ..ExternalSpec::default() };
         spec.build(&layout).expect("legal")
     }
 
     fn seen(told: Option<Told>) -> GantryObservation {
-        GantryObservation {
-            t_s: 1.0,
-            readings: GantryReadings::default(),
-            told,
-        }
+        GantryObservation { t_s: 1.0, readings: GantryReadings::default(), told }
     }
 
     fn to(forward: f64, left: f64) -> Option<Told> {
@@ -194,16 +176,10 @@ mod tests {
     #[test]
     fn it_stops_when_told_and_gives_up_without_answers_if_asked_to() {
         let mut rng = Stream::new(1, "crab0", "tracker");
-        let over = Some(Told::Answer(Box::new(Answer {
-            outcome: Some(Outcome::Completed),
-            ..Answer::default()
-        })));
+        let over = Some(Told::Answer(Box::new(Answer { outcome: Some(Outcome::Completed), ..Answer::default() })));
         let mut s = searcher(OnLate::Hold);
         assert_eq!(s.step(&seen(over), &mut rng).stopped, Some(true));
         let mut s = searcher(OnLate::Abort);
-        assert_eq!(
-            s.step(&seen(Some(Told::Nothing)), &mut rng).stopped,
-            Some(false)
-        );
+        assert_eq!(s.step(&seen(Some(Told::Nothing)), &mut rng).stopped, Some(false));
     }
 }

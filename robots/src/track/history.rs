@@ -53,11 +53,7 @@ pub struct HistorySpec {
 
 impl Default for HistorySpec {
     fn default() -> Self {
-        Self {
-            centre_weight: Positive::new(2.0),
-            since: Since::Decision,
-            over: Over::Time,
-        }
+        Self { centre_weight: Positive::new(2.0), since: Since::Decision, over: Over::Time }
     }
 }
 
@@ -99,11 +95,7 @@ impl History {
     /// Weight of a probe's spikes.
     #[must_use]
     pub fn weight(&self, probe: usize) -> f64 {
-        if probe == self.left || probe == self.right {
-            1.0
-        } else {
-            self.centre_weight
-        }
+        if probe == self.left || probe == self.right { 1.0 } else { self.centre_weight }
     }
 
     /// Takes a spike.
@@ -174,10 +166,7 @@ mod tests {
 
     #[test]
     fn the_centre_probe_weighs_more() {
-        let spec = HistorySpec {
-            over: Over::Spikes,
-            ..Default::default()
-        };
+        let spec = HistorySpec { over: Over::Spikes, ..Default::default() };
         let mut h = History::new(&spec, 0, 1);
         h.forget(1.0, Some(2.0));
         h.add(&spike(2.0, 0, 1.0));
@@ -194,11 +183,7 @@ mod tests {
     #[test]
     fn the_average_may_begin_at_rest() {
         for (since, mean) in [(Since::Decision, 2.0), (Since::Arrival, 3.0)] {
-            let spec = HistorySpec {
-                since,
-                over: Over::Spikes,
-                ..Default::default()
-            };
+            let spec = HistorySpec { since, over: Over::Spikes, ..Default::default() };
             let mut h = History::new(&spec, 0, 1);
             h.forget(0.0, None);
             h.add(&spike(0.5, 0, 1.0));

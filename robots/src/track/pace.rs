@@ -54,11 +54,7 @@ pub struct Fixed {
 
 impl Default for Fixed {
     fn default() -> Self {
-        Self {
-            forward_m_s: Positive::new(0.061),
-            left_m_s: Positive::new(0.03),
-            dwell_s: NonNegative::new(1.86),
-        }
+        Self { forward_m_s: Positive::new(0.061), left_m_s: Positive::new(0.03), dwell_s: NonNegative::new(1.86) }
     }
 }
 
@@ -132,9 +128,7 @@ impl PaceSpec {
     pub fn over(&self, rest_s: Option<f64>, to_go_s: f64, spikes: usize) -> bool {
         match self {
             Self::Fixed(p) => rest_s.is_some_and(|r| r >= p.dwell_s.get()),
-            Self::Adaptive(p) if spikes >= p.enough.get() => {
-                rest_s.is_some() || to_go_s <= p.lead_s.get()
-            }
+            Self::Adaptive(p) if spikes >= p.enough.get() => rest_s.is_some() || to_go_s <= p.lead_s.get(),
             Self::Adaptive(p) => rest_s.is_some_and(|r| r >= p.dwell_s.get()),
         }
     }

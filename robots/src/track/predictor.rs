@@ -43,9 +43,7 @@ pub struct Mean {
 
 impl Default for Mean {
     fn default() -> Self {
-        Self {
-            memory_s: Positive::new(5.0),
-        }
+        Self { memory_s: Positive::new(5.0) }
     }
 }
 
@@ -61,10 +59,7 @@ pub struct Trend {
 
 impl Default for Trend {
     fn default() -> Self {
-        Self {
-            memory_s: Positive::new(5.0),
-            ahead_s: NonNegative::new(1.75),
-        }
+        Self { memory_s: Positive::new(5.0), ahead_s: NonNegative::new(1.75) }
     }
 }
 
@@ -80,17 +75,12 @@ impl Predictor {
     /// An empty memory, which predicts what the history averages.
     #[must_use]
     pub fn new(spec: &PredictorSpec, over: Over) -> Self {
-        Self {
-            spec: spec.clone(),
-            over,
-            memory: VecDeque::new(),
-        }
+        Self { spec: spec.clone(), over, memory: VecDeque::new() }
     }
 
     /// Remembers a spike of the given weight.
     pub fn add(&mut self, spike: &Spike, weight: f64) {
-        self.memory
-            .push_back((spike.t_s, spike.magnitude_v, weight));
+        self.memory.push_back((spike.t_s, spike.magnitude_v, weight));
     }
 
     /// The magnitude to expect in the step that begins at `t_s`, V; `None` without memory.
@@ -143,11 +133,7 @@ mod tests {
         p.add(&spike(4.0, 0, 1.0), 1.0);
         p.add(&spike(5.0, 2, 4.0), 2.0);
         assert_eq!(p.predict(5.0), Some(18.0 / 4.0));
-        assert_eq!(
-            p.predict(6.0),
-            Some(3.0),
-            "the first is forgotten after 5 s"
-        );
+        assert_eq!(p.predict(6.0), Some(3.0), "the first is forgotten after 5 s");
         assert_eq!(p.predict(60.0), None, "all are");
     }
 

@@ -42,15 +42,7 @@ impl RateWindow {
     /// An empty window of this length.
     #[must_use]
     pub fn new(window_s: f64, count: Count, drift_m_s: Option<f64>) -> Self {
-        Self {
-            window_s,
-            count,
-            drift_m_s,
-            probes: 1,
-            spikes: VecDeque::new(),
-            scans: VecDeque::new(),
-            latest_s: None,
-        }
+        Self { window_s, count, drift_m_s, probes: 1, spikes: VecDeque::new(), scans: VecDeque::new(), latest_s: None }
     }
 
     /// Takes a scan.
@@ -58,9 +50,7 @@ impl RateWindow {
         self.probes = sample.count;
         let t = sample.t_s;
         if let Some(before) = self.latest_s {
-            let times = self
-                .drift_m_s
-                .map_or(1.0, |u| 1.0 + sample.speed_m_s.x.max(0.0) / u);
+            let times = self.drift_m_s.map_or(1.0, |u| 1.0 + sample.speed_m_s.x.max(0.0) / u);
             self.scans.push_back((t, (t - before) * times));
         }
         self.latest_s = Some(t);

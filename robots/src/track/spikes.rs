@@ -54,20 +54,8 @@ mod tests {
     #[test]
     fn tops_are_larger_than_both_neighbours() {
         assert_eq!(tops(&[0.0, 1.0, 0.5, 0.7, 0.6, 2.0, 0.0]), [1, 3, 5]);
-        assert_eq!(
-            tops(&[0.0, 1.0, 1.0, 0.0]),
-            Vec::<usize>::new(),
-            "a plateau"
-        );
-        assert_eq!(
-            tops(&[3.0, 2.0, 1.0]),
-            Vec::<usize>::new(),
-            "the first sample"
-        );
-        assert_eq!(
-            tops(&[1.0, 2.0, 3.0]),
-            Vec::<usize>::new(),
-            "the last one is not known yet"
-        );
+        assert_eq!(tops(&[0.0, 1.0, 1.0, 0.0]), Vec::<usize>::new(), "a plateau");
+        assert_eq!(tops(&[3.0, 2.0, 1.0]), Vec::<usize>::new(), "the first sample");
+        assert_eq!(tops(&[1.0, 2.0, 3.0]), Vec::<usize>::new(), "the last one is not known yet");
     }
 }

@@ -57,10 +57,7 @@ pub enum Peak {
 
 impl Default for Fixed {
     fn default() -> Self {
-        Self {
-            threshold: Fraction::new(0.3),
-            of: Peak::MeanPeak,
-        }
+        Self { threshold: Fraction::new(0.3), of: Peak::MeanPeak }
     }
 }
 
@@ -75,9 +72,7 @@ pub struct Adaptive {
 
 impl Default for Adaptive {
     fn default() -> Self {
-        Self {
-            errors: Positive::new(1.5),
-        }
+        Self { errors: Positive::new(1.5) }
     }
 }
 
@@ -118,14 +113,7 @@ impl ContrastSpec {
                 (left - right).abs() >= p.errors.get() * error
             }
         };
-        Pull {
-            contrast,
-            side: if enough && contrast != 0.0 {
-                contrast.signum()
-            } else {
-                0.0
-            },
-        }
+        Pull { contrast, side: if enough && contrast != 0.0 { contrast.signum() } else { 0.0 } }
     }
 }
 
@@ -148,35 +136,17 @@ mod tests {
         assert!((p.contrast - 0.35).abs() < 1e-12);
         assert_eq!(p.side, 1.0);
         assert_eq!(rule.pull(&step(&[0.6], &[1.0])).side, -1.0);
-        assert_eq!(
-            rule.pull(&step(&[], &[0.1])),
-            Pull {
-                contrast: -1.0,
-                side: -1.0
-            }
-        );
+        assert_eq!(rule.pull(&step(&[], &[0.1])), Pull { contrast: -1.0, side: -1.0 });
         assert_eq!(rule.pull(&step(&[], &[])), Pull::default());
-        let greatest = ContrastSpec::Fixed(Fixed {
-            of: Peak::GreatestPeak,
-            ..Default::default()
-        });
+        let greatest = ContrastSpec::Fixed(Fixed { of: Peak::GreatestPeak, ..Default::default() });
         assert_eq!(greatest.pull(&step(&[2.0, 2.0], &[1.0, 1.6])).side, 0.0);
-        let always = ContrastSpec::Fixed(Fixed {
-            threshold: Fraction::new(0.0),
-            ..Default::default()
-        });
-        assert_eq!(
-            always.pull(&step(&[1.0], &[1.0])).side,
-            0.0,
-            "no side is greater"
-        );
+        let always = ContrastSpec::Fixed(Fixed { threshold: Fraction::new(0.0), ..Default::default() });
+        assert_eq!(always.pull(&step(&[1.0], &[1.0])).side, 0.0, "no side is greater");
     }
 
     #[test]
     fn the_adaptive_threshold_grows_with_the_noise_of_the_spikes() {
-        let rule = ContrastSpec::Adaptive(Adaptive {
-            errors: Positive::new(1.5),
-        });
+        let rule = ContrastSpec::Adaptive(Adaptive { errors: Positive::new(1.5) });
         // One spike against none: one standard error. Four: two.
         assert_eq!(rule.pull(&step(&[1.0], &[])).side, 0.0);
         assert_eq!(rule.pull(&step(&[1.0; 4], &[])).side, 1.0);

@@ -59,11 +59,7 @@ pub struct SpikeRate {
 
 impl Default for SpikeRate {
     fn default() -> Self {
-        Self {
-            hz: Positive::new(2.0),
-            window_s: Positive::new(3.5),
-            count: Count::Greatest,
-        }
+        Self { hz: Positive::new(2.0), window_s: Positive::new(3.5), count: Count::Greatest }
     }
 }
 
@@ -131,18 +127,9 @@ impl StopRule {
     pub fn new(spec: &StopSpec) -> Self {
         let window = match spec {
             StopSpec::SpikeRate(p) => RateWindow::new(p.window_s.get(), p.count, None),
-            StopSpec::Experience(p) => {
-                RateWindow::new(p.window_s.get(), p.count, Some(p.drift_m_s.get()))
-            }
+            StopSpec::Experience(p) => RateWindow::new(p.window_s.get(), p.count, Some(p.drift_m_s.get())),
         };
-        Self {
-            spec: spec.clone(),
-            window,
-            reference: (0, 0.0),
-            met: (0, 0.0),
-            latest_s: None,
-            silent_s: 0.0,
-        }
+        Self { spec: spec.clone(), window, reference: (0, 0.0), met: (0, 0.0), latest_s: None, silent_s: 0.0 }
     }
 
     /// Takes a scan.
@@ -243,10 +230,7 @@ mod tests {
     #[test]
     fn two_spikes_a_second() {
         let spec = StopSpec::default();
-        assert_eq!(
-            stops(&spec, &[0.5, 1.6, 2.4, 0.2]),
-            [false, false, true, false]
-        );
+        assert_eq!(stops(&spec, &[0.5, 1.6, 2.4, 0.2]), [false, false, true, false]);
         assert_eq!(StopRule::new(&spec).trail_end(), None);
     }
 
@@ -255,22 +239,10 @@ mod tests {
         let spec = StopSpec::Experience(Experience::default());
         // 2.5 times 1 Hz; in a richer plume 2.5 times 1.4 Hz; in a poor one the least threshold; never above the
         // greatest.
-        assert_eq!(
-            stops(&spec, &[1.0, 1.0, 1.0, 2.0, 3.0]),
-            [false, false, false, false, true]
-        );
-        assert_eq!(
-            stops(&spec, &[1.4, 1.4, 1.4, 3.0, 3.9]),
-            [false, false, false, false, true]
-        );
-        assert_eq!(
-            stops(&spec, &[0.1, 0.1, 0.1, 0.7, 1.4]),
-            [false, false, false, false, true]
-        );
-        assert_eq!(
-            stops(&spec, &[3.0, 3.0, 3.0, 3.5, 4.6]),
-            [false, false, false, false, true]
-        );
+        assert_eq!(stops(&spec, &[1.0, 1.0, 1.0, 2.0, 3.0]), [false, false, false, false, true]);
+        assert_eq!(stops(&spec, &[1.4, 1.4, 1.4, 3.0, 3.9]), [false, false, false, false, true]);
+        assert_eq!(stops(&spec, &[0.1, 0.1, 0.1, 0.7, 1.4]), [false, false, false, false, true]);
+        assert_eq!(stops(&spec, &[3.0, 3.0, 3.0, 3.5, 4.6]), [false, false, false, false, true]);
         assert_eq!(StopRule::new(&spec).trail_end(), Some(2));
     }
 

@@ -3,8 +3,8 @@
 use super::data::{Sample, Spike};
 use super::spec::GantryStrategy;
 use crate::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings,
-    JointReadings, MAX_PROBES, ProbeMount, ProbeScan,
+    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES,
+    ProbeMount, ProbeScan,
 };
 use nalgebra::{Vector2, Vector3};
 use world::math;
@@ -12,18 +12,12 @@ use world::seeds::Stream;
 
 /// The paper's machine and head: heights above the bed.
 pub(super) fn layout() -> GantryLayout {
-    let probe = |name: &str, left: f64, up: f64| ProbeMount {
-        name: name.into(),
-        offset_m: Vector3::new(0.0, left, up),
-    };
+    let probe =
+        |name: &str, left: f64, up: f64| ProbeMount { name: name.into(), offset_m: Vector3::new(0.0, left, up) };
     GantryLayout {
         travel_m: [[0.0, 2.0], [-0.5, 0.5]],
         max_speed_m_s: [0.15, 0.15],
-        probes: vec![
-            probe("left", 0.0625, 0.075),
-            probe("right", -0.0625, 0.075),
-            probe("centre", 0.0, 0.125),
-        ],
+        probes: vec![probe("left", 0.0625, 0.075), probe("right", -0.0625, 0.075), probe("centre", 0.0, 0.125)],
         range_v: [-5.0, 5.0],
         scan_hz: 20.0,
     }
@@ -33,34 +27,19 @@ pub(super) fn layout() -> GantryLayout {
 pub(super) fn scan(t_s: f64, volts: [f64; 3]) -> ProbeScan {
     let mut all = [f64::NAN; MAX_PROBES];
     all[..3].copy_from_slice(&volts);
-    ProbeScan {
-        t_s,
-        volts: all,
-        count: 3,
-    }
+    ProbeScan { t_s, volts: all, count: 3 }
 }
 
 /// A sample of the three probes, V above clean water, of a head at rest at the origin.
 pub(super) fn sample(t_s: f64, above: [f64; 3]) -> Sample {
     let mut above_v = [0.0; MAX_PROBES];
     above_v[..3].copy_from_slice(&above);
-    Sample {
-        t_s,
-        head_m: Vector2::zeros(),
-        speed_m_s: Vector2::zeros(),
-        above_v,
-        count: 3,
-    }
+    Sample { t_s, head_m: Vector2::zeros(), speed_m_s: Vector2::zeros(), above_v, count: 3 }
 }
 
 /// A spike at the origin.
 pub(super) fn spike(t_s: f64, probe: usize, magnitude_v: f64) -> Spike {
-    Spike {
-        t_s,
-        probe,
-        magnitude_v,
-        place_m: Vector2::zeros(),
-    }
+    Spike { t_s, probe, magnitude_v, place_m: Vector2::zeros() }
 }
 
 /// Length of a tick, s.
@@ -89,18 +68,11 @@ impl Rig {
         Self::seeded(strategy, start_m, 1)
     }
 
-    pub(super) fn seeded(
-        strategy: Box<dyn GantryStrategy>,
-        start_m: Vector2<f64>,
-        seed: u64,
-    ) -> Self {
+    pub(super) fn seeded(strategy: Box<dyn GantryStrategy>, start_m: Vector2<f64>, seed: u64) -> Self {
         Self {
             strategy,
             layout: layout(),
-            joints: JointReadings {
-                position_m: start_m,
-                ..Default::default()
-            },
+            joints: JointReadings { position_m: start_m, ..Default::default() },
             decision: None,
             tick: 0,
             stuck_s: 0.0,
@@ -148,20 +120,10 @@ impl Rig {
                 let clean = above_v(t_s, head + p.offset_m) + 0.004 * self.noise.normal();
                 *v = (clean.clamp(0.0, 10.0) * 409.5).round() / 409.5 - 5.0;
             }
-            ProbeScan {
-                t_s,
-                volts,
-                count: self.layout.probes.len(),
-            }
+            ProbeScan { t_s, volts, count: self.layout.probes.len() }
         });
-        let seen = GantryObservation {
-            t_s,
-            readings: GantryReadings {
-                scan: scanned,
-                joints: self.joints,
-            },
-            told: None,
-        };
+        let seen =
+            GantryObservation { t_s, readings: GantryReadings { scan: scanned, joints: self.joints }, told: None };
         let d = self.strategy.step(&seen, &mut self.rng);
         let travel = self.layout.travel_m;
         for (v, [least, greatest]) in d.target_m.iter().zip(travel) {
@@ -169,19 +131,10 @@ impl Rig {
         }
         assert!(d.speed_m_s.iter().all(|v| *v > 0.0 && *v <= 0.15));
         let w = &d.working;
-        let numbers = [
-            w.spike_hz,
-            w.magnitude_v,
-            w.contrast,
-            w.predicted_v.unwrap_or(0.0),
-        ];
+        let numbers = [w.spike_hz, w.magnitude_v, w.contrast, w.predicted_v.unwrap_or(0.0)];
         assert!(numbers.iter().chain(&w.threshold_v).all(|v| v.is_finite()));
         assert!(w.contrast.abs() <= 1.0 && w.magnitude_v >= 0.0);
-        if self
-            .decision
-            .as_ref()
-            .is_none_or(|before| before.id != d.id)
-        {
+        if self.decision.as_ref().is_none_or(|before| before.id != d.id) {
             let at = self.joints.position_m;
             self.log.push((t_s, d.behaviour, d.target_m, at));
             self.stuck_s = 0.0;
@@ -240,10 +193,7 @@ impl Puffs {
             shared = shared * keep + normal() * fresh;
             (shared + normal()) * 0.5f64.sqrt()
         });
-        Self {
-            wander: wander.collect(),
-            first_s,
-        }
+        Self { wander: wander.collect(), first_s }
     }
 
     /// A probe's signal at a place, V above clean water: 10 V for a tenth of the source's concentration.
@@ -262,11 +212,7 @@ impl Puffs {
             let spread = |k: f64| (2.0 * k * age).sqrt();
             let w = self.wander[i];
             let mut at = SOURCE_M + Vector3::new(-DRIFT_M_S * age, 0.0, 0.0);
-            at += Vector3::new(
-                spread(1e-5) * w.x,
-                spread(8.3e-5) * w.y,
-                spread(3.7e-5) * w.z,
-            );
+            at += Vector3::new(spread(1e-5) * w.x, spread(8.3e-5) * w.y, spread(3.7e-5) * w.z);
             at.z = at.z.abs();
             let s2 = 4e-6 + 2.0 * 3e-6 * age;
             let r2 = (p - at).norm_squared();

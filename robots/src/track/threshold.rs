@@ -83,9 +83,7 @@ pub struct Level {
 
 impl Default for Level {
     fn default() -> Self {
-        Self {
-            level_v: Finite::new(-4.98),
-        }
+        Self { level_v: Finite::new(-4.98) }
     }
 }
 
@@ -109,11 +107,7 @@ impl ThresholdAnalyser {
     /// The unit for probes whose range begins at `bottom_v`.
     #[must_use]
     pub fn new(spec: &ThresholdSpec, bottom_v: f64) -> Self {
-        Self {
-            spec: spec.clone(),
-            bottom_v,
-            running: [Running::default(); MAX_PROBES],
-        }
+        Self { spec: spec.clone(), bottom_v, running: [Running::default(); MAX_PROBES] }
     }
 
     /// The present threshold of a probe above the bottom of its range, V.
@@ -124,11 +118,7 @@ impl ThresholdAnalyser {
             ThresholdSpec::HalfMean(p) => {
                 let r = &self.running[if p.each_probe { probe } else { 0 }];
                 let floor = p.floor_v.get() - self.bottom_v;
-                if r.weight > 0.0 {
-                    floor.max(p.share.get() * r.sum_v / r.weight)
-                } else {
-                    floor
-                }
+                if r.weight > 0.0 { floor.max(p.share.get() * r.sum_v / r.weight) } else { floor }
             }
         }
     }
@@ -144,11 +134,7 @@ impl ThresholdAnalyser {
             if enters {
                 let r = &mut self.running[if p.each_probe { top.probe } else { 0 }];
                 let fade = math::exp(-(top.t_s - r.t_s).max(0.0) / p.memory_s.get());
-                *r = Running {
-                    t_s: top.t_s,
-                    weight: r.weight * fade + 1.0,
-                    sum_v: r.sum_v * fade + top.magnitude_v,
-                };
+                *r = Running { t_s: top.t_s, weight: r.weight * fade + 1.0, sum_v: r.sum_v * fade + top.magnitude_v };
             }
         }
         accepted
@@ -170,10 +156,7 @@ mod tests {
     fn the_floor_first_then_half_of_the_average() {
         let mut a = with(|_| {});
         assert!((a.above_v(0) - 0.02).abs() < 1e-12);
-        assert!(
-            !a.accepts(&spike(0.0, 0, 0.0199)),
-            "below the floor is noise"
-        );
+        assert!(!a.accepts(&spike(0.0, 0, 0.0199)), "below the floor is noise");
         assert!(a.accepts(&spike(0.0, 0, 1.0)));
         assert!((a.above_v(0) - 0.5).abs() < 1e-12);
         assert!(!a.accepts(&spike(0.0, 0, 0.4)));

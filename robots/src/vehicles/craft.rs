@@ -8,8 +8,7 @@ use super::spec::VehicleSpec;
 use super::vehicle::Vehicle;
 use crate::error::RobotError;
 use crate::handoff::{
-    Actuation, ActuatorCommand, Capabilities, Control, NamedDrive, RateCommand, RateLimits,
-    TurnLimit,
+    Actuation, ActuatorCommand, Capabilities, Control, NamedDrive, RateCommand, RateLimits, TurnLimit,
 };
 use nalgebra::Vector3;
 use world::fields::Flow;
@@ -37,9 +36,7 @@ impl Craft {
     pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
         Ok(match spec {
             VehicleSpec::Remus100(remus) => Self::Finned(Box::new(Vehicle::load(remus, files)?)),
-            VehicleSpec::Kinematic(spec) => {
-                Self::Kinematic(Box::new(Kinematic::load(spec, files)?))
-            }
+            VehicleSpec::Kinematic(spec) => Self::Kinematic(Box::new(Kinematic::load(spec, files)?)),
             VehicleSpec::Shipped(name) => Self::Described(Box::new(shipped(name, files)?)),
             VehicleSpec::File(folder) => Self::Described(Box::new(of_folder(folder, files)?)),
         })
@@ -77,11 +74,7 @@ impl Craft {
             holds_depth: true,
         };
         match self {
-            Self::Finned(vehicle) => swims(
-                LEAST_FIN_M_S,
-                vehicle.top_speed_m_s(f64::MAX),
-                turn_radius_m,
-            ),
+            Self::Finned(vehicle) => swims(LEAST_FIN_M_S, vehicle.top_speed_m_s(f64::MAX), turn_radius_m),
             Self::Kinematic(vehicle) => {
                 let limits = vehicle.limits();
                 let radius = match limits.turn {
@@ -178,14 +171,7 @@ impl Craft {
     ///
     /// # Panics
     /// If the set-points are those of a vehicle of another kind.
-    pub fn step(
-        &mut self,
-        truth: &Truth,
-        water: &dyn Flow,
-        t_s: f64,
-        set: &Actuation,
-        dt_s: f64,
-    ) -> Truth {
+    pub fn step(&mut self, truth: &Truth, water: &dyn Flow, t_s: f64, set: &Actuation, dt_s: f64) -> Truth {
         match (self, set) {
             (Self::Finned(vehicle), Actuation::Fins(set)) => {
                 let sample = water.sample(&truth.pose.p_WB, t_s);

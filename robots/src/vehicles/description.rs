@@ -57,20 +57,14 @@ impl Mount {
     /// The pose with the joint slid to a position, m.
     #[must_use]
     pub fn slid(&self, position_m: f64) -> Pose {
-        Pose {
-            p_WB: self.pose.point(self.axis * position_m),
-            ..self.pose
-        }
+        Pose { p_WB: self.pose.point(self.axis * position_m), ..self.pose }
     }
 
     /// The pose with the joint turned by an angle, rad.
     #[must_use]
     pub fn turned(&self, angle_rad: f64) -> Pose {
         let axis = Unit::new_normalize(self.axis);
-        Pose {
-            R_WB: self.pose.R_WB * UnitQuaternion::from_axis_angle(&axis, angle_rad),
-            ..self.pose
-        }
+        Pose { R_WB: self.pose.R_WB * UnitQuaternion::from_axis_angle(&axis, angle_rad), ..self.pose }
     }
 }
 
@@ -84,9 +78,7 @@ impl Description {
             Self::of(&UrdfText::open(urdf.as_deref(), files, REMUS100)?, moves)
         };
         let in_folder = |folder: &str, comes_with: bool| {
-            urdf_of(folder, comes_with, files, |text, file| {
-                Self::of(text, &of_drives(&file.drives))
-            })
+            urdf_of(folder, comes_with, files, |text, file| Self::of(text, &of_drives(&file.drives)))
         };
         match spec {
             VehicleSpec::Remus100(remus) => named(&remus.urdf, &of_fins()),
@@ -145,11 +137,7 @@ impl Description {
                     joint.axis = motion.axis;
                 }
                 joint.kind = motion.kind;
-                moved.push(Moved {
-                    joint: joint.joint.clone(),
-                    actuator: motion.actuator.clone(),
-                    unit: motion.unit,
-                });
+                moved.push(Moved { joint: joint.joint.clone(), actuator: motion.actuator.clone(), unit: motion.unit });
             }
         }
         Ok(Self {
@@ -166,10 +154,7 @@ impl Description {
 fn simplify(geometry: &mut Geometry, text: &UrdfText) {
     match geometry {
         Geometry::Capsule { radius, length } => {
-            *geometry = Geometry::Cylinder {
-                radius: *radius,
-                length: *length + 2.0 * *radius,
-            };
+            *geometry = Geometry::Cylinder { radius: *radius, length: *length + 2.0 * *radius };
         }
         Geometry::Mesh { filename, .. } => *filename = text.mesh_url(filename),
         _ => {}
@@ -178,12 +163,7 @@ fn simplify(geometry: &mut Geometry, text: &UrdfText) {
 
 /// A collision shape to look at.
 fn seen(collision: &Collision) -> Visual {
-    Visual {
-        name: None,
-        origin: collision.origin.clone(),
-        geometry: collision.geometry.clone(),
-        material: None,
-    }
+    Visual { name: None, origin: collision.origin.clone(), geometry: collision.geometry.clone(), material: None }
 }
 
 #[cfg(test)]

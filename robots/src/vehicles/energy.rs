@@ -28,10 +28,7 @@ pub struct EnergySpec {
 /// Both are ours: about what a vehicle of the REMUS's size carries and takes.
 impl Default for EnergySpec {
     fn default() -> Self {
-        Self {
-            battery_wh: Positive::new(1000.0),
-            hotel_w: NonNegative::new(30.0),
-        }
+        Self { battery_wh: Positive::new(1000.0), hotel_w: NonNegative::new(30.0) }
     }
 }
 
@@ -47,10 +44,7 @@ impl Battery {
     /// A full one.
     #[must_use]
     pub fn new(spec: &EnergySpec) -> Self {
-        Self {
-            spec: spec.clone(),
-            used_wh: [0.0; 2],
-        }
+        Self { spec: spec.clone(), used_wh: [0.0; 2] }
     }
 
     /// The drives take a power, W, for a time, s.
@@ -86,10 +80,8 @@ mod tests {
 
     #[test]
     fn it_gives_what_it_has_and_no_more() {
-        let mut battery = Battery::new(&EnergySpec {
-            battery_wh: Positive::new(10.0),
-            hotel_w: NonNegative::new(20.0),
-        });
+        let mut battery =
+            Battery::new(&EnergySpec { battery_wh: Positive::new(10.0), hotel_w: NonNegative::new(20.0) });
         battery.use_w(80.0, 180.0);
         assert_eq!(battery.used_wh(), [4.0, 1.0]);
         assert!(!battery.is_empty());

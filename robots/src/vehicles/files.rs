@@ -77,16 +77,11 @@ mod tests {
 
     #[test]
     fn files_in_memory_are_found_by_name_and_within_their_length() {
-        let files = InMemory::default()
-            .with("a.urdf", b"text")
-            .with("b", b"\xff");
+        let files = InMemory::default().with("a.urdf", b"text").with("b", b"\xff");
         let a = Path::new("a.urdf");
         assert_eq!(files.text(a, 4), Ok("text".into()));
         assert_eq!(files.text(a, 3), Err("it is longer than 3 bytes".into()));
-        assert_eq!(
-            files.bytes(Path::new("c"), 9),
-            Err("there is no such file".into())
-        );
+        assert_eq!(files.bytes(Path::new("c"), 9), Err("there is no such file".into()));
         let error = files.text(Path::new("b"), 9).unwrap_err();
         assert!(error.starts_with("it is not UTF-8 text: "), "{error}");
     }

@@ -55,11 +55,7 @@ impl Kinematic {
             let problem = format!("link \"{body}\": izz must be > 0 kg m2, got {izz}");
             return Err(text.fault(problem));
         }
-        Ok(Self {
-            shell,
-            moves: spec.moves,
-            limits: spec.limits(),
-        })
+        Ok(Self { shell, moves: spec.moves, limits: spec.limits() })
     }
 
     /// What it can do.
@@ -90,14 +86,7 @@ impl Kinematic {
             truth,
             shapes: self.shell.shapes.clone(),
             p_BG: Vector3::zeros(),
-            mass: Matrix6::from_diagonal(&Vector6::new(
-                m,
-                m,
-                m,
-                STIFF_KG_M2,
-                STIFF_KG_M2,
-                about_vertical,
-            )),
+            mass: Matrix6::from_diagonal(&Vector6::new(m, m, m, STIFF_KG_M2, STIFF_KG_M2, about_vertical)),
             without_momentum: true,
         }
     }
@@ -105,13 +94,7 @@ impl Kinematic {
     /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`. `water_m_s` is the water's velocity
     /// over ground at its origin (ENU); it counts only for a vehicle that moves through the water.
     #[must_use]
-    pub fn step(
-        &self,
-        truth: &Truth,
-        water_m_s: &Vector3<f64>,
-        asked: &RateCommand,
-        dt_s: f64,
-    ) -> Truth {
+    pub fn step(&self, truth: &Truth, water_m_s: &Vector3<f64>, asked: &RateCommand, dt_s: f64) -> Truth {
         let rates = self.limits.held(asked);
         let drift = match self.moves {
             Moves::ThroughWater => Vector3::new(water_m_s.x, water_m_s.y, 0.0),
@@ -128,11 +111,7 @@ impl Kinematic {
         let pose = Pose::level(p_WB, heading);
         let ahead = heading.unit() * rates.speed_m_s;
         let v_W = drift + Vector3::new(ahead.x, ahead.y, (p_WB.z - start.z) / dt_s);
-        Truth {
-            pose,
-            v_WB_B: pose.R_WB.inverse() * v_W,
-            w_WB_B: Vector3::new(0.0, 0.0, -rates.turn_rad_s),
-        }
+        Truth { pose, v_WB_B: pose.R_WB.inverse() * v_W, w_WB_B: Vector3::new(0.0, 0.0, -rates.turn_rad_s) }
     }
 }
 

@@ -38,9 +38,7 @@ impl Default for KinematicSpec {
         Self {
             moves: Moves::ThroughWater,
             max_speed_m_s: Positive::new(2.0),
-            turn: TurnSpec::Rate(RateSpec {
-                deg_s: Positive::new(10.0),
-            }),
+            turn: TurnSpec::Rate(RateSpec { deg_s: Positive::new(10.0) }),
             climb_m_s: Positive::new(0.5),
             lag_s: NonNegative::new(0.0),
             urdf: None,

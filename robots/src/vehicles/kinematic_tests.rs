@@ -17,11 +17,7 @@ const DEG: f64 = std::f64::consts::PI / 180.0;
 
 fn vehicle(moves: Moves, turn: Option<TurnSpec>) -> Kinematic {
     let default = KinematicSpec::default();
-    let spec = KinematicSpec {
-        moves,
-        turn: turn.unwrap_or(default.turn.clone()),
-        ..default
-    };
+    let spec = KinematicSpec { moves, turn: turn.unwrap_or(default.turn.clone()), ..default };
     Kinematic::load(&spec, &InMemory::default()).expect("built in")
 }
 
@@ -31,11 +27,7 @@ fn start(heading_deg: f64) -> Truth {
 }
 
 fn rates(turn_deg_s: f64, climb_m_s: f64, speed_m_s: f64) -> RateCommand {
-    RateCommand {
-        turn_rad_s: turn_deg_s * DEG,
-        climb_m_s,
-        speed_m_s,
-    }
+    RateCommand { turn_rad_s: turn_deg_s * DEG, climb_m_s, speed_m_s }
 }
 
 /// A plate of this thickness across the way east, its middle at x = 0.
@@ -82,9 +74,7 @@ fn a_steady_turn_is_a_circle_at_any_step() {
 /// More than it can do is cut to its limits: 5 m of radius at 1 m/s, however fast it is asked to turn.
 #[test]
 fn no_command_makes_it_turn_faster_or_tighter() {
-    let turn = TurnSpec::Radius(RadiusSpec {
-        radius_m: Positive::new(5.0),
-    });
+    let turn = TurnSpec::Radius(RadiusSpec { radius_m: Positive::new(5.0) });
     let dubins = vehicle(Moves::ThroughWater, Some(turn));
     let mut t = start(0.0);
     let centre = t.pose.p_WB.xy() + Vector2::new(-5.0, 0.0);
@@ -142,24 +132,11 @@ fn it_stays_under_the_surface() {
 /// along where it comes aslant, and stays level.
 #[test]
 fn no_wall_lets_it_through() {
-    for (dt_s, thick_m) in [
-        (0.001, 0.002),
-        (0.02, 0.01),
-        (0.1, 0.002),
-        (0.1, 1.0),
-        (1.0, 0.002),
-        (1.0, 1.0),
-    ] {
-        for (heading_deg, turn_deg_s, climb_m_s) in [
-            (90.0, 0.0, 0.0),
-            (60.0, 0.0, 0.0),
-            (100.0, 10.0, 0.0),
-            (45.0, -10.0, -0.5),
-        ] {
-            let spec = KinematicSpec {
-                max_speed_m_s: Positive::new(15.0),
-                ..KinematicSpec::default()
-            };
+    for (dt_s, thick_m) in [(0.001, 0.002), (0.02, 0.01), (0.1, 0.002), (0.1, 1.0), (1.0, 0.002), (1.0, 1.0)] {
+        for (heading_deg, turn_deg_s, climb_m_s) in
+            [(90.0, 0.0, 0.0), (60.0, 0.0, 0.0), (100.0, 10.0, 0.0), (45.0, -10.0, -0.5)]
+        {
+            let spec = KinematicSpec { max_speed_m_s: Positive::new(15.0), ..KinematicSpec::default() };
             let car = Kinematic::load(&spec, &InMemory::default()).expect("built in");
             let mut physics = Physics::new(dt_s);
             physics.add_obstacle(&plate(thick_m));
@@ -175,10 +152,7 @@ fn no_wall_lets_it_through() {
                 t = physics.truth(id);
                 touched += u32::from(physics.contacts(id).touching);
                 let nose = t.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
-                assert!(
-                    nose.max(t.pose.p_WB.x) < 0.02,
-                    "{dt_s} {heading_deg}: {nose}"
-                );
+                assert!(nose.max(t.pose.p_WB.x) < 0.02, "{dt_s} {heading_deg}: {nose}");
                 let (roll, pitch) = t.pose.roll_pitch();
                 assert!(roll.abs() < 1e-6 && pitch.abs() < 1e-6);
             }
@@ -280,10 +254,7 @@ fn a_hull_of_its_own_needs_no_fins_but_a_moment_of_inertia() {
              <collision><geometry><sphere radius=\"0.2\"/></geometry></collision></link></robot>"
         )
     };
-    let spec = KinematicSpec {
-        urdf: Some("ball.urdf".into()),
-        ..KinematicSpec::default()
-    };
+    let spec = KinematicSpec { urdf: Some("ball.urdf".into()), ..KinematicSpec::default() };
     let load = |izz| {
         let files = InMemory::default().with("ball.urdf", hull(izz).as_bytes());
         Kinematic::load(&spec, &files)

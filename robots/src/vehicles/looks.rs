@@ -139,14 +139,7 @@ pub(super) fn of_drives(drives: &[DriveSpec]) -> Vec<Motion> {
             DriveSpec::MovingMass(m) => (&m.link, "m", Prismatic, Vector3::x()),
             DriveSpec::BuoyancyEngine(_) => return None,
         };
-        Some(Motion {
-            link: link.clone(),
-            actuator: format!("drive_{}", k + 1),
-            unit,
-            kind,
-            axis,
-            by_joint: true,
-        })
+        Some(Motion { link: link.clone(), actuator: format!("drive_{}", k + 1), unit, kind, axis, by_joint: true })
     };
     drives.iter().enumerate().filter_map(motion).collect()
 }
@@ -161,22 +154,14 @@ pub(super) fn looks(robot: &Robot, link: &Link, urdf: &UrdfText) -> Vec<Look> {
         other => shape(other, urdf).ok().map(Form::Solid),
     };
     let seen = link.visual.iter().filter_map(|visual| {
-        Some(Look {
-            form: form(&visual.geometry)?,
-            pose: pose_of(&visual.origin),
-            colour: colour(robot, visual),
-        })
+        Some(Look { form: form(&visual.geometry)?, pose: pose_of(&visual.origin), colour: colour(robot, visual) })
     });
     let seen: Vec<Look> = seen.collect();
     if !seen.is_empty() {
         return seen;
     }
     let touched = link.collision.iter().filter_map(|collision| {
-        Some(Look {
-            form: form(&collision.geometry)?,
-            pose: pose_of(&collision.origin),
-            colour: None,
-        })
+        Some(Look { form: form(&collision.geometry)?, pose: pose_of(&collision.origin), colour: None })
     });
     touched.collect()
 }

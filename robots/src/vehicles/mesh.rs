@@ -30,9 +30,5 @@ pub(super) fn triangles(name: &Path, files: &dyn Files) -> Result<Vec<[Vector3<f
 }
 
 fn at((place, problem): Wrong) -> String {
-    if place.is_empty() {
-        problem
-    } else {
-        format!("at {}: {problem}", place.trim_start_matches([':', ' ']))
-    }
+    if place.is_empty() { problem } else { format!("at {}: {problem}", place.trim_start_matches([':', ' '])) }
 }

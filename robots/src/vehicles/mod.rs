@@ -29,9 +29,7 @@ pub use description::{Description, Mount};
 pub use drives::{BuoyancyEngineSpec, CurveSpec, DriveSpec, FinSpec, MovingMassSpec, ThrusterSpec};
 pub use energy::{Battery, EnergySpec};
 pub use files::{Files, InMemory};
-pub use folder::{
-    Axes, Block, Described, HydrodynamicsSpec, Row, Rows, SHIPPED, Shipped, VehicleFile,
-};
+pub use folder::{Axes, Block, Described, HydrodynamicsSpec, Row, Rows, SHIPPED, Shipped, VehicleFile};
 pub use gantry::{CRAB_GANTRY, CrabGantrySpec, Gantry, GantrySpec};
 pub use kinematic::Kinematic;
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};

@@ -24,10 +24,7 @@ impl Vehicle {
             rate: Vector3::zeros(),
             density_kg_m3: SEA_WATER_KG_M3,
         };
-        let ahead = ActuatorCommand {
-            rpm,
-            ..ActuatorCommand::default()
-        };
+        let ahead = ActuatorCommand { rpm, ..ActuatorCommand::default() };
         let level = Pose::level(Vector3::new(0.0, 0.0, -10.0), Heading::from_deg(0.0));
         let mut truth = Truth::at_rest(level);
         let mut top: f64 = 0.0;

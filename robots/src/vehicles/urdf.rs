@@ -9,9 +9,7 @@
 
 use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
-use super::urdf_parts::{
-    Carrier, UrdfText, carriers, check_tree, finite, joined, parse, place, pose_of, root, shape,
-};
+use super::urdf_parts::{Carrier, UrdfText, carriers, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use crate::error::RobotError;
 use std::collections::BTreeMap;
 use world::frames::Pose;
@@ -63,12 +61,7 @@ pub(super) fn read(urdf: &UrdfText, c: &Coefficients) -> Result<Hull, RobotError
         }
     }
     let (coefficients, told) = shell.ballast.put_into(&shell.body, c).map_err(fail)?;
-    Ok(Hull {
-        shapes: shell.shapes,
-        links: shell.links,
-        coefficients,
-        told,
-    })
+    Ok(Hull { shapes: shell.shapes, links: shell.links, coefficients, told })
 }
 
 /// Reads the text of any vehicle's URDF, and the mesh files that it names.
@@ -84,8 +77,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
         let pose = &links[&link.name];
         for (i, collision) in link.collision.iter().enumerate() {
             let place = format!("link \"{}\", collision {}", link.name, i + 1);
-            let shape = shape(&collision.geometry, urdf)
-                .map_err(|problem| fail(format!("{place}: {problem}")))?;
+            let shape = shape(&collision.geometry, urdf).map_err(|problem| fail(format!("{place}: {problem}")))?;
             finite(&collision.origin, &place).map_err(fail)?;
             let at = joined(pose, &pose_of(&collision.origin));
             let reach = at.p_WB.norm() + shape.reach_m();
@@ -106,8 +98,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
             }
             let place = format!("link \"{}\", visual {}", link.name, i + 1);
             finite(&visual.origin, &place).map_err(fail)?;
-            let shape = shape(&visual.geometry, urdf)
-                .map_err(|problem| fail(format!("{place}: {problem}")))?;
+            let shape = shape(&visual.geometry, urdf).map_err(|problem| fail(format!("{place}: {problem}")))?;
             let at = joined(&links[&link.name], &pose_of(&visual.origin));
             visuals.push((at, shape, colour(&robot, visual)));
         }
@@ -117,18 +108,9 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
         visuals = shapes.iter().map(plain).collect();
     }
     if shapes.is_empty() {
-        return Err(fail(
-            "no link has a <collision>: the hull could not touch anything".into(),
-        ));
+        return Err(fail("no link has a <collision>: the hull could not touch anything".into()));
     }
-    Ok(Shell {
-        shapes,
-        links,
-        carriers: carriers(&robot),
-        body,
-        ballast,
-        visuals,
-    })
+    Ok(Shell { shapes, links, carriers: carriers(&robot), body, ballast, visuals })
 }
 
 /// Colour of what has none.

@@ -40,9 +40,7 @@ pub(super) fn refuse(text: &str) -> Result<(), String> {
         elements += 1;
         depth += usize::from(!tag.ends_with("/>"));
         if depth > DEEPEST {
-            return here(format!(
-                "more than {DEEPEST} elements stand one within the other"
-            ));
+            return here(format!("more than {DEEPEST} elements stand one within the other"));
         }
         if elements > MOST_ELEMENTS {
             return here(format!("it has more than {MOST_ELEMENTS} elements"));
@@ -54,13 +52,7 @@ pub(super) fn refuse(text: &str) -> Result<(), String> {
 
 /// Length of what is no start tag; all of it if its end is missing.
 fn aside(rest: &str) -> Option<usize> {
-    let kinds = [
-        ("<!--", "-->"),
-        ("<![CDATA[", "]]>"),
-        ("<?", "?>"),
-        ("<!", ">"),
-        ("</", ">"),
-    ];
+    let kinds = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>"), ("<!", ">"), ("</", ">")];
     let (begin, end) = kinds.iter().find(|(begin, _)| rest.starts_with(begin))?;
     let at = rest[begin.len()..].find(end);
     Some(at.map_or(rest.len(), |at| begin.len() + at + end.len()))
@@ -133,9 +125,7 @@ mod tests {
 
     #[test]
     fn other_formats_are_named_with_what_to_do() {
-        let sdf = said(
-            "<?xml version=\"1.0\"?>\n<!-- a > b -->\n<sdf version=\"1.9\"><model name=\"b\"/></sdf>",
-        );
+        let sdf = said("<?xml version=\"1.0\"?>\n<!-- a > b -->\n<sdf version=\"1.9\"><model name=\"b\"/></sdf>");
         assert!(sdf.starts_with("line 3: <sdf>: it is SDF"), "{sdf}");
         assert!(sdf.contains("<robot>"), "{sdf}");
         assert!(said("<mujoco/>").contains("MuJoCo"));
@@ -172,10 +162,7 @@ mod tests {
         let nested = |n: usize| format!("<robot>\n{}{}</robot>", "<a>".repeat(n), "</a>".repeat(n));
         assert_eq!(refuse(&nested(DEEPEST - 1)), Ok(()));
         let deep = said(&nested(1_000_000));
-        assert_eq!(
-            deep,
-            "line 2: more than 100 elements stand one within the other"
-        );
+        assert_eq!(deep, "line 2: more than 100 elements stand one within the other");
         let many = said(&"<a/>".repeat(MOST_ELEMENTS + 1));
         assert!(many.contains("more than 200000 elements"), "{many}");
     }

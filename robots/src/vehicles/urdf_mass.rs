@@ -38,19 +38,13 @@ impl Ballast {
             let (name, inertial) = (&link.name, &link.inertial);
             let mass = inertial.mass.value;
             if !(mass >= 0.0 && mass.is_finite()) {
-                return Err(format!(
-                    "link \"{name}\": <mass> must be >= 0 kg, got {mass}"
-                ));
+                return Err(format!("link \"{name}\": <mass> must be >= 0 kg, got {mass}"));
             }
             finite(&inertial.origin, &format!("link \"{name}\", inertial"))?;
             let i = &inertial.inertia;
-            let own = Matrix3::new(
-                i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz,
-            );
+            let own = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
             if let Some(v) = own.iter().find(|v| !v.is_finite()) {
-                return Err(format!(
-                    "link \"{name}\": <inertia> must be finite, got {v}"
-                ));
+                return Err(format!("link \"{name}\": <inertia> must be finite, got {v}"));
             }
             let at = joined(&links[name], &pose_of(&inertial.origin));
             let turn = at.R_WB.to_rotation_matrix();
@@ -66,11 +60,7 @@ impl Ballast {
             let arm = (p - p_BG).cross_matrix();
             own - arm * arm * *m
         });
-        Ok(Self {
-            mass_kg,
-            p_BG,
-            inertia_kg_m2: about_G.sum(),
-        })
+        Ok(Self { mass_kg, p_BG, inertia_kg_m2: about_G.sum() })
     }
 
     /// Mass, kg; positive.
@@ -92,11 +82,7 @@ impl Ballast {
     ///
     /// # Errors
     /// If it is not the mass of the hull for which the parameters are.
-    pub(super) fn put_into(
-        &self,
-        body: &str,
-        c: &Coefficients,
-    ) -> Result<(Coefficients, Vec<String>), String> {
+    pub(super) fn put_into(&self, body: &str, c: &Coefficients) -> Result<(Coefficients, Vec<String>), String> {
         let near = |have: f64, want: f64| (have - want).abs() <= MASS_TOLERANCE * want;
         let mass = self.mass_kg;
         if !near(mass, c.mass_kg) {
@@ -145,11 +131,7 @@ impl Ballast {
         if differs(self.mass_kg, c.mass_kg) {
             used.mass_kg = self.mass_kg;
             let excess_N = (self.mass_kg - c.ballast_density_kg_m3 * c.volume_m3) * GRAVITY_M_S2;
-            let (way, by) = if excess_N > 0.0 {
-                ("sinks", "heavier")
-            } else {
-                ("rises", "lighter")
-            };
+            let (way, by) = if excess_N > 0.0 { ("sinks", "heavier") } else { ("rises", "lighter") };
             told.push(format!(
                 "weighs {} kg by its URDF, the hull of the hydrodynamic parameters {:.3} kg: the URDF's mass is used; \
                  {:.2} N {by} than water of {} kg/m3, it {way}",

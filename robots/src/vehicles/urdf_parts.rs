@@ -39,12 +39,7 @@ impl<'a> UrdfText<'a> {
     ) -> Result<Self, RobotError> {
         let Some(name) = name.map(Path::new) else {
             let (name, text) = built_in;
-            return Ok(Self {
-                text: text.into(),
-                path: format!("built-in {name}"),
-                folder: Path::new(""),
-                files,
-            });
+            return Ok(Self { text: text.into(), path: format!("built-in {name}"), folder: Path::new(""), files });
         };
         Self::open_at(name, files)
     }
@@ -53,22 +48,14 @@ impl<'a> UrdfText<'a> {
     pub(super) fn open_at(name: &'a Path, files: &'a dyn Files) -> Result<Self, RobotError> {
         let path = files.path(name).display().to_string();
         match files.text(name, LONGEST) {
-            Ok(text) => Ok(Self {
-                text,
-                path,
-                folder: name.parent().unwrap_or(Path::new("")),
-                files,
-            }),
+            Ok(text) => Ok(Self { text, path, folder: name.parent().unwrap_or(Path::new("")), files }),
             Err(problem) => Err(RobotError::File { path, problem }),
         }
     }
 
     /// A problem in this file.
     pub(super) fn fault(&self, problem: String) -> RobotError {
-        RobotError::File {
-            path: self.path.clone(),
-            problem,
-        }
+        RobotError::File { path: self.path.clone(), problem }
     }
 
     /// A mesh file beside the URDF as a URL, with its whole path.
@@ -98,12 +85,7 @@ impl<'a> UrdfText<'a> {
 /// A text as if it stood in a file of that path, with the given files beside it.
 #[cfg(test)]
 pub(super) fn as_file<'a>(text: &str, path: &str, files: &'a dyn Files) -> UrdfText<'a> {
-    UrdfText {
-        text: text.into(),
-        path: path.into(),
-        folder: Path::new(""),
-        files,
-    }
+    UrdfText { text: text.into(), path: path.into(), folder: Path::new(""), files }
 }
 
 /// Most links of a vehicle.
@@ -125,9 +107,7 @@ pub(super) fn parse(text: &str) -> Result<Robot, String> {
     })?;
     if robot.links.len() > MOST_LINKS {
         let got = robot.links.len();
-        return Err(format!(
-            "a vehicle has at most {MOST_LINKS} links, got {got}"
-        ));
+        return Err(format!("a vehicle has at most {MOST_LINKS} links, got {got}"));
     }
     for joint in &robot.joints {
         for end in [&joint.parent.link, &joint.child.link] {
@@ -215,10 +195,7 @@ pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     }
     let links = place(robot, base)?;
     match robot.links.iter().find(|l| !links.contains_key(&l.name)) {
-        Some(link) => Err(format!(
-            "link \"{}\" is not joined to \"{base}\"",
-            link.name
-        )),
+        Some(link) => Err(format!("link \"{}\" is not joined to \"{base}\"", link.name)),
         None => Ok(()),
     }
 }
@@ -235,20 +212,14 @@ pub(super) fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> 
 /// A collision shape of a URDF.
 pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, String> {
     let positive = |v: f64, what: &str| {
-        if v > 0.0 && v.is_finite() {
-            Ok(v)
-        } else {
-            Err(format!("{what} must be > 0, got {v}"))
-        }
+        if v > 0.0 && v.is_finite() { Ok(v) } else { Err(format!("{what} must be > 0, got {v}")) }
     };
     Ok(match geometry {
         Geometry::Box { size } => {
             for v in size.iter() {
                 positive(*v, "box size")?;
             }
-            Shape::Box {
-                size_m: Vector3::from(size.0),
-            }
+            Shape::Box { size_m: Vector3::from(size.0) }
         }
         Geometry::Cylinder { radius, length } => Shape::Cylinder {
             radius_m: positive(*radius, "cylinder radius")?,
@@ -258,9 +229,7 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
             radius_m: positive(*radius, "capsule radius")?,
             length_m: positive(*length, "capsule length")?,
         },
-        Geometry::Sphere { radius } => Shape::Sphere {
-            radius_m: positive(*radius, "sphere radius")?,
-        },
+        Geometry::Sphere { radius } => Shape::Sphere { radius_m: positive(*radius, "sphere radius")? },
         Geometry::Mesh { filename, scale } => {
             let file = filename.strip_prefix("file://").unwrap_or(filename);
             if let Some((scheme, _)) = file.split_once("://") {
@@ -270,12 +239,9 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
                      file beside the URDF, and write filename=\"{name}\""
                 ));
             }
-            let points =
-                (urdf.mesh(file)).map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
+            let points = (urdf.mesh(file)).map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
             let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));
-            let hull = Shape::Hull {
-                points_m: points.iter().map(|p| p.component_mul(&scale)).collect(),
-            };
+            let hull = Shape::Hull { points_m: points.iter().map(|p| p.component_mul(&scale)).collect() };
             if !hull.is_solid() {
                 return Err(format!("mesh \"{filename}\": its corners span no volume"));
             }
@@ -287,16 +253,10 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
 /// An `<origin>` as a pose.
 pub(super) fn pose_of(p: &urdf_rs::Pose) -> Pose {
     let [roll, pitch, yaw] = p.rpy.0;
-    Pose {
-        p_WB: Vector3::from(p.xyz.0),
-        R_WB: UnitQuaternion::from_euler_angles(roll, pitch, yaw),
-    }
+    Pose { p_WB: Vector3::from(p.xyz.0), R_WB: UnitQuaternion::from_euler_angles(roll, pitch, yaw) }
 }
 
 /// Converts `inner`, given in the axes of `outer`, to the axes in which `outer` is given.
 pub(super) fn joined(outer: &Pose, inner: &Pose) -> Pose {
-    Pose {
-        p_WB: outer.point(inner.p_WB),
-        R_WB: outer.R_WB * inner.R_WB,
-    }
+    Pose { p_WB: outer.point(inner.p_WB), R_WB: outer.R_WB * inner.R_WB }
 }

@@ -19,9 +19,7 @@ fn parse(text: &str) -> Result<Hull, String> {
 
 /// The text of a link, with its shapes.
 fn link(name: &str) -> &'static str {
-    let start = GOOD
-        .find(&format!("<link name=\"{name}\""))
-        .expect("a link");
+    let start = GOOD.find(&format!("<link name=\"{name}\"")).expect("a link");
     let end = start + GOOD[start..].find("</link>").expect("with shapes") + "</link>".len();
     &GOOD[start..end]
 }
@@ -57,10 +55,7 @@ fn mounts_add_up_along_a_chain_of_joints() {
 
 #[test]
 fn a_missing_file_is_named() {
-    let spec = RemusSpec {
-        urdf: Some("none.urdf".into()),
-        ..RemusSpec::default()
-    };
+    let spec = RemusSpec { urdf: Some("none.urdf".into()), ..RemusSpec::default() };
     let error = Vehicle::load(&spec, &InMemory::default()).expect_err("no file");
     assert_eq!(error.to_string(), "none.urdf: there is no such file");
 }
@@ -68,10 +63,7 @@ fn a_missing_file_is_named() {
 #[test]
 fn broken_xml_is_told() {
     let error = parse("<robot name=\"x\"><link").expect_err("broken");
-    assert!(
-        error.starts_with("/no/such/place/auv.urdf: not a URDF file: "),
-        "{error}"
-    );
+    assert!(error.starts_with("/no/such/place/auv.urdf: not a URDF file: "), "{error}");
 }
 
 #[test]
@@ -85,10 +77,7 @@ fn missing_links_are_named() {
         "/no/such/place/auv.urdf: link \"lbl\" is the child of two joints, \"rudder_joint\" and \"lbl_joint\""
     );
     let other = GOOD.replace("\"rudder\"", "\"helm\"");
-    assert_eq!(
-        parse(&other).expect_err("no rudder"),
-        "/no/such/place/auv.urdf: link \"rudder\" is missing"
-    );
+    assert_eq!(parse(&other).expect_err("no rudder"), "/no/such/place/auv.urdf: link \"rudder\" is missing");
 }
 
 #[test]
@@ -99,38 +88,17 @@ fn what_is_no_tree_is_told() {
         error.replace("/no/such/place/auv.urdf: ", "")
     };
     let joint = |name: &str, parent: &str, child: &str| {
-        format!(
-            "<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>"
-        )
+        format!("<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>")
     };
-    assert_eq!(
-        with("<link name=\"rudder\"/>"),
-        "link \"rudder\" occurs twice"
-    );
-    assert_eq!(
-        with(&joint("round", "rudder", "base_link")),
-        "every link is the child of a joint, so there is no body"
-    );
-    let ring = format!(
-        "<link name=\"a\"/><link name=\"b\"/>{}{}",
-        joint("there", "a", "b"),
-        joint("back", "b", "a")
-    );
+    assert_eq!(with("<link name=\"rudder\"/>"), "link \"rudder\" occurs twice");
+    assert_eq!(with(&joint("round", "rudder", "base_link")), "every link is the child of a joint, so there is no body");
+    let ring = format!("<link name=\"a\"/><link name=\"b\"/>{}{}", joint("there", "a", "b"), joint("back", "b", "a"));
     assert_eq!(with(&ring), "link \"a\" is not joined to \"base_link\"");
-    assert_eq!(
-        with("<link name=\"loose\"/>"),
-        "link \"loose\" is not joined to \"base_link\""
-    );
+    assert_eq!(with("<link name=\"loose\"/>"), "link \"loose\" is not joined to \"base_link\"");
     let half = &GOOD[..GOOD.len() / 2];
     let ends = format!("it ends at line {}, before </robot>", half.lines().count());
-    for (text, why) in [
-        ("hello", "there is no <robot> in it"),
-        (half, ends.as_str()),
-    ] {
-        assert_eq!(
-            parse(text).expect_err("no URDF"),
-            format!("/no/such/place/auv.urdf: not a URDF file: {why}")
-        );
+    for (text, why) in [("hello", "there is no <robot> in it"), (half, ends.as_str())] {
+        assert_eq!(parse(text).expect_err("no URDF"), format!("/no/such/place/auv.urdf: not a URDF file: {why}"));
     }
 }
 
@@ -168,10 +136,7 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
     let heavy = |text: &str| parse(text).expect("within 1 %");
     let built_in = heavy(GOOD);
     let published = Coefficients::of(ParameterSet::Remus100);
-    assert_eq!(
-        built_in.coefficients, published,
-        "eight digits are no difference"
-    );
+    assert_eq!(built_in.coefficients, published, "eight digits are no difference");
     assert_eq!(built_in.told, [""; 0]);
 
     let hull = heavy(&GOOD.replace("value=\"31.029385\"", "value=\"31.2\""));
@@ -179,10 +144,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
     assert_eq!(hull.coefficients.rigid_mass()[(0, 0)], 31.2);
     assert_eq!(
         hull.told,
-        [
-            "weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
-             1.67 N heavier than water of 1026 kg/m3, it sinks"
-        ]
+        ["weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
+             1.67 N heavier than water of 1026 kg/m3, it sinks"]
     );
     let hull = heavy(
         &GOOD
@@ -245,10 +208,7 @@ fn a_heavier_hull_sinks() {
     let sinks = |kg: &str| {
         let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
         let files = InMemory::default().with("auv.urdf", text.as_bytes());
-        let spec = RemusSpec {
-            urdf: Some("auv.urdf".into()),
-            ..RemusSpec::default()
-        };
+        let spec = RemusSpec { urdf: Some("auv.urdf".into()), ..RemusSpec::default() };
         let mut vehicle = Vehicle::load(&spec, &files).expect("a vehicle");
         let command = crate::handoff::ActuatorCommand::default();
         vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
@@ -257,10 +217,7 @@ fn a_heavier_hull_sinks() {
     assert!(neutral.abs() < 1e-9, "{neutral}");
     let c = Coefficients::of(ParameterSet::Remus100);
     let expected = -(31.2 - c.mass_kg) * world::units::GRAVITY_M_S2 / (31.2 + c.added[2]);
-    assert!(
-        (heavy / expected - 1.0).abs() < 2e-3,
-        "{heavy} m/s2, not {expected}"
-    );
+    assert!((heavy / expected - 1.0).abs() < 2e-3, "{heavy} m/s2, not {expected}");
 }
 
 #[test]
@@ -285,18 +242,11 @@ fn wrong_geometry_is_told() {
 #[test]
 fn a_mesh_beside_the_urdf_becomes_a_hull() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
-    let text = GOOD.replace(
-        "<capsule radius=\"0.095\" length=\"1.41\"/>",
-        "<mesh filename=\"hull.obj\" scale=\"2 2 2\"/>",
-    );
+    let text =
+        GOOD.replace("<capsule radius=\"0.095\" length=\"1.41\"/>", "<mesh filename=\"hull.obj\" scale=\"2 2 2\"/>");
     // The mesh lies beside the URDF, not beside the scenario.
-    let files = InMemory::default()
-        .with("hulls/auv.urdf", text.as_bytes())
-        .with("hulls/hull.obj", obj.as_bytes());
-    let spec = RemusSpec {
-        urdf: Some("hulls/auv.urdf".into()),
-        ..RemusSpec::default()
-    };
+    let files = InMemory::default().with("hulls/auv.urdf", text.as_bytes()).with("hulls/hull.obj", obj.as_bytes());
+    let spec = RemusSpec { urdf: Some("hulls/auv.urdf".into()), ..RemusSpec::default() };
     let vehicle = Vehicle::load(&spec, &files).expect("a vehicle with a mesh");
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
         Vector3::zeros(),

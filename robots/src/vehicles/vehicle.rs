@@ -75,10 +75,7 @@ impl Vehicle {
         };
         let through = truth.v_WB_B - truth.pose.R_WB.inverse() * water_m_s;
         let [v_ground, v] = [truth.v_WB_B, through].map(|v| Vector3::new(v.x, -v.y, -v.z));
-        let terms = RemusTerms {
-            c: &self.hull.coefficients,
-            asked: self.actuators,
-        };
+        let terms = RemusTerms { c: &self.hull.coefficients, asked: self.actuators };
         let shaft_w = terms.shaft_w(&v_ground, &v, *density_kg_m3, self.actuators.rpm);
         shaft_w / REMUS_SHARE
     }
@@ -103,21 +100,10 @@ impl Vehicle {
     }
 
     /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`; also moves the actuators.
-    pub fn step(
-        &mut self,
-        truth: &Truth,
-        water: &WaterSample,
-        command: &ActuatorCommand,
-        dt_s: f64,
-    ) -> Truth {
+    pub fn step(&mut self, truth: &Truth, water: &WaterSample, command: &ActuatorCommand, dt_s: f64) -> Truth {
         let c = &self.hull.coefficients;
-        let terms = RemusTerms {
-            c,
-            asked: Actuators::asked(command, c),
-        };
-        let (free, actuators) = self
-            .equation
-            .advance(&terms, truth, &self.actuators, water, dt_s);
+        let terms = RemusTerms { c, asked: Actuators::asked(command, c) };
+        let (free, actuators) = self.equation.advance(&terms, truth, &self.actuators, water, dt_s);
         self.actuators = actuators;
         self.last = Some((*truth, water.velocity, water.density_kg_m3));
         free

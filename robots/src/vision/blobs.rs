@@ -53,12 +53,7 @@ pub fn blobs(mask: &GrayImage) -> Vec<Blob> {
                     }
                 }
             }
-            found.push(Blob {
-                pixels: n,
-                centre_px: sum.map(|s| s as f64 / n as f64),
-                low_px: low,
-                high_px: high,
-            });
+            found.push(Blob { pixels: n, centre_px: sum.map(|s| s as f64 / n as f64), low_px: low, high_px: high });
         }
     }
     found.sort_by_key(|b| std::cmp::Reverse(b.pixels));
@@ -72,9 +67,7 @@ mod tests {
 
     fn mask(rows: &[&str]) -> GrayImage {
         let (w, h) = (rows[0].len() as u32, rows.len() as u32);
-        GrayImage::from_fn(w, h, |x, y| {
-            Luma([255 * u8::from(rows[y as usize].as_bytes()[x as usize] == b'#')])
-        })
+        GrayImage::from_fn(w, h, |x, y| Luma([255 * u8::from(rows[y as usize].as_bytes()[x as usize] == b'#')]))
     }
 
     #[test]
@@ -93,9 +86,6 @@ mod tests {
         assert!(blobs(&GrayImage::new(0, 0)).is_empty());
         assert_eq!(blobs(&mask(&["#"])).len(), 1);
         let all = blobs(&mask(&["####", "####"]));
-        assert_eq!(
-            (all.len(), all[0].pixels, all[0].centre_px),
-            (1, 8, [1.5, 0.5])
-        );
+        assert_eq!((all.len(), all[0].pixels, all[0].centre_px), (1, 8, [1.5, 0.5]));
     }
 }

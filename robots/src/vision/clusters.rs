@@ -48,9 +48,7 @@ pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
         return Vec::new();
     };
     let beyond = |k: usize| patterns[k].distance - patterns[pivot].distance;
-    let near: Vec<usize> = (0..patterns.len())
-        .filter(|k| beyond(*k) <= spec.delta1.get())
-        .collect();
+    let near: Vec<usize> = (0..patterns.len()).filter(|k| beyond(*k) <= spec.delta1.get()).collect();
     let edges = |i: usize, j: usize| {
         let (a, b) = (&patterns[near[i]], &patterns[near[j]]);
         Some(match spec.edges {
@@ -74,17 +72,7 @@ pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
 #[must_use]
 pub fn shortest_paths(n: usize, edge: impl Fn(usize, usize) -> Option<f64>) -> Vec<Vec<f64>> {
     let mut d: Vec<Vec<f64>> = (0..n)
-        .map(|i| {
-            (0..n)
-                .map(|j| {
-                    if i == j {
-                        0.0
-                    } else {
-                        edge(i, j).unwrap_or(f64::INFINITY)
-                    }
-                })
-                .collect()
-        })
+        .map(|i| (0..n).map(|j| if i == j { 0.0 } else { edge(i, j).unwrap_or(f64::INFINITY) }).collect())
         .collect();
     for over in 0..n {
         for i in 0..n {
@@ -104,10 +92,7 @@ mod tests {
     use world::ranges::NonNegative;
 
     fn pattern(rgb: [u8; 3]) -> Pattern {
-        Pattern {
-            rgb,
-            distance: distance(rgb, Reference::Red.rgb()),
-        }
+        Pattern { rgb, distance: distance(rgb, Reference::Red.rgb()) }
     }
 
     #[test]
@@ -154,10 +139,7 @@ mod tests {
     #[test]
     fn the_papers_second_pattern_stays_by_one_reading_only() {
         let by = |edges: Edges, group: [[u8; 3]; 2]| {
-            let spec = ColourSpec {
-                edges,
-                ..ColourSpec::default()
-            };
+            let spec = ColourSpec { edges, ..ColourSpec::default() };
             fates(&group.map(pattern), &spec)[1]
         };
         let printed = [[106, 106, 231], [156, 136, 243]];
@@ -173,22 +155,10 @@ mod tests {
     /// dropped at the limit.
     #[test]
     fn edges_by_the_reference_are_differences_of_distances() {
-        let spec = ColourSpec {
-            edges: Edges::Reference,
-            delta2: NonNegative::new(30.0),
-            ..ColourSpec::default()
-        };
+        let spec = ColourSpec { edges: Edges::Reference, delta2: NonNegative::new(30.0), ..ColourSpec::default() };
         let group = [[215, 0, 0], [195, 0, 0], [255, 0, 60], [180, 0, 0]].map(pattern);
         let got = fates(&group, &spec);
-        assert_eq!(
-            got,
-            [
-                Fate::Pivot,
-                Fate::Kept(20.0),
-                Fate::Kept(20.0),
-                Fate::OffPivot(35.0)
-            ]
-        );
+        assert_eq!(got, [Fate::Pivot, Fate::Kept(20.0), Fate::Kept(20.0), Fate::OffPivot(35.0)]);
     }
 
     /// The shortest way, found by trying every way that visits no node twice.

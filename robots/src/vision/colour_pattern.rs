@@ -77,10 +77,7 @@ pub fn nearest(image: &RgbImage, reference: Reference) -> Option<Pattern> {
             best = Some((d, pixel.0));
         }
     }
-    best.map(|(d, rgb)| Pattern {
-        rgb,
-        distance: f64::from(d).sqrt(),
-    })
+    best.map(|(d, rgb)| Pattern { rgb, distance: f64::from(d).sqrt() })
 }
 
 #[cfg(test)]
@@ -90,10 +87,7 @@ mod tests {
 
     #[test]
     fn nearest_by_hand() {
-        let p = picture(
-            2,
-            &[[10, 20, 30], [200, 10, 0], [0, 0, 100], [255, 255, 255]],
-        );
+        let p = picture(2, &[[10, 20, 30], [200, 10, 0], [0, 0, 100], [255, 255, 255]]);
         let red = nearest(&p, Reference::Red).unwrap();
         assert_eq!(red.rgb, [200, 10, 0]);
         assert_eq!(red.distance, (55.0_f64 * 55.0 + 100.0).sqrt());
@@ -105,14 +99,8 @@ mod tests {
     #[test]
     fn of_equal_ones_the_first_wins() {
         let (a, b) = ([255, 10, 0], [245, 0, 0]);
-        assert_eq!(
-            nearest(&picture(1, &[a, b]), Reference::Red).unwrap().rgb,
-            a
-        );
-        assert_eq!(
-            nearest(&picture(1, &[b, a]), Reference::Red).unwrap().rgb,
-            b
-        );
+        assert_eq!(nearest(&picture(1, &[a, b]), Reference::Red).unwrap().rgb, a);
+        assert_eq!(nearest(&picture(1, &[b, a]), Reference::Red).unwrap().rgb, b);
     }
 
     #[test]

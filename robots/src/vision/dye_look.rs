@@ -50,21 +50,14 @@ impl Sums {
                 sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + row;
             }
         }
-        Self {
-            width,
-            height,
-            sums,
-        }
+        Self { width, height, sums }
     }
 
     /// The mean over the square that reaches so far to all sides of a pixel, without what is outside the picture.
     fn mean(&self, at: usize, reach: usize) -> f64 {
         let (x, y) = (at % self.width, at / self.width);
         let (left, top) = (x.saturating_sub(reach), y.saturating_sub(reach));
-        let (right, bottom) = (
-            (x + reach + 1).min(self.width),
-            (y + reach + 1).min(self.height),
-        );
+        let (right, bottom) = ((x + reach + 1).min(self.width), (y + reach + 1).min(self.height));
         let sum = |x: usize, y: usize| self.sums[y * (self.width + 1) + x];
         let all = sum(right, bottom) + sum(left, top) - sum(left, bottom) - sum(right, top);
         all / ((right - left) * (bottom - top)) as f64
@@ -123,21 +116,14 @@ impl DyeLook {
             yellow: own - around,
             edge: (length >= 1.0 - 1e-9).then(|| {
                 let smooth = [0, 1, 2].map(|k| Sums::new(w, h, |at| level(even, at, k)));
-                let redness =
-                    |at: usize| shares([0, 1, 2].map(|k| smooth[k].mean(at, reach(1.0))))[0];
+                let redness = |at: usize| shares([0, 1, 2].map(|k| smooth[k].mean(at, reach(1.0))))[0];
                 let strip = |at: usize, inner: bool| {
                     let share = count.mean(at, reach(STRIP));
                     inside[at] == inner && if inner { share < 1.0 } else { share > 0.0 }
                 };
                 let differ = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(0.0, |(a, b)| a - b);
-                let whole = differ(
-                    mean(n, |at| inside[at], redness),
-                    mean(n, |at| !inside[at], redness),
-                );
-                let step = differ(
-                    mean(n, |at| strip(at, true), redness),
-                    mean(n, |at| strip(at, false), redness),
-                );
+                let whole = differ(mean(n, |at| inside[at], redness), mean(n, |at| !inside[at], redness));
+                let step = differ(mean(n, |at| strip(at, true), redness), mean(n, |at| strip(at, false), redness));
                 step / whole.max(1e-3)
             }),
         }
@@ -187,10 +173,7 @@ mod tests {
         let (picture, mask) = disc([190.0, 70.0, 100.0], 20.0);
         let twice = |w: u32, h: u32| {
             let by = image::imageops::FilterType::Nearest;
-            let (p, m) = (
-                image::imageops::resize(&picture, w, h, by),
-                image::imageops::resize(&mask, w, h, by),
-            );
+            let (p, m) = (image::imageops::resize(&picture, w, h, by), image::imageops::resize(&mask, w, h, by));
             DyeLook::new(&p, &levelled(&p), &m)
         };
         let (one, two) = (twice(320, 240), twice(640, 480));

@@ -25,10 +25,7 @@ impl Extractor {
     pub fn new(spec: &ColourSpec) -> Self {
         let inference = Inference::new(spec);
         let rho: [f64; 256] = std::array::from_fn(|d| inference.difference([d as f64, 0.0, 0.0]));
-        Self {
-            taken: rho.map(|r| r < spec.epsilon.get()),
-            rho,
-        }
+        Self { taken: rho.map(|r| r < spec.epsilon.get()), rho }
     }
 
     /// Δρ_F of a pixel from a pattern, levels.
@@ -67,12 +64,7 @@ mod tests {
     fn the_papers_cube_is_73_levels_each_way() {
         let e = Extractor::new(&ColourSpec::default());
         assert_eq!(e.reach(), Some(73));
-        assert!(
-            (e.rho[73] - 78.912).abs() < 1e-3 && (e.rho[74] - 80.221).abs() < 1e-3,
-            "{} {}",
-            e.rho[73],
-            e.rho[74]
-        );
+        assert!((e.rho[73] - 78.912).abs() < 1e-3 && (e.rho[74] - 80.221).abs() < 1e-3, "{} {}", e.rho[73], e.rho[74]);
         assert!(e.takes([100, 100, 100], [27, 173, 100]));
         assert!(!e.takes([100, 100, 100], [26, 100, 100]));
     }
@@ -80,28 +72,18 @@ mod tests {
     /// ε = ρ_M/3 is the difference of equal colours: "below" excludes them.
     #[test]
     fn a_threshold_as_low_as_the_least_difference_takes_nothing() {
-        let spec = ColourSpec {
-            rho_m: Positive::new(3.0),
-            epsilon: Positive::new(0.5),
-            ..ColourSpec::default()
-        };
+        let spec = ColourSpec { rho_m: Positive::new(3.0), epsilon: Positive::new(0.5), ..ColourSpec::default() };
         assert_eq!(Extractor::new(&spec).reach(), None);
     }
 
     fn any_spec() -> impl Strategy<Value = ColourSpec> {
-        (
-            0.0_f64..150.0,
-            1.0_f64..100.0,
-            1.0_f64..254.0,
-            1.0_f64..255.0,
-        )
-            .prop_map(|(a1, more, rho, eps)| ColourSpec {
-                alpha1: NonNegative::new(a1),
-                alpha2: Positive::new(a1 + more),
-                rho_m: Positive::new(rho),
-                epsilon: Positive::new(eps),
-                ..ColourSpec::default()
-            })
+        (0.0_f64..150.0, 1.0_f64..100.0, 1.0_f64..254.0, 1.0_f64..255.0).prop_map(|(a1, more, rho, eps)| ColourSpec {
+            alpha1: NonNegative::new(a1),
+            alpha2: Positive::new(a1 + more),
+            rho_m: Positive::new(rho),
+            epsilon: Positive::new(eps),
+            ..ColourSpec::default()
+        })
     }
 
     proptest! {

@@ -22,10 +22,7 @@ impl Inference {
     /// The rules with the sets of these parameters.
     #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
-        Self {
-            differences: Differences::new(spec),
-            outputs: Outputs::new(spec),
-        }
+        Self { differences: Differences::new(spec), outputs: Outputs::new(spec) }
     }
 
     /// Weights of Matched and Unmatched (eq. 12) for differences in red, green and blue (eq. 6).
@@ -34,10 +31,7 @@ impl Inference {
         let mu = &self.differences;
         let zero = difference.map(|d| mu.zero(d));
         let other = difference.map(|d| mu.negative(d).max(mu.positive(d)));
-        (
-            zero.into_iter().fold(1.0, f64::min),
-            other.into_iter().fold(0.0, f64::max),
-        )
+        (zero.into_iter().fold(1.0, f64::min), other.into_iter().fold(0.0, f64::max))
     }
 
     /// Δρ_F (eq. 13) for differences in red, green and blue, levels.
@@ -72,10 +66,7 @@ impl Inference {
                 add(a, b);
             }
         }
-        assert!(
-            area > 0.0,
-            "neither rule fires (weights {w_m}, {w_u}): the input sets must cover all differences"
-        );
+        assert!(area > 0.0, "neither rule fires (weights {w_m}, {w_u}): the input sets must cover all differences");
         moment / area
     }
 }

@@ -68,11 +68,7 @@ mod tests {
     fn a_slope_and_a_bowl_become_even_and_what_is_sharp_stays() {
         let light = |x: u32, y: u32| 60 + x + (y * y) / 40;
         let p = RgbImage::from_fn(80, 60, |x, y| {
-            let spot = if (20..24).contains(&x) && (30..34).contains(&y) {
-                40
-            } else {
-                0
-            };
+            let spot = if (20..24).contains(&x) && (30..34).contains(&y) { 40 } else { 0 };
             Rgb([(light(x, y) - spot) as u8; 3])
         });
         let got = levelled(&p);
@@ -88,10 +84,7 @@ mod tests {
     fn pictures_too_thin_for_a_surface_are_kept_or_evened() {
         let one = picture(1, &[[9, 80, 200]]);
         assert_eq!(levelled(&one), one);
-        let column = levelled(&picture(
-            1,
-            &[[10, 10, 10], [20, 20, 20], [30, 30, 30], [40, 40, 40]],
-        ));
+        let column = levelled(&picture(1, &[[10, 10, 10], [20, 20, 20], [30, 30, 30], [40, 40, 40]]));
         assert!(column.pixels().all(|p| p.0 == [25; 3]), "{column:?}");
         let white = picture(2, &[WHITE; 4]);
         assert_eq!(levelled(&white), white);

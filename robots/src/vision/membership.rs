@@ -24,10 +24,7 @@ impl Differences {
     /// With the knees of the parameters.
     #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
-        Self {
-            alpha1: spec.alpha1.get(),
-            alpha2: spec.alpha2.get(),
-        }
+        Self { alpha1: spec.alpha1.get(), alpha2: spec.alpha2.get() }
     }
 
     /// μ_N, eq. 7.
@@ -59,9 +56,7 @@ impl Outputs {
     /// With the width of the parameters.
     #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
-        Self {
-            rho_m: spec.rho_m.get(),
-        }
+        Self { rho_m: spec.rho_m.get() }
     }
 
     /// ρ_U.
@@ -85,14 +80,7 @@ impl Outputs {
     /// Places, in order, between which both sets, cut at `w_m` and `w_u`, are straight lines.
     #[must_use]
     pub fn knees(&self, w_m: f64, w_u: f64) -> [f64; 6] {
-        let mut at = [
-            0.0,
-            self.rho_m * (1.0 - w_m),
-            self.rho_m,
-            self.rho_u(),
-            self.rho_u() + w_u * self.rho_m,
-            TOP,
-        ];
+        let mut at = [0.0, self.rho_m * (1.0 - w_m), self.rho_m, self.rho_u(), self.rho_u() + w_u * self.rho_m, TOP];
         at.sort_by(f64::total_cmp);
         at
     }
@@ -106,14 +94,7 @@ mod tests {
     #[test]
     fn input_sets_have_the_papers_knees() {
         let mu = Differences::new(&ColourSpec::default());
-        for (x, zero) in [
-            (0.0, 1.0),
-            (34.0, 1.0),
-            (35.0, 1.0),
-            (117.5, 0.5),
-            (200.0, 0.0),
-            (255.0, 0.0),
-        ] {
+        for (x, zero) in [(0.0, 1.0), (34.0, 1.0), (35.0, 1.0), (117.5, 0.5), (200.0, 0.0), (255.0, 0.0)] {
             assert_eq!(mu.zero(x), zero, "{x}");
             assert_eq!(mu.zero(-x), zero, "{x}");
             assert_eq!(mu.positive(x), 1.0 - zero, "{x}");
@@ -126,14 +107,8 @@ mod tests {
     #[test]
     fn output_sets_fall_from_the_ends() {
         let mu = Outputs::new(&ColourSpec::default());
-        assert_eq!(
-            [0.0, 5.0, 20.0, 128.0].map(|x| mu.matched(x)),
-            [1.0, 0.75, 0.0, 0.0]
-        );
-        assert_eq!(
-            [255.0, 250.0, 235.0, 128.0].map(|x| mu.unmatched(x)),
-            [1.0, 0.75, 0.0, 0.0]
-        );
+        assert_eq!([0.0, 5.0, 20.0, 128.0].map(|x| mu.matched(x)), [1.0, 0.75, 0.0, 0.0]);
+        assert_eq!([255.0, 250.0, 235.0, 128.0].map(|x| mu.unmatched(x)), [1.0, 0.75, 0.0, 0.0]);
         assert_eq!(mu.knees(0.25, 0.5), [0.0, 15.0, 20.0, 235.0, 245.0, 255.0]);
     }
 

@@ -72,18 +72,11 @@ pub struct Segmentation {
 #[must_use]
 pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
     let extractor = Extractor::new(spec);
-    let seen = if spec.dehaze {
-        stretched(&levelled(picture))
-    } else {
-        picture.clone()
-    };
+    let seen = if spec.dehaze { stretched(&levelled(picture)) } else { picture.clone() };
     let mut left = seen.clone();
     let mut labels = GrayImage::new(picture.width(), picture.height());
     let mut passes = Vec::new();
-    for (target, times) in [
-        (Target::Plume, spec.plume_passes),
-        (Target::Source, spec.source_passes),
-    ] {
+    for (target, times) in [(Target::Plume, spec.plume_passes), (Target::Source, spec.source_passes)] {
         let first = passes.len();
         for _ in 0..times {
             let Some(pattern) = nearest(&left, target.reference()) else {
@@ -91,13 +84,7 @@ pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
             };
             let number = passes.len() as u8 + 1;
             let pixels = take(&extractor, pattern.rgb, &mut left, &mut labels, number);
-            passes.push(Pass {
-                number,
-                target,
-                pattern,
-                pixels,
-                fate: Fate::Pivot,
-            });
+            passes.push(Pass { number, target, pattern, pixels, fate: Fate::Pivot });
         }
         let group: Vec<Pattern> = passes[first..].iter().map(|p: &Pass| p.pattern).collect();
         for (pass, fate) in passes[first..].iter_mut().zip(fates(&group, spec)) {
@@ -107,21 +94,11 @@ pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
             give_back(&seen, &passes, &mut left, &mut labels);
         }
     }
-    Segmentation {
-        passes,
-        seen,
-        labels,
-    }
+    Segmentation { passes, seen, labels }
 }
 
 /// One application of the extractor (FCE): makes the pixels that the pattern takes white, labels and counts them.
-fn take(
-    extractor: &Extractor,
-    pattern: [u8; 3],
-    left: &mut RgbImage,
-    labels: &mut GrayImage,
-    number: u8,
-) -> u64 {
+fn take(extractor: &Extractor, pattern: [u8; 3], left: &mut RgbImage, labels: &mut GrayImage, number: u8) -> u64 {
     let mut taken = 0;
     for (pixel, label) in left.pixels_mut().zip(labels.pixels_mut()) {
         if extractor.takes(pixel.0, pattern) && pixel.0 != WHITE {
@@ -182,10 +159,8 @@ impl Segmentation {
     /// What the passes of a target took, on white; as in [`Segmentation::mask`].
     #[must_use]
     pub fn union(&self, target: Target, of_group: bool) -> RgbImage {
-        let of = |n: u8| {
-            (self.passes.iter())
-                .any(|p| p.number == n && p.target == target && (!of_group || p.fate.kept()))
-        };
+        let of =
+            |n: u8| (self.passes.iter()).any(|p| p.number == n && p.target == target && (!of_group || p.fate.kept()));
         let wanted: [bool; 256] = std::array::from_fn(|n| of(n as u8));
         self.on_white(|label| wanted[usize::from(label)])
     }

@@ -43,11 +43,7 @@ impl ColourSpec {
     /// The paper's parameters with what hazy pictures need: dehazed, and dropped patterns given back.
     #[must_use]
     pub fn for_haze() -> Self {
-        Self {
-            give_back: true,
-            dehaze: true,
-            ..Self::default()
-        }
+        Self { give_back: true, dehaze: true, ..Self::default() }
     }
 }
 
@@ -87,10 +83,7 @@ impl ColourSpec {
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
         match self.fault() {
             None => Ok(()),
-            Some((field, problem)) => Err(RobotError::Invalid {
-                field: format!("{path}.{field}"),
-                problem,
-            }),
+            Some((field, problem)) => Err(RobotError::Invalid { field: format!("{path}.{field}"), problem }),
         }
     }
 
@@ -185,18 +178,8 @@ impl VerifierSpec {
         let most = [
             ("least_dye", self.least_dye, self.most_dye, "most_dye, "),
             ("least_redness", self.least_redness, Fraction::new(1.0), ""),
-            (
-                "least_source",
-                self.least_source,
-                self.most_source,
-                "most_source, ",
-            ),
-            (
-                "least_contrast",
-                self.least_contrast,
-                Fraction::new(1.0),
-                "",
-            ),
+            ("least_source", self.least_source, self.most_source, "most_source, "),
+            ("least_contrast", self.least_contrast, Fraction::new(1.0), ""),
         ];
         for (field, least, most, name) in most {
             let (least, most) = (least.get(), most.get());
@@ -224,22 +207,10 @@ mod tests {
             spec.check("colours").unwrap_err().to_string()
         };
         for (said, field) in [
-            (
-                of(&|s| s.alpha1 = NonNegative::new(200.0)),
-                "colours.alpha1: must be below alpha2 (200), got 200",
-            ),
-            (
-                of(&|s| s.alpha2 = Positive::new(256.0)),
-                "colours.alpha2: must be at most 255",
-            ),
-            (
-                of(&|s| s.rho_m = Positive::new(255.0)),
-                "colours.rho_m: must be below 255",
-            ),
-            (
-                of(&|s| s.epsilon = Positive::new(300.0)),
-                "colours.epsilon: must be at most 255",
-            ),
+            (of(&|s| s.alpha1 = NonNegative::new(200.0)), "colours.alpha1: must be below alpha2 (200), got 200"),
+            (of(&|s| s.alpha2 = Positive::new(256.0)), "colours.alpha2: must be at most 255"),
+            (of(&|s| s.rho_m = Positive::new(255.0)), "colours.rho_m: must be below 255"),
+            (of(&|s| s.epsilon = Positive::new(300.0)), "colours.epsilon: must be at most 255"),
             (of(&|s| s.plume_passes = 57), "from 1 to 60, got 61"),
         ] {
             assert!(said.contains(field), "{said}");
@@ -262,9 +233,6 @@ mod tests {
             of(&|s| s.least_contrast = Positive::new(1.5)),
             "v.least_contrast: must be above 0 and at most 1, got 1.5"
         );
-        assert_eq!(
-            of(&|s| s.colours.alpha2 = Positive::new(300.0)),
-            "v.colours.alpha2: must be at most 255, got 300"
-        );
+        assert_eq!(of(&|s| s.colours.alpha2 = Positive::new(300.0)), "v.colours.alpha2: must be at most 255, got 300");
     }
 }

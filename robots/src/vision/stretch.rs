@@ -67,14 +67,8 @@ mod tests {
 
     #[test]
     fn each_colour_comes_to_the_whole_range_by_itself() {
-        let got = stretched(&picture(
-            3,
-            &[[100, 60, 0], [150, 60, 254], [200, 160, 127]],
-        ));
-        assert_eq!(
-            got,
-            picture(3, &[[0, 0, 0], [127, 0, 254], [254, 254, 127]])
-        );
+        let got = stretched(&picture(3, &[[100, 60, 0], [150, 60, 254], [200, 160, 127]]));
+        assert_eq!(got, picture(3, &[[0, 0, 0], [127, 0, 254], [254, 254, 127]]));
     }
 
     /// Levels 3 apart are spread by 8 about the middle, 127: 24 apart.
@@ -87,10 +81,7 @@ mod tests {
 
     #[test]
     fn white_stays_white_and_nothing_becomes_it() {
-        let got = stretched(&picture(
-            4,
-            &[WHITE, [10, 10, 10], [250, 250, 250], [90, 80, 70]],
-        ));
+        let got = stretched(&picture(4, &[WHITE, [10, 10, 10], [250, 250, 250], [90, 80, 70]]));
         assert_eq!(got.get_pixel(0, 0).0, WHITE);
         assert_eq!(got.pixels().filter(|p| p.0 == WHITE).count(), 1);
         assert_eq!(stretched(&RgbImage::new(0, 0)).len(), 0);

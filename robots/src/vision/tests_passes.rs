@@ -17,37 +17,20 @@ fn numbers(s: &Segmentation) -> Vec<u8> {
 #[test]
 fn by_hand() {
     let p = picture(3, &[DYE, BODY, WATER, WATER, DYE, WATER]);
-    let one = ColourSpec {
-        plume_passes: 1,
-        source_passes: 1,
-        ..ColourSpec::default()
-    };
+    let one = ColourSpec { plume_passes: 1, source_passes: 1, ..ColourSpec::default() };
     let s = segment(&p, &one);
     assert_eq!(numbers(&s), [1, 2, 0, 0, 1, 0]);
     assert_eq!(s.passes[0].pattern.rgb, DYE);
     assert_eq!((s.passes[0].pixels, s.passes[1].pixels), (2, 1));
-    assert_eq!(
-        s.left(),
-        picture(3, &[WHITE, WHITE, WATER, WATER, WHITE, WATER])
-    );
-    assert_eq!(
-        s.taken_by(1),
-        picture(3, &[DYE, WHITE, WHITE, WHITE, DYE, WHITE])
-    );
+    assert_eq!(s.left(), picture(3, &[WHITE, WHITE, WATER, WATER, WHITE, WATER]));
+    assert_eq!(s.taken_by(1), picture(3, &[DYE, WHITE, WHITE, WHITE, DYE, WHITE]));
     // With the paper's three passes red takes also the body and the water, and nothing is left for the source; the
     // clusters then drop both.
     let s = segment(&p, &ColourSpec::default());
     assert_eq!(numbers(&s), [1, 2, 3, 3, 1, 3]);
     assert_eq!(s.passes.len(), 3);
-    assert_eq!(
-        s.passes.iter().map(|p| p.pixels).collect::<Vec<_>>(),
-        [2, 1, 3]
-    );
-    let kept: Vec<u8> = s
-        .mask(Target::Plume, true)
-        .pixels()
-        .map(|p| p.0[0])
-        .collect();
+    assert_eq!(s.passes.iter().map(|p| p.pixels).collect::<Vec<_>>(), [2, 1, 3]);
+    let kept: Vec<u8> = s.mask(Target::Plume, true).pixels().map(|p| p.0[0]).collect();
     assert_eq!(kept, [255, 0, 0, 0, 255, 0]);
 }
 
@@ -55,10 +38,7 @@ fn by_hand() {
 #[test]
 fn what_the_clusters_drop_can_be_given_back() {
     let p = picture(3, &[DYE, BODY, WATER, WATER, DYE, WATER]);
-    let spec = ColourSpec {
-        give_back: true,
-        ..ColourSpec::default()
-    };
+    let spec = ColourSpec { give_back: true, ..ColourSpec::default() };
     let s = segment(&p, &spec);
     assert_eq!(numbers(&s), [1, 4, 5, 5, 1, 5]);
     let kept: Vec<bool> = s.passes.iter().map(|p| p.fate.kept()).collect();

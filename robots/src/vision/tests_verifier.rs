@@ -25,10 +25,7 @@ fn judge(parts: &[([u32; 4], [u8; 3])]) -> Sighting {
 #[test]
 fn a_body_in_its_dye_is_verified_and_found() {
     let got = judge(&[([60, 50, 80, 20], DYE), ([40, 50, 20, 30], BODY)]);
-    assert!(
-        got.verified && got.score >= 1.0 && got.lacks.is_none(),
-        "{got:?}"
-    );
+    assert!(got.verified && got.score >= 1.0 && got.lacks.is_none(), "{got:?}");
     let patch = got.source.unwrap();
     assert_eq!((patch.low_px, patch.high_px), ([40, 50], [59, 79]));
     assert_eq!(patch.centre_px, [49.5, 64.5]);
@@ -52,10 +49,7 @@ fn pictures_with_next_to_nothing_in_them_verify_nothing() {
     for (w, h) in [(0, 0), (1, 1), (1, 90), (64, 48)] {
         for colour in [[255; 3], [0; 3], DYE, BODY, WATER] {
             let got = verifier.judge(&RgbImage::from_pixel(w, h, Rgb(colour)));
-            assert!(
-                !got.verified && got.score == 0.0,
-                "{w} x {h} {colour:?}: {got:?}"
-            );
+            assert!(!got.verified && got.score == 0.0, "{w} x {h} {colour:?}: {got:?}");
         }
     }
 }
@@ -67,10 +61,7 @@ fn size_does_not_matter() {
     let small = painted(&[([60, 50, 80, 20], DYE), ([40, 50, 20, 30], BODY)]);
     let large = image::imageops::resize(&small, 320, 240, image::imageops::FilterType::Nearest);
     let verifier = Verifier::new(&VerifierSpec {
-        colours: crate::vision::ColourSpec {
-            give_back: true,
-            ..Default::default()
-        },
+        colours: crate::vision::ColourSpec { give_back: true, ..Default::default() },
         // What is painted has sharp edges, which show only in the larger one.
         most_edge: Fraction::new(1.0),
         ..VerifierSpec::default()
@@ -83,20 +74,12 @@ fn size_does_not_matter() {
 /// A thing on a bed: discs (middle, radius, colour) in water over sand, 320 × 240, with the grain of a camera.
 fn drawn(discs: &[([f64; 2], f64, [u8; 3])]) -> RgbImage {
     RgbImage::from_fn(320, 240, |x, y| {
-        let at =
-            |[cx, cy]: [f64; 2]| Vector2::new(f64::from(x) - cx, (f64::from(y) - cy) * 1.3).norm();
+        let at = |[cx, cy]: [f64; 2]| Vector2::new(f64::from(x) - cx, (f64::from(y) - cy) * 1.3).norm();
         let disc = discs.iter().rev().find(|(c, r, _)| at(*c) < *r);
-        let bed = if y < 110 {
-            [44, 124, 140]
-        } else {
-            [113, 138, 124]
-        };
-        let grain =
-            (x.wrapping_mul(7919) ^ y.wrapping_mul(104_729)).wrapping_mul(2_654_435_761) >> 29;
+        let bed = if y < 110 { [44, 124, 140] } else { [113, 138, 124] };
+        let grain = (x.wrapping_mul(7919) ^ y.wrapping_mul(104_729)).wrapping_mul(2_654_435_761) >> 29;
         let light = f64::from(y) / 12.0 - 10.0 + f64::from(grain);
-        Rgb(disc
-            .map_or(bed, |(_, _, c)| *c)
-            .map(|v| (f64::from(v) + light) as u8))
+        Rgb(disc.map_or(bed, |(_, _, c)| *c).map(|v| (f64::from(v) + light) as u8))
     })
 }
 
@@ -117,10 +100,7 @@ fn corals_turtles_and_stones_are_no_source() {
         ([160.0, 145.0], 40.0, [52, 50, 40]),
         ([235.0, 150.0], 22.0, [128, 108, 70]),
     ]);
-    let stone = drawn(&[
-        ([160.0, 160.0], 66.0, [87, 93, 92]),
-        ([150.0, 145.0], 36.0, [107, 112, 110]),
-    ]);
+    let stone = drawn(&[([160.0, 160.0], 66.0, [87, 93, 92]), ([150.0, 145.0], 36.0, [107, 112, 110])]);
     let any_red = VerifierSpec {
         least_red: Fraction::new(0.0),
         most_yellow: Fraction::new(1.0),

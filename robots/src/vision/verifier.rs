@@ -125,21 +125,11 @@ impl Verifier {
     pub fn weigh(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
         let even = levelled(picture);
         let look = DyeLook::new(picture, &even, dye);
-        let seen = if self.spec.colours.dehaze {
-            &even
-        } else {
-            picture
-        };
+        let seen = if self.spec.colours.dehaze { &even } else { picture };
         self.graded(seen, dye, body, look)
     }
 
-    fn graded(
-        &self,
-        picture: &RgbImage,
-        dye: &GrayImage,
-        body: &GrayImage,
-        look: DyeLook,
-    ) -> Sighting {
+    fn graded(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage, look: DyeLook) -> Sighting {
         let spec = &self.spec;
         let (w, h) = picture.dimensions();
         let all = (f64::from(w) * f64::from(h)).max(1.0);
@@ -149,19 +139,13 @@ impl Verifier {
         let within = |share: f64, most: f64| if share > most { 0.0 } else { f64::INFINITY };
         let stands_out = redness / spec.least_redness.get();
         // Where redness grows outwards, that is no edge of dye.
-        let softest = look
-            .edge
-            .is_some_and(|e| (0.0..=spec.soft_edge.get()).contains(&e));
-        let hue =
-            look.red >= spec.least_red.get() && (softest || look.yellow <= spec.most_yellow.get());
+        let softest = look.edge.is_some_and(|e| (0.0..=spec.soft_edge.get()).contains(&e));
+        let hue = look.red >= spec.least_red.get() && (softest || look.yellow <= spec.most_yellow.get());
         let soft = look.edge.is_none_or(|e| e <= spec.most_edge.get());
         let unless = |fine: bool| if fine { f64::INFINITY } else { 0.0 };
         let of_dye = [
             (Lack::Dye, dye_share / spec.least_dye.get()),
-            (
-                Lack::Redness,
-                stands_out.min(within(dye_share, spec.most_dye.get())),
-            ),
+            (Lack::Redness, stands_out.min(within(dye_share, spec.most_dye.get()))),
             (Lack::Hue, unless(hue)),
             (Lack::Edge, unless(soft)),
         ];
@@ -177,10 +161,7 @@ impl Verifier {
             let near = p.gap.is_some_and(|g| g <= spec.reach.get());
             [
                 (Lack::Source, p.share / spec.least_source.get()),
-                (
-                    Lack::Contrast,
-                    stands_out.min(within(p.share, spec.most_source.get())),
-                ),
+                (Lack::Contrast, stands_out.min(within(p.share, spec.most_source.get()))),
                 (Lack::Contact, unless(near)),
             ]
         };
@@ -191,9 +172,7 @@ impl Verifier {
             })
             // Of equal ones the first, which is the largest.
             .reduce(|a, b| if b.0.1 > a.0.1 { b } else { a });
-        let of_body = best
-            .as_ref()
-            .map_or((Lack::Source, 0.0), |(grade, _)| *grade);
+        let of_body = best.as_ref().map_or((Lack::Source, 0.0), |(grade, _)| *grade);
         let (lack, score) = least(&[&of_dye[..], &[of_body]].concat());
         let verified = score >= 1.0;
         let patch = best.map(|(_, p)| p);
@@ -227,9 +206,7 @@ struct Patch {
 
 /// The worst of some grades; of equal ones the first.
 fn least(grades: &[(Lack, f64)]) -> (Lack, f64) {
-    (grades.iter().copied())
-        .reduce(|a, b| if b.1 < a.1 { b } else { a })
-        .expect("there are some")
+    (grades.iter().copied()).reduce(|a, b| if b.1 < a.1 { b } else { a }).expect("there are some")
 }
 
 /// Share of red in a pixel's recorded light; a third for black.
@@ -260,10 +237,8 @@ fn contrast(picture: &RgbImage, body: &GrayImage, patch: &Blob) -> f64 {
     let size = [0, 1].map(|k| patch.high_px[k] - patch.low_px[k] + 1);
     let low = [0, 1].map(|k| patch.low_px[k].saturating_sub(size[k].div_ceil(2)));
     let (w, h) = picture.dimensions();
-    let high = [
-        (patch.high_px[0] + size[0].div_ceil(2)).min(w - 1),
-        (patch.high_px[1] + size[1].div_ceil(2)).min(h - 1),
-    ];
+    let high =
+        [(patch.high_px[0] + size[0].div_ceil(2)).min(w - 1), (patch.high_px[1] + size[1].div_ceil(2)).min(h - 1)];
     let (mut sum, mut n) = ([0.0; 2], [0_u64; 2]);
     for y in low[1]..=high[1] {
         for x in low[0]..=high[0] {
@@ -280,13 +255,7 @@ fn contrast(picture: &RgbImage, body: &GrayImage, patch: &Blob) -> f64 {
 
 /// Pixels from the patch's frame to the nearest of the mask; `None` if it is empty.
 fn gap(mask: &GrayImage, patch: &Blob) -> Option<f64> {
-    let off = |v: u32, k: usize| {
-        f64::from(
-            patch.low_px[k]
-                .saturating_sub(v)
-                .max(v.saturating_sub(patch.high_px[k])),
-        )
-    };
+    let off = |v: u32, k: usize| f64::from(patch.low_px[k].saturating_sub(v).max(v.saturating_sub(patch.high_px[k])));
     (mask.enumerate_pixels().filter(|(_, _, m)| m.0[0] > 0))
         .map(|(x, y, _)| {
             let d = [off(x, 0), off(y, 1)];

@@ -62,8 +62,7 @@ pub(super) fn bytes(s: &str) -> Result<f64, String> {
     }
 }
 
-const EXAMPLES: &str =
-    "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` has examples.";
+const EXAMPLES: &str = "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` has examples.";
 
 const AFTER: &str = "\
 Examples:
@@ -180,12 +179,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "ENDPOINT", conflicts_with = "no_zenoh")]
     pub zenoh_listen: Option<String>,
     /// After the run, keep answering subscribers for this long.
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        default_value_t = 0.0,
-        conflicts_with = "no_zenoh"
-    )]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, conflicts_with = "no_zenoh")]
     pub zenoh_linger: f64,
     /// ROS 2.
     #[command(flatten)]

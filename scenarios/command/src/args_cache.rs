@@ -22,13 +22,7 @@ pub struct CacheArgs {
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct CachePlace {
     /// Folder of the kept spin-ups [default: `rheotaxis` in your cache folder].
-    #[arg(
-        long = "cache",
-        value_name = "DIR",
-        env = "RHEOTAXIS_CACHE",
-        global = true,
-        hide_short_help = true
-    )]
+    #[arg(long = "cache", value_name = "DIR", env = "RHEOTAXIS_CACHE", global = true, hide_short_help = true)]
     pub dir: Option<PathBuf>,
     /// The most that the folder may hold, such as 500M or 10G. What was not used for longest goes first.
     #[arg(
@@ -56,11 +50,7 @@ pub struct CachePlace {
 
 impl Default for CachePlace {
     fn default() -> Self {
-        Self {
-            dir: None,
-            size: MOST as f64,
-            from: LEAST.as_secs_f64(),
-        }
+        Self { dir: None, size: MOST as f64, from: LEAST.as_secs_f64() }
     }
 }
 
@@ -103,10 +93,8 @@ RHEOTAXIS_NO_CACHE=1, does without.";
 
 /// Arguments of `cache`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    after_help = "Examples:\n  rheotaxis cache\n  rheotaxis cache clear\n  \
-        RHEOTAXIS_CACHE=/scratch/plumes RHEOTAXIS_CACHE_SIZE=20G rheotaxis run duck_st"
-)]
+#[command(after_help = "Examples:\n  rheotaxis cache\n  rheotaxis cache clear\n  \
+        RHEOTAXIS_CACHE=/scratch/plumes RHEOTAXIS_CACHE_SIZE=20G rheotaxis run duck_st")]
 pub struct CacheCommandArgs {
     /// What to do [default: show the folder, what it holds, and its bound].
     #[command(subcommand)]

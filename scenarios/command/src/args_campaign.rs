@@ -111,9 +111,7 @@ Exit codes: 0 the share is done; 75 stopped (the same command continues); 1 erro
 
 /// Arguments of `campaign status`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    after_help = "Exit codes: 0 all runs are done; 75 some are left; 1 error; 2 wrong usage."
-)]
+#[command(after_help = "Exit codes: 0 all runs are done; 75 some are left; 1 error; 2 wrong usage.")]
 pub struct StatusArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
@@ -136,10 +134,8 @@ pub struct MergeArgs {
 
 /// Arguments of `campaign rerun`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or an error; \
-        130 interrupted; 2 wrong usage."
-)]
+#[command(after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or an error; \
+        130 interrupted; 2 wrong usage.")]
 pub struct RerunArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]

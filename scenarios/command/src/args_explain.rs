@@ -2,15 +2,13 @@
 
 /// Arguments of `explain`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    after_help = "Examples:\n  rheotaxis explain water.currents.Meander\n  \
+#[command(after_help = "Examples:\n  rheotaxis explain water.currents.Meander\n  \
         rheotaxis explain robots.strategy.reacquire\n  \
         rheotaxis explain 'robots[0].strategy.Amp.reacquire.Bowtie'\n  \
         rheotaxis explain campaign.conditions\n  \
         rheotaxis explain vehicle.hydrodynamics\n  \
         rheotaxis explain track.csv\n\n\
-        Exit codes: 0 explained; 1 there is no such path, and the nearest ones are shown; 2 wrong usage."
-)]
+        Exit codes: 0 explained; 1 there is no such path, and the nearest ones are shown; 2 wrong usage.")]
 pub struct ExplainArgs {
     /// Path of a field or variant, such as `robots[0].strategy.reacquire` or `campaign.arms`, or name of a table.
     #[arg(value_name = "PATH")]

@@ -4,10 +4,8 @@ use std::path::PathBuf;
 
 /// Arguments of `init`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron\n  \
-        rheotaxis init --gantry ."
-)]
+#[command(after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron\n  \
+        rheotaxis init --gantry .")]
 pub struct InitArgs {
     /// Name of a scenario that comes with the program.
     pub template: Option<String>,

@@ -16,12 +16,7 @@ pub struct PictureArgs {
     #[arg(long, value_name = "EAST,NORTH,UP", allow_hyphen_values = true)]
     pub at: Numbers<3>,
     /// Direction of view: compass heading and angle below the horizon, degrees.
-    #[arg(
-        long,
-        value_name = "HEADING,DOWN",
-        default_value = "0,20",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "HEADING,DOWN", default_value = "0,20", allow_hyphen_values = true)]
     pub look: Numbers<2>,
     /// File for the picture (PNG).
     #[arg(long, value_name = "FILE", default_value = "picture.png")]

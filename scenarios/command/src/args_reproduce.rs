@@ -7,14 +7,12 @@ use studies::reproduce::Row;
 
 /// Arguments of `reproduce`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
+#[command(after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
         rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n  \
         rheotaxis reproduce --keep docs/rows/kept --no-runs --check 0\n\n\
-        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
-)]
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage.")]
 pub struct ReproduceArgs {
     /// Names of rows, or row files of your own (RON) [default: all that come with the program].
     #[arg(value_name = "ROW")]

@@ -89,36 +89,16 @@ pub struct VehicleFlyArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.1)]
     pub every_s: f64,
     /// Depth at the start, m; its nose is to the north.
-    #[arg(
-        long,
-        value_name = "M",
-        default_value_t = 10.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "M", default_value_t = 10.0, allow_negative_numbers = true)]
     pub depth_m: f64,
     /// Roll (right side down) and pitch (nose up) at the start, degrees.
-    #[arg(
-        long,
-        value_name = "ROLL,PITCH",
-        default_value = "0,0",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "ROLL,PITCH", default_value = "0,0", allow_hyphen_values = true)]
     pub tilt_deg: Numbers<2>,
     /// Velocity through the water at the start: ahead, left, up, m/s.
-    #[arg(
-        long,
-        value_name = "AHEAD,LEFT,UP",
-        default_value = "0,0,0",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "AHEAD,LEFT,UP", default_value = "0,0,0", allow_hyphen_values = true)]
     pub velocity: Numbers<3>,
     /// Velocity of the water: east, north, up, m/s.
-    #[arg(
-        long,
-        value_name = "EAST,NORTH,UP",
-        default_value = "0,0,0",
-        allow_hyphen_values = true
-    )]
+    #[arg(long, value_name = "EAST,NORTH,UP", default_value = "0,0,0", allow_hyphen_values = true)]
     pub water: Numbers<3>,
     /// Density of the water, kg/m3.
     #[arg(long, value_name = "KG_M3", default_value_t = 1025.0)]

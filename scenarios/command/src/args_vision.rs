@@ -101,10 +101,7 @@ impl ColourArgs {
         };
         match colours.fault() {
             Some((field, problem)) => Err(format!("--{} {problem}", field.replace('_', "-"))),
-            None => Ok(VerifierSpec {
-                colours,
-                ..VerifierSpec::default()
-            }),
+            None => Ok(VerifierSpec { colours, ..VerifierSpec::default() }),
         }
     }
 }

@@ -1,8 +1,5 @@
 //! `rheotaxis cache`: shows and clears the kept spin-ups. What the other commands say of them.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "tells how long ago a file was used"
-)]
+#![allow(clippy::disallowed_methods, reason = "tells how long ago a file was used")]
 
 use super::args_cache::{CacheArgs, CacheCommand, CacheCommandArgs};
 use super::exit::Exit;
@@ -40,15 +37,8 @@ fn show(kept: &SpinUps) -> Result<String, ShelfError> {
     let shelf = kept.shelf();
     let stock = shelf.stock()?;
     let used = stock.used.and_then(|used| used.elapsed().ok());
-    let used = used.map_or_else(String::new, |ago| {
-        format!("; the last was used {} ago", duration(ago.as_secs_f64()))
-    });
-    Ok(format!(
-        "{}\n  {} of at most {}{used}",
-        shelf.dir().display(),
-        counted(&stock),
-        memory(shelf.most() as f64)
-    ))
+    let used = used.map_or_else(String::new, |ago| format!("; the last was used {} ago", duration(ago.as_secs_f64())));
+    Ok(format!("{}\n  {} of at most {}{used}", shelf.dir().display(), counted(&stock), memory(shelf.most() as f64)))
 }
 
 fn clear(kept: &SpinUps) -> Result<String, ShelfError> {
@@ -58,11 +48,7 @@ fn clear(kept: &SpinUps) -> Result<String, ShelfError> {
 }
 
 fn counted(stock: &Stock) -> String {
-    let size = if stock.bytes == 0 {
-        "0 MB".to_string()
-    } else {
-        memory(stock.bytes as f64)
-    };
+    let size = if stock.bytes == 0 { "0 MB".to_string() } else { memory(stock.bytes as f64) };
     match stock.files {
         1 => format!("1 spin-up, {size}"),
         n => format!("{n} spin-ups, {size}"),

@@ -43,15 +43,15 @@ pub(super) fn campaign(command: &CampaignCommand) -> Exit {
 
 pub(super) fn refused(error: CampaignError) -> Exit {
     let help = match &error {
-        CampaignError::Differs { .. } => Some(
-            "give another --out; or --force, which continues here and keeps the blocks that are done",
-        ),
-        CampaignError::Write { .. } => Some(
-            "blocks written before are whole; free some space or name another folder, and run again",
-        ),
-        CampaignError::Broken { .. } => Some(
-            "`rheotaxis campaign run` makes it again, unless its place is taken by something that is not a file",
-        ),
+        CampaignError::Differs { .. } => {
+            Some("give another --out; or --force, which continues here and keeps the blocks that are done")
+        }
+        CampaignError::Write { .. } => {
+            Some("blocks written before are whole; free some space or name another folder, and run again")
+        }
+        CampaignError::Broken { .. } => {
+            Some("`rheotaxis campaign run` makes it again, unless its place is taken by something that is not a file")
+        }
         _ => None,
     };
     match error {
@@ -69,17 +69,11 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     let mut campaign = load(&args.file)?;
     campaign.key = args.key.get();
     say::warnings(&campaign.notes());
-    let bar = if args.quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(0)
-    };
+    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(0) };
     bar.set_style(
-        ProgressStyle::with_template(
-            "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}",
-        )
-        .expect("the template is well formed")
-        .progress_chars("=> "),
+        ProgressStyle::with_template("{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}")
+            .expect("the template is well formed")
+            .progress_chars("=> "),
     );
     bar.set_prefix(printable(&campaign.name).into_owned());
     let (failed, share) = (AtomicU64::new(0), AtomicU64::new(0));
@@ -94,16 +88,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
             bar.set_length(runs);
             bar.set_position(done);
             bar.reset_eta();
-            let part = if shard.count > 1 {
-                format!(", share {shard}")
-            } else {
-                String::new()
-            };
-            let before = if done > 0 {
-                format!(", {done} done before")
-            } else {
-                String::new()
-            };
+            let part = if shard.count > 1 { format!(", share {shard}") } else { String::new() };
+            let before = if done > 0 { format!(", {done} done before") } else { String::new() };
             say_so(&format!(
                 "{}{part}: {}{before}; {}",
                 campaign.name,
@@ -112,9 +98,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
             ));
         }
         // Printed even with --quiet, because something damaged the folder.
-        Event::Broken(error) => {
-            bar.suspend(|| say::note(format_args!("{error}; it is done again")))
-        }
+        Event::Broken(error) => bar.suspend(|| say::note(format_args!("{error}; it is done again"))),
         Event::Ran(row) => {
             bar.inc(1);
             if let Some(error) = &row.error
@@ -168,10 +152,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     };
     let failed = failed.load(Ordering::Relaxed);
     if failed > 0 {
-        say_so(&format!(
-            "  {} failed; the column `error` of the rows says why",
-            count(failed, "run")
-        ));
+        say_so(&format!("  {} failed; the column `error` of the rows says why", count(failed, "run")));
     }
     Ok(exit)
 }
@@ -203,15 +184,9 @@ fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
         say::line(format_args!("  the first failure is run {run}: {error}"));
     }
     for error in &status.broken {
-        say::line(format_args!(
-            "  {error}; `rheotaxis campaign run` makes it again"
-        ));
+        say::line(format_args!("  {error}; `rheotaxis campaign run` makes it again"));
     }
-    Ok(if status.complete() {
-        Exit::Success
-    } else {
-        Exit::Unfinished
-    })
+    Ok(if status.complete() { Exit::Success } else { Exit::Unfinished })
 }
 
 fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
@@ -225,10 +200,7 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
         merged.declarations_path.display()
     ));
     if merged.rows < merged.of {
-        say::note(format_args!(
-            "the campaign is not complete: {} missing",
-            count(merged.of - merged.rows, "run")
-        ));
+        say::note(format_args!("the campaign is not complete: {} missing", count(merged.of - merged.rows, "run")));
     }
     Ok(Exit::Success)
 }
@@ -245,26 +217,16 @@ fn rerun(args: &RerunArgs) -> Exit {
         if !condition.is_empty() {
             what += &format!(", {condition}");
         }
-        Ok((
-            campaign.loaded(place.condition, place.arm)?,
-            place.seed,
-            (what, row),
-        ))
+        Ok((campaign.loaded(place.condition, place.arm)?, place.seed, (what, row)))
     });
     let (loaded, seed, (what, row)) = match found {
         Ok(found) => found,
         Err(error) => return refused(error),
     };
-    let out = args
-        .out
-        .clone()
-        .unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
+    let out = args.out.clone().unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
         no_record: !args.record,
-        cache: CacheArgs {
-            no_cache: true,
-            ..CacheArgs::default()
-        },
+        cache: CacheArgs { no_cache: true, ..CacheArgs::default() },
         quiet: args.quiet,
         threads: 1,
         ..RunArgs::alone(seed.number(), &args.key, Some(&out))
@@ -291,23 +253,13 @@ fn rerun(args: &RerunArgs) -> Exit {
                 Exit::Success
             }
             Some(row) if row.digest == digest => {
-                say::line(format_args!(
-                    "run {} ({what}, seed {seed}): the same digest as its row, {digest}",
-                    args.run
-                ));
+                say::line(format_args!("run {} ({what}, seed {seed}): the same digest as its row, {digest}", args.run));
                 Exit::Success
             }
             Some(row) => {
-                let theirs = if row.digest.is_empty() {
-                    "none"
-                } else {
-                    &row.digest
-                };
+                let theirs = if row.digest.is_empty() { "none" } else { &row.digest };
                 say::error(
-                    format!(
-                        "run {} has digest {digest}, but its row has {theirs}",
-                        args.run
-                    ),
+                    format!("run {} has digest {digest}, but its row has {theirs}", args.run),
                     Some("was the campaign run by another version of the program?"),
                 );
                 Exit::Error

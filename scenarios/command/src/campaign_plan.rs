@@ -35,10 +35,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     }
     let shown = conditions.min(12);
     for condition in (0..shown).filter(|_| conditions > 1) {
-        say::line(format_args!(
-            "  condition {condition}: {}",
-            campaign.condition_name(condition)
-        ));
+        say::line(format_args!("  condition {condition}: {}", campaign.condition_name(condition)));
     }
     if shown < conditions {
         say::line(format_args!("  and {} more", conditions - shown));
@@ -52,9 +49,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     ));
     if args.no_probe {
         if args.block.is_none() {
-            say::line(format_args!(
-                "  a block is what one thread does in half a minute, at most {LONGEST} runs"
-            ));
+            say::line(format_args!("  a block is what one thread does in half a minute, at most {LONGEST} runs"));
         }
         return Ok(Exit::Success);
     }
@@ -64,10 +59,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
 /// Makes the first run and prints what all will cost; with `by_cost`, also the size of the blocks, which follows from
 /// it.
 fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
-    let name = RunName {
-        seed: campaign.place(0).seed,
-        ..RunName::default()
-    };
+    let name = RunName { seed: campaign.place(0).seed, ..RunName::default() };
     let row = one_run(&campaign.loaded(0, 0)?, &name);
     if let Some(error) = row.error {
         say::error(format!("the first run fails: {error}"), None);
@@ -89,10 +81,7 @@ fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
 }
 
 fn blocks(runs: u64, block: u64) {
-    say::line(format_args!(
-        "  {} of {block} runs",
-        count(runs.div_ceil(block), "block")
-    ));
+    say::line(format_args!("  {} of {block} runs", count(runs.div_ceil(block), "block")));
 }
 
 pub(super) fn count(n: u64, what: &str) -> String {

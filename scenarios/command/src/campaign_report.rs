@@ -19,17 +19,10 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
     if let Some(arm) = args.against.as_ref().filter(|arm| !arms.contains(arm)) {
         let there = format!("the arms of this campaign: {}", arms.join(", "));
-        say::error(
-            format!("--against: there is no arm \"{arm}\""),
-            Some(&there),
-        );
+        say::error(format!("--against: there is no arm \"{arm}\""), Some(&there));
         return Exit::Error;
     }
-    let shown = if args.no_tracks {
-        Vec::new()
-    } else {
-        tracks(args, &read, &arms)
-    };
+    let shown = if args.no_tracks { Vec::new() } else { tracks(args, &read, &arms) };
     let about = About {
         name: &read.manifest.name,
         title: &spec.title,
@@ -53,10 +46,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
                 say::note(removed);
             }
             say::line(written.text);
-            say::line(format_args!(
-                "results in {}: open report.html",
-                out.display()
-            ));
+            say::line(format_args!("results in {}: open report.html", out.display()));
             Exit::Success
         }
         Err(error) => {
@@ -75,11 +65,7 @@ fn tracks(args: &ReportArgs, read: &Read, arms: &[String]) -> Vec<Shown> {
         return Vec::new();
     }
     let picks = picks(arms, &read.rows);
-    let bar = if args.quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(picks.len() as u64)
-    };
+    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(picks.len() as u64) };
     bar.set_style(
         ProgressStyle::with_template("tracks: {pos} of {len} runs made anew [{bar:30}] {eta} left")
             .expect("the template is well formed")

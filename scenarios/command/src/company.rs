@@ -16,11 +16,7 @@ pub(super) struct Company {
 
 impl Company {
     /// Starts the live state of a run, at the port of the others.
-    pub(super) fn live(
-        &mut self,
-        options: &LiveOptions,
-        meta: LiveMeta,
-    ) -> Result<Live, LiveError> {
+    pub(super) fn live(&mut self, options: &LiveOptions, meta: LiveMeta) -> Result<Live, LiveError> {
         let live = Live::start_in(&self.session, options, meta)?;
         self.session = live.session();
         Ok(live)

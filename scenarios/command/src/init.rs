@@ -16,17 +16,12 @@ pub(super) fn init(args: &InitArgs) -> Exit {
         return gantry(folder);
     }
     let Some(name) = &args.template else {
-        say::line(format_args!(
-            "Templates for `rheotaxis init TEMPLATE [PATH]`:\n"
-        ));
+        say::line(format_args!("Templates for `rheotaxis init TEMPLATE [PATH]`:\n"));
         list::scenarios();
         return Exit::Success;
     };
     let Some(found) = template(name) else {
-        say::error(
-            format!("there is no template `{name}`"),
-            Some("`rheotaxis init` lists them"),
-        );
+        say::error(format!("there is no template `{name}`"), Some("`rheotaxis init` lists them"));
         return Exit::Error;
     };
     let file_name = format!("{name}.ron");

@@ -45,8 +45,7 @@ mod version;
 pub use args::{Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs};
 pub use args_cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args_campaign::{
-    CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
-    StatusArgs,
+    CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs, StatusArgs,
 };
 pub use args_control::{ControlArgs, RerunMcapArgs};
 pub use args_explain::ExplainArgs;
@@ -55,8 +54,7 @@ pub use args_live::{ListenArgs, TopicsArgs};
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
 pub use args_vehicle::{
-    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleFlyArgs, VehicleInitArgs,
-    VehicleTrialsArgs,
+    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleFlyArgs, VehicleInitArgs, VehicleTrialsArgs,
 };
 pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;

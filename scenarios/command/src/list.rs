@@ -34,9 +34,7 @@ pub(super) fn list(args: &ListArgs) -> Exit {
 
 /// Prints the vehicles that come with the program as folders, and what each can do.
 fn shipped() {
-    say::line(
-        "Vehicles of folders, by `vehicle: Shipped(\"name\")`; your own by `vehicle: File(\"folder\")`",
-    );
+    say::line("Vehicles of folders, by `vehicle: Shipped(\"name\")`; your own by `vehicle: File(\"folder\")`");
     let reader = Beside(Path::new(""));
     for vehicle in SHIPPED {
         let spec = VehicleSpec::Shipped(vehicle.folder.into());

@@ -1,8 +1,5 @@
 //! `rheotaxis listen`: prints what runs publish over zenoh while they go.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "it waits for runs of other processes, outside any tick"
-)]
+#![allow(clippy::disallowed_methods, reason = "it waits for runs of other processes, outside any tick")]
 
 use super::args_live::ListenArgs;
 use super::exit::Exit;
@@ -50,8 +47,7 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
                 }
             }
             Ok(Some(News::Message(line))) => {
-                if let Err(error) = writeln!(std::io::stdout(), "{}", shown_json(&line.to_string()))
-                {
+                if let Err(error) = writeln!(std::io::stdout(), "{}", shown_json(&line.to_string())) {
                     // A reader that closes the pipe early (`| head`) has what it wanted.
                     let enough = error.kind() == ErrorKind::BrokenPipe;
                     return if enough { exit } else { refused(&error) };
@@ -71,9 +67,7 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
                 going.remove(&run);
             }
             Ok(Some(News::Gone(run))) => {
-                say::note(format_args!(
-                    "rheotaxis/{run} is gone and did not say that it ended"
-                ));
+                say::note(format_args!("rheotaxis/{run} is gone and did not say that it ended"));
                 going.remove(&run);
                 exit = Exit::Error;
             }
@@ -87,11 +81,8 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
 
 /// A listener as soon as there is a session, which a client's configuration gives only with a run. `None` at Ctrl-C.
 fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, LiveError> {
-    let options = ListenOptions {
-        key: args.key.clone(),
-        connect: args.connect.clone(),
-        config_file: args.zenoh_config.clone(),
-    };
+    let options =
+        ListenOptions { key: args.key.clone(), connect: args.connect.clone(), config_file: args.zenoh_config.clone() };
     let mut told = false;
     while !stop.load(Ordering::Relaxed) {
         match Listener::open(&options) {

@@ -1,8 +1,5 @@
 //! Everything that follows a run: its results, live state, progress, pace.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "pace and wall time are for people; neither enters the run"
-)]
+#![allow(clippy::disallowed_methods, reason = "pace and wall time are for people; neither enters the run")]
 
 use super::args::{RunArgs, Speed};
 use super::company::Company;
@@ -68,15 +65,7 @@ impl Onlooker {
         if cores(args) > 1 && !at_once {
             results = results.beside();
         }
-        Ok(Self {
-            results,
-            live,
-            progress,
-            plane,
-            left: None,
-            heard: BTreeMap::new(),
-            stop,
-        })
+        Ok(Self { results, live, progress, plane, left: None, heard: BTreeMap::new(), stop })
     }
 
     /// Ends the run after so many steps, as another has ended.
@@ -100,9 +89,7 @@ impl Onlooker {
         let controller = live.controller(robot, times, going)?;
         let most_s = args.control.control_wait;
         let key = controller.key();
-        self.progress.say(&format!(
-            "{robot} asks at {key}; it waits up to {most_s} s for a controller"
-        ));
+        self.progress.say(&format!("{robot} asks at {key}; it waits up to {most_s} s for a controller"));
         Ok(Some(controller))
     }
 
@@ -161,10 +148,7 @@ fn live(
     options.plane = Arc::clone(plane);
     options.control_from_anywhere = args.control.control_from_anywhere;
     if args.ros2.ros2 {
-        options.ros2 = Some(Ros2 {
-            domain: args.ros2.domain,
-            scene: Arc::clone(&scene),
-        });
+        options.ros2 = Some(Ros2 { domain: args.ros2.domain, scene: Arc::clone(&scene) });
     }
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
@@ -174,11 +158,7 @@ fn live(
         scene: Some(scene.document(run.seed.number())),
     };
     let live = company.live(&options, meta)?;
-    progress.say(&format!(
-        "live on {} under rheotaxis/{}",
-        live.endpoint(),
-        options.run_id
-    ));
+    progress.say(&format!("live on {} under rheotaxis/{}", live.endpoint(), options.run_id));
     if let Some(notice) = live.notice() {
         progress.say(notice);
     }

@@ -19,10 +19,7 @@ use world::units::Heading;
 /// Takes the picture and prints the names of the files.
 pub(super) fn picture(args: &PictureArgs) -> Exit {
     if args.truth.as_ref() == Some(&args.out) {
-        let problem = format!(
-            "--out and --truth are the same file, {}",
-            args.out.display()
-        );
+        let problem = format!("--out and --truth are the same file, {}", args.out.display());
         say::error(problem, Some("name another file for one of them"));
         return Exit::Error;
     }
@@ -69,10 +66,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         }
         let p = Vector3::new(east, north, up);
         match trial.simulation.ocean().obstacles.containing(&p) {
-            Some(solid) => Err(format!(
-                "the camera would be inside obstacle \"{}\"",
-                solid.id
-            )),
+            Some(solid) => Err(format!("the camera would be inside obstacle \"{}\"", solid.id)),
             None => Ok(p),
         }
     };
@@ -129,14 +123,10 @@ fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
         let solid = s.obstacle.map_or(0.0, |_| s.clear);
         [byte(s.plume), 0, byte(solid)]
     });
-    RgbImage::from_raw(camera.width, camera.height, bytes.collect())
-        .expect("there is a truth for every pixel")
+    RgbImage::from_raw(camera.width, camera.height, bytes.collect()).expect("there is a truth for every pixel")
 }
 
 fn write_png(path: &Path, image: &RgbImage) -> Result<(), ReportError> {
-    let png = picture_png(image).map_err(|e| ReportError::Draw {
-        path: path.to_owned(),
-        cause: e.to_string(),
-    })?;
+    let png = picture_png(image).map_err(|e| ReportError::Draw { path: path.to_owned(), cause: e.to_string() })?;
     write_whole(path, &png).map(drop)
 }

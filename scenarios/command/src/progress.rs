@@ -36,14 +36,8 @@ impl Progress {
     /// Adds its bar to those of the runs in lanes beside it.
     pub(super) fn new(loaded: &Loaded, args: &RunArgs, bars: &MultiProgress) -> Self {
         let scenario = &loaded.scenario;
-        let bar = if args.quiet {
-            ProgressBar::hidden()
-        } else {
-            bars.add(ProgressBar::new(PARTS))
-        };
-        bar.set_style(style(
-            "{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left",
-        ));
+        let bar = if args.quiet { ProgressBar::hidden() } else { bars.add(ProgressBar::new(PARTS)) };
+        bar.set_style(style("{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left"));
         let progress = Self {
             bar,
             quiet: args.quiet,
@@ -53,16 +47,11 @@ impl Progress {
             detections: 0,
             told: 0,
             declared: 0,
-            sources: (scenario.sources.iter())
-                .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
-                .collect(),
+            sources: (scenario.sources.iter()).map(|s| Vector2::new(s.east_m.get(), s.north_m.get())).collect(),
         };
         let name = printable(&progress.name).into_owned();
         progress.bar.set_prefix(name);
-        progress.say(&format!(
-            "{}: {}, seed {}",
-            progress.name, scenario.title, args.seed
-        ));
+        progress.say(&format!("{}: {}, seed {}", progress.name, scenario.title, args.seed));
         progress
     }
 
@@ -75,8 +64,7 @@ impl Progress {
 
     /// Prints a warning above the bar, also when nothing else is shown.
     pub(super) fn warn(&self, line: &str) {
-        self.bar
-            .suspend(|| say::note(format_args!("warning: {line}")));
+        self.bar.suspend(|| say::note(format_args!("warning: {line}")));
     }
 
     pub(super) fn spun_up(&mut self, share: f64) {
@@ -88,9 +76,7 @@ impl Progress {
             self.flying = true;
             self.bar.reset();
             self.bar.set_length(self.limit_s.ceil() as u64);
-            self.bar.set_style(style(
-                "{prefix} {pos:>5} s of at most {len} s [{bar:30}] {per_sec} {msg}",
-            ));
+            self.bar.set_style(style("{prefix} {pos:>5} s of at most {len} s [{bar:30}] {per_sec} {msg}"));
         }
         self.detections += frame.robots.iter().filter(|r| r.detected).count() as u64;
         self.bar.set_position(frame.t_s as u64);
@@ -127,11 +113,7 @@ impl Progress {
         let d = &g.decision;
         let away = (self.sources.iter().map(|s| (s - g.head_W.xy()).norm())).min_by(f64::total_cmp);
         let away = away.map_or_else(String::new, |m| format!(", {:.0} cm away", 100.0 * m));
-        format!(
-            "{}{away}, {:.1} spikes/s",
-            d.behaviour.name(),
-            d.working.spike_hz
-        )
+        format!("{}{away}, {:.1} spikes/s", d.behaviour.name(), d.working.spike_hz)
     }
 
     /// Removes the bar and prints how the run ended and where the results are.
@@ -183,10 +165,7 @@ impl Progress {
             }
         }
         say::line(format_args!("  digest {}", summary.digest));
-        say::line(format_args!(
-            "  results in {}: open report.html",
-            out.display()
-        ));
+        say::line(format_args!("  results in {}: open report.html", out.display()));
     }
 }
 
@@ -219,10 +198,7 @@ fn declaration(d: &DeclarationSummary) -> String {
         DeclaredKind::Source => "declared a source",
         DeclaredKind::UpFlowEdge => "traced the plume to its up-flow edge",
     };
-    said += &format!(
-        " at {:.0} m E, {:.0} m N after {:.0} s ({})",
-        at.east_m, at.north_m, d.t_s, d.rule
-    );
+    said += &format!(" at {:.0} m E, {:.0} m N after {:.0} s ({})", at.east_m, at.north_m, d.t_s, d.rule);
     if let Some(m) = d.traced_m {
         said += &format!(", {m:.0} m from the first detection");
     }
@@ -262,9 +238,7 @@ fn gantry_lines(g: &GantrySummary) -> Vec<String> {
     match (&g.declaration, g.stopped) {
         (Some(d), _) => {
             let error = d.error.as_ref();
-            let off = error.map_or_else(String::new, |e| {
-                format!(", {:.1} cm from {}", 100.0 * e.total_m, e.source)
-            });
+            let off = error.map_or_else(String::new, |e| format!(", {:.1} cm from {}", 100.0 * e.total_m, e.source));
             let parts = error.and_then(|e| Some((e.along_flow_m?, e.across_flow_m?)));
             let parts = parts.map_or_else(String::new, |(along, across)| {
                 let (along, across) = (100.0 * along, 100.0 * across);
@@ -282,7 +256,5 @@ fn gantry_lines(g: &GantrySummary) -> Vec<String> {
 }
 
 fn style(template: &str) -> ProgressStyle {
-    ProgressStyle::with_template(template)
-        .expect("the template is well formed")
-        .progress_chars("=> ")
+    ProgressStyle::with_template(template).expect("the template is well formed").progress_chars("=> ")
 }

@@ -12,8 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
 use studies::reproduce::{
-    Plan, Reference, ReproduceError, Reproduced, Table, TimeLeft, compare, reproduce, table,
-    wanted, write,
+    Plan, Reference, ReproduceError, Reproduced, Table, TimeLeft, compare, reproduce, table, wanted, write,
 };
 
 /// Runs the rows, prints their tables and writes them.
@@ -78,11 +77,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
 
 /// A line that says how many trials will be run.
 fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
-    let most = if args.until_width.is_some() {
-        "at most "
-    } else {
-        ""
-    };
+    let most = if args.until_width.is_some() { "at most " } else { "" };
     let seeds: Vec<u64> = references.iter().map(|r| args.n(&r.row)).collect();
     let alike = seeds.iter().all(|n| *n == seeds[0]);
     let row = |(r, n): (&Reference, &u64)| {
@@ -95,11 +90,7 @@ fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
         }
     };
     let rows: Vec<String> = references.iter().zip(&seeds).map(row).collect();
-    let each = if alike {
-        format!("{most}{} each, ", count(seeds[0], "seed"))
-    } else {
-        String::new()
-    };
+    let each = if alike { format!("{most}{} each, ", count(seeds[0], "seed")) } else { String::new() };
     let of_row = |(r, n): (&Reference, &u64)| (r.arms.len() as u64).saturating_mul(*n);
     let all = (references.iter().zip(&seeds).map(of_row)).fold(0, u64::saturating_add);
     format!("{}: {each}{most}{}", rows.join(", "), count(all, "trial"))
@@ -129,11 +120,7 @@ impl Work<'_> {
             };
             if !table.is_empty() {
                 if args.check > 0 && !args.quiet {
-                    say::note(format_args!(
-                        "{}: runs {} again",
-                        row.row.id,
-                        count(args.check as u64, "kept seed")
-                    ));
+                    say::note(format_args!("{}: runs {} again", row.row.id, count(args.check as u64, "kept seed")));
                 }
                 match table.stale(reference, args.check) {
                     Some(_) if args.anew => table = Table::default(),
@@ -169,14 +156,7 @@ impl Work<'_> {
 
     /// Runs row `k` until it has `seeds`, or all that it is to have.
     fn advance(&mut self, k: usize, seeds: Option<u64>) -> Result<(), ReproduceError> {
-        let Self {
-            args,
-            kept,
-            references,
-            rows,
-            tables,
-            left,
-        } = self;
+        let Self { args, kept, references, rows, tables, left } = self;
         let (kept, stop) = (kept.as_ref(), stop::listen());
         let (reference, row) = (&references[k], rows[k].clone());
         let n = args.n(&reference.row);
@@ -209,9 +189,7 @@ impl Work<'_> {
             if bar.is_hidden() && !args.quiet {
                 let (id, runs) = (&reference.row.id, count(so_far.runs.len() as u64, "trial"));
                 match left.words() {
-                    Some(left) => {
-                        say::note(format_args!("{id}: {runs} done, about {left} left in all"))
-                    }
+                    Some(left) => say::note(format_args!("{id}: {runs} done, about {left} left in all")),
                     None => say::note(format_args!("{id}: {runs} done")),
                 }
             }
@@ -231,11 +209,7 @@ impl Work<'_> {
 }
 
 fn bar(reference: &Reference, quiet: bool, length: u64, done: u64) -> ProgressBar {
-    let bar = if quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(length)
-    };
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(length) };
     bar.set_style(
         ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} runs | {msg}")
             .expect("the template is well formed")

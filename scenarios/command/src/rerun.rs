@@ -88,9 +88,7 @@ fn made(
     match &args.out {
         Some(out) => {
             let mut lanes = Lanes::default().with_threads(0);
-            lanes.add(loaded, seed, || {
-                Onlooker::new(loaded, &run, out, &mut company, stop)
-            })?;
+            lanes.add(loaded, seed, || Onlooker::new(loaded, &run, out, &mut company, stop))?;
             replay(&mut lanes, recorded)?;
             if let (Some((_, onlooker)), Some(steps)) = (lanes.newest(), steps) {
                 onlooker.end_after(steps);
@@ -99,13 +97,8 @@ fn made(
             lanes.run(|onlooker, trial| result = finished(onlooker, trial, &mut company));
         }
         None => {
-            let watch = || {
-                Ok::<_, RunError>(Again {
-                    progress: Progress::new(loaded, &run, &company.bars),
-                    left: steps,
-                    stop,
-                })
-            };
+            let watch =
+                || Ok::<_, RunError>(Again { progress: Progress::new(loaded, &run, &company.bars), left: steps, stop });
             let mut lanes = Lanes::default().with_threads(0);
             lanes.add(loaded, seed, watch)?;
             replay(&mut lanes, recorded)?;
@@ -152,16 +145,11 @@ fn compared(recorded: &Recorded, ended: &Ended) -> Exit {
     let asked = recorded.told.len();
     match &recorded.result {
         Some((digest, _)) if *digest == ended.digest => {
-            say::line(format_args!(
-                "the same run: digest {digest}, {asked} answers from outside{other}"
-            ));
+            say::line(format_args!("the same run: digest {digest}, {asked} answers from outside{other}"));
             Exit::Success
         }
         Some((digest, _)) => {
-            say::line(format_args!(
-                "another run: digest {}, recorded {digest}{other}",
-                ended.digest
-            ));
+            say::line(format_args!("another run: digest {}, recorded {digest}{other}", ended.digest));
             Exit::NotFound
         }
         None => {

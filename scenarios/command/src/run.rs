@@ -126,33 +126,21 @@ fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> 
     say::warnings(&loaded.check()?);
     let asking = controlled(&loaded.scenario);
     if !asking.is_empty() && !args.control.allow_control {
-        return Err(RunError::NotAllowed {
-            scenario: loaded.name.clone(),
-            robots: asking.join(", "),
-        });
+        return Err(RunError::NotAllowed { scenario: loaded.name.clone(), robots: asking.join(", ") });
     }
     let folder = folder(&loaded, args);
     Ok((loaded, folder))
 }
 
 /// Runs scenarios with the same ocean in lanes.
-fn together(
-    group: &[&(Loaded, PathBuf)],
-    args: &RunArgs,
-    kept: Option<&SpinUps>,
-    stop: &'static AtomicBool,
-) -> Exit {
+fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>, stop: &'static AtomicBool) -> Exit {
     let mut exit = Exit::Success;
     let mut company = Company::default();
     let mut lanes = Lanes::default().with_threads(args.threads);
     for (loaded, folder) in group {
         if !args.quiet {
             let bytes = cost::cost(&loaded.scenario).bytes();
-            say::note(format_args!(
-                "{}: takes about {} of memory",
-                loaded.name,
-                memory(bytes)
-            ));
+            say::note(format_args!("{}: takes about {} of memory", loaded.name, memory(bytes)));
         }
         let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
         let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);
@@ -180,11 +168,7 @@ fn together(
 }
 
 /// Connects the robots of the run that was added last with their controllers.
-fn controllers(
-    lanes: &mut Lanes<Onlooker>,
-    loaded: &Loaded,
-    args: &RunArgs,
-) -> Result<(), RunError> {
+fn controllers(lanes: &mut Lanes<Onlooker>, loaded: &Loaded, args: &RunArgs) -> Result<(), RunError> {
     let Some((trial, onlooker)) = lanes.newest() else {
         return Ok(());
     };

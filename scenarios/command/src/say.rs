@@ -20,10 +20,7 @@ fn look() -> Look {
     if !terminal.is_term() {
         return PLAIN;
     }
-    Look {
-        color: colors_enabled_stderr(),
-        width: Some(terminal.size().1.into()),
-    }
+    Look { color: colors_enabled_stderr(), width: Some(terminal.size().1.into()) }
 }
 
 /// Prints each mistake of a scenario to standard error.
@@ -37,11 +34,7 @@ pub(super) fn scenario_error(error: &ScenarioError) {
 pub(super) fn columns() -> Option<usize> {
     let terminal = Term::stdout();
     let told = || std::env::var("COLUMNS").ok()?.trim().parse().ok();
-    let columns = if terminal.is_term() {
-        terminal.size_checked().map(|(_, wide)| wide.into())
-    } else {
-        told()
-    };
+    let columns = if terminal.is_term() { terminal.size_checked().map(|(_, wide)| wide.into()) } else { told() };
     columns.filter(|n| *n > 0)
 }
 
@@ -109,13 +102,8 @@ pub(super) fn usage(said: &clap::Error) -> u8 {
 
 /// Names the files of an earlier run that were removed from a folder, if there were any.
 pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
-    (!names.is_empty()).then(|| {
-        format!(
-            "removed from {} what an earlier run left: {}",
-            folder.display(),
-            names.join(", ")
-        )
-    })
+    (!names.is_empty())
+        .then(|| format!("removed from {} what an earlier run left: {}", folder.display(), names.join(", ")))
 }
 
 /// Prints mistakes or warnings about a scenario to standard error.

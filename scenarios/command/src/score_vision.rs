@@ -32,18 +32,9 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     if let Some(removed) = say::removed(&args.out, out.removed()) {
         say::note(removed);
     }
-    let bar = if args.quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(args.scenes)
-    };
-    let style =
-        ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} scenes, {eta} left");
-    bar.set_style(
-        style
-            .expect("the template is well formed")
-            .progress_chars("=> "),
-    );
+    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(args.scenes) };
+    let style = ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} scenes, {eta} left");
+    bar.set_style(style.expect("the template is well formed").progress_chars("=> "));
     bar.set_prefix("score-vision");
     bar.enable_steady_tick(Duration::from_millis(500));
     let plan = ScenePlan {
@@ -54,23 +45,15 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     };
     let unsaved = Mutex::new(Vec::new());
     let [w, h] = plan.size_px;
-    let rows = score(
-        args.seed,
-        args.scenes,
-        SizePx(w, h),
-        &plan.verifier,
-        args.jobs,
-        stop::listen(),
-        |scene, shot| {
-            bar.inc(1);
-            if scene.n < args.pictures
-                && let Err(error) = save(&out, scene, shot)
-            {
-                let mut unsaved = unsaved.lock().expect("nobody panics with it");
-                unsaved.push(error);
-            }
-        },
-    );
+    let rows = score(args.seed, args.scenes, SizePx(w, h), &plan.verifier, args.jobs, stop::listen(), |scene, shot| {
+        bar.inc(1);
+        if scene.n < args.pictures
+            && let Err(error) = save(&out, scene, shot)
+        {
+            let mut unsaved = unsaved.lock().expect("nobody panics with it");
+            unsaved.push(error);
+        }
+    });
     bar.finish_and_clear();
     let rows = rows?;
     say::line(table(&rows));

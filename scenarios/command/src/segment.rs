@@ -21,10 +21,7 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
     match &args.images[..] {
         [image] => one(image, args.out.as_ref(), spec),
         _ if args.out.is_some() => {
-            say::error(
-                "--out: of several pictures only the verdicts are printed",
-                None,
-            );
+            say::error("--out: of several pictures only the verdicts are printed", None);
             Exit::Error
         }
         images => several(images, &spec),
@@ -67,14 +64,11 @@ fn one(image: &Path, out: Option<&PathBuf>, spec: VerifierSpec) -> Exit {
             return Exit::Error;
         }
     };
-    let part = |p: Option<&std::ffi::OsStr>| {
-        p.map_or("picture".to_string(), |s| s.to_string_lossy().into_owned())
-    };
+    let part = |p: Option<&std::ffi::OsStr>| p.map_or("picture".to_string(), |s| s.to_string_lossy().into_owned());
     let segmented = Segmented::new(part(image.file_name()), picture, spec);
     say::line(table(&segmented));
-    let folder = out.cloned().unwrap_or_else(|| {
-        PathBuf::from("runs").join(format!("{}-segmented", part(image.file_stem())))
-    });
+    let folder =
+        out.cloned().unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-segmented", part(image.file_stem()))));
     let written = begin_folder(&folder, "segment").and_then(|out| {
         if let Some(removed) = say::removed(&folder, out.removed()) {
             say::note(removed);

@@ -4,10 +4,7 @@
 /// Otherwise the signal SIGXFSZ ends the process.
 #[cfg(unix)]
 pub(super) fn ignore_limits() {
-    #[allow(
-        unsafe_code,
-        reason = "no safe function ignores a signal; to ignore one runs no code of ours in a handler"
-    )]
+    #[allow(unsafe_code, reason = "no safe function ignores a signal; to ignore one runs no code of ours in a handler")]
     // SAFETY: SIG_IGN is a disposition that any signal but SIGKILL and SIGSTOP may have.
     unsafe {
         libc::signal(libc::SIGXFSZ, libc::SIG_IGN);

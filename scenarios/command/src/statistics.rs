@@ -28,27 +28,23 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
         }
     };
     // First, so that an error does not come after minutes of work.
-    let folder = args.out.clone().unwrap_or_else(|| {
-        PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed))
-    });
+    let folder = args
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed)));
     if let Err(error) = make_folder(&folder) {
         say::error(error, None);
         return Exit::Error;
     }
     let stop = stop::listen();
-    let bar = if args.quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(PARTS)
-    };
+    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(PARTS) };
     let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
     bar.set_style(style.expect("the template is well formed"));
     bar.set_prefix(printable(&loaded.name).into_owned());
-    let measured =
-        statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
-            bar.set_position((share * PARTS as f64) as u64);
-            !stop.load(Ordering::Relaxed)
-        });
+    let measured = statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
+        bar.set_position((share * PARTS as f64) as u64);
+        !stop.load(Ordering::Relaxed)
+    });
     bar.finish_and_clear();
     let measured = match measured {
         Ok(measured) => measured,

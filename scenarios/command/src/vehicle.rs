@@ -1,8 +1,6 @@
 //! `rheotaxis vehicle`: checks a vehicle of a folder, draws it, and runs its trials.
 
-use super::args_vehicle::{
-    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs,
-};
+use super::args_vehicle::{VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs};
 use super::exit::Exit;
 use super::say;
 use super::vehicle_fly::flown;
@@ -11,9 +9,7 @@ use output::files::{beside_no_run, write_whole};
 use rheotaxis::scenario::Beside;
 use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Does};
-use robots::vehicles::{
-    CATALOGUE, Craft, Described, KinematicSpec, RemusSpec, SHIPPED, Shipped, VehicleSpec,
-};
+use robots::vehicles::{CATALOGUE, Craft, Described, KinematicSpec, RemusSpec, SHIPPED, Shipped, VehicleSpec};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, has_rudder, trials};
@@ -61,17 +57,11 @@ fn spec(folder: &Path) -> Result<VehicleSpec, Wrong> {
         _ => {
             return Err((
                 format!("{name}: there is no such folder, and no such vehicle comes with the program"),
-                Some(format!(
-                    "vehicles that come with the program: remus100, kinematic, {}",
-                    names()
-                )),
+                Some(format!("vehicles that come with the program: remus100, kinematic, {}", names())),
             ));
         }
     };
-    Err((
-        format!("{name} is a word of scenario files and no vehicle by itself"),
-        Some(hint),
-    ))
+    Err((format!("{name} is a word of scenario files and no vehicle by itself"), Some(hint)))
 }
 
 fn names() -> String {
@@ -94,9 +84,7 @@ pub(super) fn loaded(folder: &Path) -> Result<Craft, Wrong> {
 
 /// A name for files, from a folder.
 fn stem(folder: &Path) -> String {
-    folder
-        .file_name()
-        .map_or("vehicle".into(), |n| n.to_string_lossy().into_owned())
+    folder.file_name().map_or("vehicle".into(), |n| n.to_string_lossy().into_owned())
 }
 
 fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
@@ -113,8 +101,7 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
         return Ok(());
     };
     print(vehicle);
-    let out =
-        (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
+    let out = (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
     let svg = drawn(&looks(vehicle));
     if out.extension().is_some_and(|e| e == "png") {
         write_whole(&out, &png(&svg).map_err(plainly)?).map_err(plainly)?;
@@ -137,9 +124,7 @@ fn print(vehicle: &Described) {
     let able = vehicle.capabilities();
     let [rigid, whole] = [vehicle.mass_kg(), plant.mass[(0, 0)]];
     say::line(vehicle.name());
-    say::line(format_args!(
-        "  mass                    {rigid:.3} kg, {whole:.3} kg with the water that surges along"
-    ));
+    say::line(format_args!("  mass                    {rigid:.3} kg, {whole:.3} kg with the water that surges along"));
     say::line(format_args!(
         "  weight less buoyancy    {:.2} N in water of 1025 kg/m3, or of the density of its file",
         plant.heavy_n
@@ -159,29 +144,14 @@ fn print(vehicle: &Described) {
         let (does, acts) = match &drive.does {
             Does::Pushes(_, table) => {
                 let [astern, ahead] = table.thrusts_n();
-                (
-                    format!(
-                        "thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}"
-                    ),
-                    "pushes along",
-                )
+                (format!("thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}"), "pushes along")
             }
             Does::Lifts(_) => (
-                format!(
-                    "fin, {:.1} to {:.1} degrees",
-                    least.to_degrees(),
-                    most.to_degrees()
-                ),
+                format!("fin, {:.1} to {:.1} degrees", least.to_degrees(), most.to_degrees()),
                 "a positive angle pushes along",
             ),
-            Does::Swells(_) => (
-                format!("buoyancy engine, {least} to {most} m3"),
-                "a positive volume lifts along",
-            ),
-            Does::Shifts(_, kg) => (
-                format!("moving mass of {kg} kg, {least} to {most} m"),
-                "slides along",
-            ),
+            Does::Swells(_) => (format!("buoyancy engine, {least} to {most} m3"), "a positive volume lifts along"),
+            Does::Shifts(_, kg) => (format!("moving mass of {kg} kg, {least} to {most} m"), "slides along"),
         };
         say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
         let place = vehicle.mount(link).map_or(way, |pose| pose.p_WB);
@@ -201,10 +171,7 @@ fn period(righting: f64, inertia: f64) -> String {
     if righting <= 0.0 {
         return "none".into();
     }
-    format!(
-        "{:.2} s",
-        std::f64::consts::TAU * (inertia / righting).sqrt()
-    )
+    format!("{:.2} s", std::f64::consts::TAU * (inertia / righting).sqrt())
 }
 
 /// What a vehicle can do, a line each.
@@ -231,9 +198,7 @@ fn looks(vehicle: &Described) -> Looks {
         name: vehicle.name().to_string(),
         shapes: vehicle.visuals().to_vec(),
         centres: vehicle.centres(),
-        drives: (vehicle.acting().enumerate())
-            .map(|(k, (at, way))| (at, way, k + 1))
-            .collect(),
+        drives: (vehicle.acting().enumerate()).map(|(k, (at, way))| (at, way, k + 1)).collect(),
     }
 }
 
@@ -241,31 +206,19 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
     beside_no_run(&args.out.join("trials.csv")).map_err(plainly)?;
     let craft = loaded(&args.folder)?;
     let name = title(&craft);
-    say::line(format_args!(
-        "{name}: trials in water of 1025 kg/m3, steps of 0.02 s"
-    ));
+    say::line(format_args!("{name}: trials in water of 1025 kg/m3, steps of 0.02 s"));
     let all = trials(&craft);
-    let is_lost = |trial: &&Trial| {
-        trial
-            .found
-            .iter()
-            .any(|f| f.value.is_some_and(|v| !v.is_finite()))
-    };
+    let is_lost = |trial: &&Trial| trial.found.iter().any(|f| f.value.is_some_and(|v| !v.is_finite()));
     if let Some(trial) = all.iter().find(is_lost) {
         return Err((
-            format!(
-                "{}: the state of {name} is not a number any more: a force on it is too great",
-                trial.name
-            ),
+            format!("{}: the state of {name} is not a number any more: a force on it is too great", trial.name),
             Some("look at masses, damping and drives in its folder".into()),
         ));
     }
     for trial in &all {
         say::line(trial.name);
         for found in &trial.found {
-            let value = found.value.map_or("not reached".to_string(), |v| {
-                format!("{v:.3} {}", found.unit)
-            });
+            let value = found.value.map_or("not reached".to_string(), |v| format!("{v:.3} {}", found.unit));
             say::line(format_args!("  {:<42} {value}", found.what));
         }
     }
@@ -295,8 +248,7 @@ fn table(trials: &[Trial]) -> String {
         for found in &trial.found {
             let value = found.value.map_or(String::new(), |v| v.to_string());
             let what = found.what.replace(',', ";");
-            writeln!(text, "{},{what},{value},{}", trial.name, found.unit)
-                .expect("writing to a String succeeds");
+            writeln!(text, "{},{what},{value},{}", trial.name, found.unit).expect("writing to a String succeeds");
         }
     }
     text
@@ -310,13 +262,7 @@ fn steering(trials: &[Trial]) -> String {
             writeln!(
                 text,
                 "{},{:.2},{:.3},{:.3},{:.3},{:.3},{:.4}",
-                trial.name,
-                r.t_s,
-                r.ahead_m,
-                r.starboard_m,
-                r.heading_deg,
-                r.rudder_deg,
-                r.speed_m_s
+                trial.name, r.t_s, r.ahead_m, r.starboard_m, r.heading_deg, r.rudder_deg, r.speed_m_s
             )
             .expect("writing to a String succeeds");
         }
@@ -332,10 +278,7 @@ fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
         ));
     };
     if args.folder.exists() {
-        return Err((
-            format!("{} exists already", args.folder.display()),
-            Some("name a new folder".into()),
-        ));
+        return Err((format!("{} exists already", args.folder.display()), Some("name a new folder".into())));
     }
     make_folder(&args.folder).map_err(|e| plainly(format!("{}: {e}", args.folder.display())))?;
     for (name, text) in [("vehicle.ron", shipped.file), shipped.urdf] {

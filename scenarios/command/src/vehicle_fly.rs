@@ -28,18 +28,12 @@ pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
         ("--density", args.density, 900.0..=1300.0),
     ] {
         if !legal.contains(&value) {
-            return Err(plainly(format!(
-                "{name} must be from {} to {}, got {value}",
-                legal.start(),
-                legal.end()
-            )));
+            return Err(plainly(format!("{name} must be from {} to {}, got {value}", legal.start(), legal.end())));
         }
     }
-    let text = read_text(&args.table, LONGEST)
-        .map_err(|e| plainly(format!("{}: {e}", args.table.display())))?;
+    let text = read_text(&args.table, LONGEST).map_err(|e| plainly(format!("{}: {e}", args.table.display())))?;
     let links: Vec<&str> = vehicle.drives().collect();
-    let set =
-        table(&text, &links).map_err(|e| plainly(format!("{}: {e}", args.table.display())))?;
+    let set = table(&text, &links).map_err(|e| plainly(format!("{}: {e}", args.table.display())))?;
     let [roll, pitch] = args.tilt_deg.0;
     let flight = Flight {
         table: set,
@@ -80,9 +74,7 @@ fn written(rows: &[Flown], links: &[&str]) -> String {
         let (p, q) = (row.truth.pose.p_WB, row.truth.pose.R_WB.quaternion());
         let (v, w) = (row.truth.v_WB_B, row.truth.w_WB_B);
         write!(text, "{}", row.t_s).expect(TEXT);
-        let state = [
-            p.x, p.y, p.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z, w.x, w.y, w.z,
-        ];
+        let state = [p.x, p.y, p.z, q.w, q.i, q.j, q.k, v.x, v.y, v.z, w.x, w.y, w.z];
         for number in state.iter().chain(&row.drives) {
             write!(text, ",{number}").expect(TEXT);
         }

@@ -22,10 +22,7 @@ fn main() {
 /// A channel in which the robot asks.
 fn channel() -> Loaded {
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace(
-        "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-        "strategy: External()",
-    );
+    let text = text.replace("strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))", "strategy: External()");
     let text = text.replace("spin_up_s: 2000", "spin_up_s: 10");
     load_text(&Registry::default(), "channel", &text).expect("legal")
 }
@@ -51,21 +48,14 @@ fn question_and_answer(bencher: Bencher<'_, '_>) {
         r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ endpoints: ["{}"] }} }}"#,
         live.endpoint()
     );
-    let session = zenoh::open(Config::from_json5(&config).expect("legal"))
-        .wait()
-        .expect("open");
+    let session = zenoh::open(Config::from_json5(&config).expect("legal")).wait().expect("open");
     let reply = |query: Query| {
         let key = query.key_expr().clone();
         let _gone = query.reply(key, ANSWER).wait();
     };
-    let there = session
-        .declare_queryable("rheotaxis/*/ask/auv0")
-        .callback(reply)
-        .wait();
+    let there = session.declare_queryable("rheotaxis/*/ask/auv0").callback(reply).wait();
     let going = Arc::new(|| true);
-    let mut controller = live
-        .controller("auv0", [LONG, LONG], going)
-        .expect("it asks");
+    let mut controller = live.controller("auv0", [LONG, LONG], going).expect("it asks");
     bencher.bench_local(|| {
         let heard = controller.answer(&question);
         assert!(matches!(heard, Heard::Answer(_)), "{heard:?}");

@@ -61,11 +61,7 @@ impl TableInfo {
     pub fn text(&self) -> String {
         let mut out = format!("{}\n  {}\n", self.file, self.what);
         for ColumnInfo { name, unit, what } in &self.columns {
-            let unit = if unit.is_empty() {
-                ""
-            } else {
-                &format!(", {unit}")
-            };
+            let unit = if unit.is_empty() { "" } else { &format!(", {unit}") };
             let _ = write!(out, "\n  {name}{unit}\n      {what}\n");
         }
         out

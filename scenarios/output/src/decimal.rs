@@ -48,21 +48,8 @@ mod tests {
     #[test]
     fn it_writes_what_the_standard_library_writes() {
         let mut rng = Stream::new(1, "test", "decimals");
-        let odd = [
-            0.0,
-            -0.0,
-            0.5,
-            1.5,
-            -2.5,
-            0.05,
-            0.000_499_9,
-            999.9996,
-            -1e-9,
-            1e15,
-            -3e300,
-            f64::NAN,
-            f64::INFINITY,
-        ];
+        let odd =
+            [0.0, -0.0, 0.5, 1.5, -2.5, 0.05, 0.000_499_9, 999.9996, -1e-9, 1e15, -3e300, f64::NAN, f64::INFINITY];
         let drawn = (0..20_000).map(|n| rng.normal() * 10_f64.powi(n % 14 - 6));
         let ties = (0..4000).map(|n| f64::from(n) / 2000.0);
         for v in odd.into_iter().chain(drawn).chain(ties) {

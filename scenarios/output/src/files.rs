@@ -54,10 +54,7 @@ impl ReportError {
 
 /// Makes a folder and its parents.
 pub fn make_folder(path: &Path) -> Result<(), ReportError> {
-    files::make_folder(path).map_err(|source| ReportError::Folder {
-        path: path.to_owned(),
-        source,
-    })
+    files::make_folder(path).map_err(|source| ReportError::Folder { path: path.to_owned(), source })
 }
 
 /// Makes the folder for a command's results, and removes the files that an earlier run of the command left there.
@@ -86,8 +83,7 @@ pub fn beside_no_run(file: &Path) -> Result<(), ReportError> {
     if !files::is_in_use(files::folder_of(file)) {
         return Ok(());
     }
-    let problem =
-        "a run is writing its results into that folder: wait for its end, or name another";
+    let problem = "a run is writing its results into that folder: wait for its end, or name another";
     let source = io::Error::new(io::ErrorKind::ResourceBusy, problem);
     Err(OutputError::new(file, source).into())
 }
@@ -128,11 +124,7 @@ pub struct Kept<'a> {
 impl<'a> Kept<'a> {
     /// Begins without any file.
     pub fn new(folder: &'a Folder) -> Self {
-        Self {
-            folder,
-            files: Vec::new(),
-            failures: Vec::new(),
-        }
+        Self { folder, files: Vec::new(), failures: Vec::new() }
     }
 
     /// Writes a file.
@@ -221,10 +213,7 @@ mod tests {
         }
         let said = kept.done().unwrap_err().to_string();
         assert_eq!(said.lines().count(), 2, "{said}");
-        assert!(
-            said.contains("/b: it is a folder") && said.contains("/d: it is"),
-            "{said}"
-        );
+        assert!(said.contains("/b: it is a folder") && said.contains("/d: it is"), "{said}");
         for written in ["a", "c", "e"] {
             assert_eq!(fs::read(dir.path().join(written)).unwrap(), b"x");
         }

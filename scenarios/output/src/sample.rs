@@ -5,8 +5,8 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use rheotaxis::score::Score;
 use robots::handoff::{
-    Actuation, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
-    Layer, LayerState, Regions, Setpoint, Vertical,
+    Actuation, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate, FlowEstimate, Layer, LayerState,
+    Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::path::Path;
@@ -23,12 +23,7 @@ pub(crate) fn folder(dir: &Path) -> Folder {
 }
 
 pub(crate) fn area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 1094.0,
-        width_m: 367.0,
-        axis: Heading::from_deg(340.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) }
 }
 
 pub(crate) fn terrain() -> Terrain {
@@ -118,12 +113,7 @@ fn layers(b: Behaviour) -> Arc<[Layer]> {
         0 => LayerState::Suppressed,
         _ => LayerState::Silent,
     };
-    (names.iter().enumerate())
-        .map(|(k, name)| Layer {
-            name,
-            state: state(k),
-        })
-        .collect()
+    (names.iter().enumerate()).map(|(k, name)| Layer { name, state: state(k) }).collect()
 }
 
 /// Frames at 10 Hz for `seconds`.
@@ -159,14 +149,8 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
             };
             let bed = terrain.bed_z(p.x, p.y);
             let altitude = 2.0 + 0.3 * math::sin(t_s / 17.0);
-            let of_full_scale = if in_plume {
-                0.3 + 0.2 * math::sin(t_s)
-            } else {
-                0.01
-            };
-            let lost = (0..4)
-                .map(|i| from + side * (3.0 * f64::from(i) - 4.0))
-                .collect();
+            let of_full_scale = if in_plume { 0.3 + 0.2 * math::sin(t_s) } else { 0.01 };
+            let lost = (0..4).map(|i| from + side * (3.0 * f64::from(i) - 4.0)).collect();
             let robot = RobotFrame {
                 id: "auv0".into(),
                 truth: Truth {
@@ -179,17 +163,9 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                     position: p + Vector2::new(3.0 + 3.0 * math::sin(t_s / 60.0), 4.0),
                     depth_m: -bed - altitude,
                     altitude_m: Some(altitude),
-                    attitude: Attitude {
-                        heading,
-                        roll_rad: 0.0,
-                        pitch_rad: 0.1,
-                        rates_rad_s: Vector3::zeros(),
-                    },
+                    attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.1, rates_rad_s: Vector3::zeros() },
                     v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-                    flow: Some(FlowEstimate {
-                        velocity: flow.unit() * 0.1,
-                        age_s: 0.0,
-                    }),
+                    flow: Some(FlowEstimate { velocity: flow.unit() * 0.1, age_s: 0.0 }),
                     fix_jump: Vector2::zeros(),
                 },
                 goal: None,
@@ -201,11 +177,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 keeps_height: true,
                 actuators: Actuation::default(),
                 heard: Default::default(),
-                chemical: Some(ChemicalReading {
-                    volts: 5.0 * of_full_scale,
-                    of_full_scale,
-                    detected: in_plume,
-                }),
+                chemical: Some(ChemicalReading { volts: 5.0 * of_full_scale, of_full_scale, detected: in_plume }),
                 detected: in_plume,
                 behaviour,
                 layers: layers(behaviour),
@@ -290,10 +262,5 @@ pub(crate) fn plume() -> PlumeFrame {
             [p.x, p.y, -5.5, size, 5e-5, 10.0]
         })
         .collect();
-    PlumeFrame {
-        t_s: 600.0,
-        total: 40_000,
-        points,
-        ..PlumeFrame::default()
-    }
+    PlumeFrame { t_s: 600.0, total: 40_000, points, ..PlumeFrame::default() }
 }

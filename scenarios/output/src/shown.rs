@@ -15,10 +15,7 @@ pub struct Look {
 }
 
 /// How they are drawn where there is no terminal.
-pub const PLAIN: Look = Look {
-    color: false,
-    width: None,
-};
+pub const PLAIN: Look = Look { color: false, width: None };
 
 /// A text as a terminal may show it. Titles and names are texts of others: characters in them that would command the
 /// terminal, or turn the direction of writing, are written as `\u{1b}`. Lines and tabs stay.
@@ -54,11 +51,7 @@ pub fn fault(fault: &Fault, look: Look) -> String {
     if fault.text.is_none() {
         // The lines are too long to be drawn.
         let (line, column) = (fault.line, fault.column);
-        let _ = write!(
-            message,
-            " ({}, line {line}, column {column})",
-            fault.source_name
-        );
+        let _ = write!(message, " ({}, line {line}, column {column})", fault.source_name);
     }
     let mut out = head(fault.severity, &message, look);
     if let Some(text) = &fault.text {
@@ -91,48 +84,27 @@ fn head(severity: Severity, message: &str, look: Look) -> String {
         Severity::Warning => ("⚠", YELLOW),
     };
     let bar = look.paint(color, "│");
-    wrapped(
-        message,
-        &format!("  {} ", look.paint(color, sign)),
-        &format!("  {bar} "),
-        4,
-        look,
-    )
+    wrapped(message, &format!("  {} ", look.paint(color, sign)), &format!("  {bar} "), 4, look)
 }
 
 fn help(hint: Option<&str>, look: Look) -> String {
     let sign = look.paint(CYAN, "help:");
-    hint.map_or(String::new(), |hint| {
-        wrapped(hint, &format!("  {sign} "), "        ", 8, look)
-    })
+    hint.map_or(String::new(), |hint| wrapped(hint, &format!("  {sign} "), "        ", 8, look))
 }
 
 /// The line of a fault with its mark, and those before and after it.
 fn lines_around(fault: &Fault, text: &str, look: Look) -> String {
     let marked = fault.line - 1;
-    let shown: Vec<(usize, &str)> = (text.lines().enumerate())
-        .skip(marked.saturating_sub(1))
-        .take_while(|(n, _)| *n <= marked + 1)
-        .collect();
+    let shown: Vec<(usize, &str)> =
+        (text.lines().enumerate()).skip(marked.saturating_sub(1)).take_while(|(n, _)| *n <= marked + 1).collect();
     let last = shown.last().map_or(fault.line, |(n, _)| n + 1);
     let wide = last.to_string().len();
     let gap = " ".repeat(wide + 2);
-    let mut out = format!(
-        "{gap}╭─[{}:{}:{}]\n",
-        printable(&fault.source_name),
-        fault.line,
-        fault.column
-    );
+    let mut out = format!("{gap}╭─[{}:{}:{}]\n", printable(&fault.source_name), fault.line, fault.column);
     for (n, line) in shown {
-        let _ = writeln!(
-            out,
-            " {} │ {}",
-            look.paint(DIM, &format!("{:>wide$}", n + 1)),
-            tabs(line)
-        );
+        let _ = writeln!(out, " {} │ {}", look.paint(DIM, &format!("{:>wide$}", n + 1)), tabs(line));
         if n == marked {
-            let begin =
-                fault.span.start - text[..fault.span.start].rfind('\n').map_or(0, |at| at + 1);
+            let begin = fault.span.start - text[..fault.span.start].rfind('\n').map_or(0, |at| at + 1);
             let pad = " ".repeat(tabs(&line[..begin.min(line.len())]).width());
             let (mark, below) = mark(tabs(&text[fault.span.clone()]).width());
             let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &mark));
@@ -149,10 +121,7 @@ fn mark(columns: usize) -> (String, usize) {
         return ("▲".to_string(), 0);
     }
     let below = columns / 2;
-    (
-        format!("{}┬{}", "─".repeat(below), "─".repeat(columns - below - 1)),
-        below,
-    )
+    (format!("{}┬{}", "─".repeat(below), "─".repeat(columns - below - 1)), below)
 }
 
 fn tabs(text: &str) -> String {
@@ -162,9 +131,7 @@ fn tabs(text: &str) -> String {
 
 /// Words in lines of the look's width, behind a first and further margins of so many columns.
 fn wrapped(text: &str, first: &str, further: &str, margin: usize, look: Look) -> String {
-    let most = look
-        .width
-        .map_or(usize::MAX, |w| w.saturating_sub(margin).max(20));
+    let most = look.width.map_or(usize::MAX, |w| w.saturating_sub(margin).max(20));
     let mut out = first.to_string();
     for (n, paragraph) in text.lines().enumerate() {
         if n > 0 {
@@ -195,11 +162,7 @@ const DIM: &str = "2";
 
 impl Look {
     fn paint(self, color: &str, text: &str) -> String {
-        if self.color {
-            format!("\x1b[{color}m{text}\x1b[0m")
-        } else {
-            text.to_string()
-        }
+        if self.color { format!("\x1b[{color}m{text}\x1b[0m") } else { text.to_string() }
     }
 }
 
@@ -222,17 +185,9 @@ mod tests {
     #[test]
     fn a_fault_on_a_line_too_long_to_show_names_its_place() {
         let drawn_short = drawn(10, PLAIN);
-        assert!(
-            drawn_short.starts_with("  × there is no field `colour`\n   ╭─[long.ron:4:"),
-            "{drawn_short}"
-        );
+        assert!(drawn_short.starts_with("  × there is no field `colour`\n   ╭─[long.ron:4:"), "{drawn_short}");
         let said = drawn(1000, PLAIN);
-        assert!(
-            said.starts_with(
-                "  × there is no field `colour` (long.ron, line 4, column 1016)\n  help: "
-            ),
-            "{said}"
-        );
+        assert!(said.starts_with("  × there is no field `colour` (long.ron, line 4, column 1016)\n  help: "), "{said}");
     }
 
     #[test]
@@ -240,32 +195,17 @@ mod tests {
         let said = error(
             "one two three four five six",
             Some("seven eight nine ten eleven"),
-            Look {
-                color: false,
-                width: Some(24),
-            },
+            Look { color: false, width: Some(24) },
         );
-        assert_eq!(
-            said,
-            "  × one two three four\n  │ five six\n  help: seven eight nine ten\n        eleven\n"
-        );
-        let colored = drawn(
-            10,
-            Look {
-                color: true,
-                width: Some(80),
-            },
-        );
+        assert_eq!(said, "  × one two three four\n  │ five six\n  help: seven eight nine ten\n        eleven\n");
+        let colored = drawn(10, Look { color: true, width: Some(80) });
         assert!(colored.contains("\x1b[31m×\x1b[0m"), "{colored}");
     }
 
     #[test]
     fn what_would_command_a_terminal_is_written_out() {
         assert_eq!(printable("a — b\t\u{e9}\n"), "a — b\t\u{e9}\n");
-        assert_eq!(
-            printable("\x1b[31m\x07\u{9b}\u{202e}\u{2066}\r"),
-            r"\u{1b}[31m\u{7}\u{9b}\u{202e}\u{2066}\u{d}"
-        );
+        assert_eq!(printable("\x1b[31m\x07\u{9b}\u{202e}\u{2066}\r"), r"\u{1b}[31m\u{7}\u{9b}\u{202e}\u{2066}\u{d}");
         let text = template("uniform_channel").expect("in the catalogue").text;
         let text = text.replacen("title: \"", "\u{202e}: 3, title: \"\x1b]0;x\x07", 1);
         let Err(odd) = parse("\x1b.ron", &text) else {
@@ -273,9 +213,6 @@ mod tests {
         };
         let drawn = all(&odd, PLAIN).concat();
         assert!(drawn.contains(r"\u{1b}.ron"), "{drawn}");
-        assert!(
-            !drawn.contains(|c: char| c != '\n' && (c.is_control() || turns(c))),
-            "{drawn}"
-        );
+        assert!(!drawn.contains(|c: char| c != '\n' && (c.is_control() || turns(c))), "{drawn}");
     }
 }

@@ -49,11 +49,7 @@ impl Element for bool {
 }
 
 /// An array of a shape, with the values in C order.
-pub(crate) fn array<'py, T: Element>(
-    py: Python<'py>,
-    values: &[T],
-    shape: &[usize],
-) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn array<'py, T: Element>(py: Python<'py>, values: &[T], shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     let memory = PyByteArray::new_with(py, values.len() * T::SIZE, |bytes| {
         for (to, value) in bytes.chunks_exact_mut(T::SIZE).zip(values) {
             value.put(to);
@@ -66,10 +62,7 @@ pub(crate) fn array<'py, T: Element>(
 }
 
 /// A column: an array of one dimension.
-pub(crate) fn column<'py, T: Element>(
-    py: Python<'py>,
-    values: &[T],
-) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn column<'py, T: Element>(py: Python<'py>, values: &[T]) -> PyResult<Bound<'py, PyAny>> {
     array(py, values, &[values.len()])
 }
 

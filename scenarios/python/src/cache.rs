@@ -21,8 +21,7 @@ const NO: [&str; 7] = ["", "0", "f", "false", "n", "no", "off"];
 /// `RHEOTAXIS_NO_CACHE` switches them off.
 pub(crate) fn opened(py: Python<'_>, cache: Option<Cache>) -> PyResult<Option<SpinUps>> {
     let set = |name: &str| std::env::var_os(name);
-    let off = set("RHEOTAXIS_NO_CACHE")
-        .is_some_and(|v| !NO.contains(&&*v.to_string_lossy().to_lowercase()));
+    let off = set("RHEOTAXIS_NO_CACHE").is_some_and(|v| !NO.contains(&&*v.to_string_lossy().to_lowercase()));
     let kept = match cache {
         Some(Cache::Use(false)) => None,
         Some(Cache::Folder(dir)) => Some(SpinUps::new(dir, MOST)),

@@ -22,12 +22,7 @@ pub(crate) struct RobotColumns {
 impl RobotColumns {
     /// Without a row.
     pub(crate) fn new(info: &RobotInfo) -> Self {
-        Self {
-            info: info.clone(),
-            t_s: Vec::new(),
-            numbers: Default::default(),
-            behaviours: Vec::new(),
-        }
+        Self { info: info.clone(), t_s: Vec::new(), numbers: Default::default(), behaviours: Vec::new() }
     }
 
     /// Adds the rows of a frame to the columns of its robots.
@@ -41,11 +36,7 @@ impl RobotColumns {
 
     fn row(&mut self, t_s: f64, robot: &RobotFrame) {
         self.t_s.push(t_s);
-        for (column, value) in self
-            .numbers
-            .iter_mut()
-            .zip(numbers(robot, self.info.full_scale_ug_l))
-        {
+        for (column, value) in self.numbers.iter_mut().zip(numbers(robot, self.info.full_scale_ug_l)) {
             column.push(value.unwrap_or(f64::NAN));
         }
         self.behaviours.push(robot.behaviour.name());

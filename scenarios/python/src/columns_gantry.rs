@@ -33,11 +33,7 @@ impl GantryColumns {
         for gantry in &frame.gantries {
             let known = all.iter().position(|c| c.id == gantry.id);
             let k = known.unwrap_or_else(|| {
-                all.push(Self {
-                    id: gantry.id.clone(),
-                    probes: gantry.tips_W.len(),
-                    ..Self::default()
-                });
+                all.push(Self { id: gantry.id.clone(), probes: gantry.tips_W.len(), ..Self::default() });
                 all.len() - 1
             });
             all[k].row(frame.t_s, gantry);

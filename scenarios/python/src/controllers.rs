@@ -26,12 +26,11 @@ impl Controller for Function {
             return Heard::Gone;
         }
         let text = question_json(question).to_string();
-        let told = Python::attach(|py| -> PyResult<String> {
-            self.ask.bind(py).call1((text,))?.extract()
-        });
+        let told = Python::attach(|py| -> PyResult<String> { self.ask.bind(py).call1((text,))?.extract() });
         match told {
-            Ok(text) => read_answer(text.as_bytes(), question.number, question.t_s)
-                .map_or_else(Heard::Nonsense, Heard::Answer),
+            Ok(text) => {
+                read_answer(text.as_bytes(), question.number, question.t_s).map_or_else(Heard::Nonsense, Heard::Answer)
+            }
             Err(error) => {
                 self.raised.keep(error);
                 Heard::Gone
@@ -90,10 +89,7 @@ pub(crate) fn given(
 }
 
 /// A line for each machine that asks and has nobody to answer it; none if others were meant, which is a mistake.
-pub(crate) fn unanswered(
-    asking: &[(String, Consulted)],
-    deciders: &[(String, Decider)],
-) -> Vec<String> {
+pub(crate) fn unanswered(asking: &[(String, Consulted)], deciders: &[(String, Decider)]) -> Vec<String> {
     let has = |id: &str| deciders.iter().any(|(name, _)| name == id);
     let alone: Vec<&(String, Consulted)> = asking.iter().filter(|(id, _)| !has(id)).collect();
     if alone.len() + deciders.len() != asking.len() {
@@ -112,9 +108,7 @@ pub(crate) fn unanswered(
 /// A line for each machine that asked and lay on the bed, or at an obstacle, for long.
 pub(crate) fn aground(asking: &[(String, Consulted)], events: &[AbnormalSummary]) -> Vec<String> {
     let own = |event: &&AbnormalSummary| asking.iter().any(|(id, _)| *id == event.robot);
-    let long = |event: &&AbnormalSummary| {
-        event.what == Abnormality::Touched && event.lasted_s >= AGROUND_S
-    };
+    let long = |event: &&AbnormalSummary| event.what == Abnormality::Touched && event.lasted_s >= AGROUND_S;
     let events = events.iter().filter(own).filter(long);
     events
         .map(|event| {
@@ -127,11 +121,7 @@ pub(crate) fn aground(asking: &[(String, Consulted)], events: &[AbnormalSummary]
 }
 
 /// Lets them decide in a run.
-pub(crate) fn take_over(
-    trial: &mut Trial,
-    deciders: Vec<(String, Decider)>,
-    raised: &Raised,
-) -> PyResult<()> {
+pub(crate) fn take_over(trial: &mut Trial, deciders: Vec<(String, Decider)>, raised: &Raised) -> PyResult<()> {
     for (id, decider) in deciders {
         let raised = raised.clone();
         let done = match decider {

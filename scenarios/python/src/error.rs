@@ -39,10 +39,7 @@ pub(crate) fn scenario_error(py: Python<'_>, error: scenario::ScenarioError) -> 
         scenario::ScenarioError::Text(fault) => listed(py, std::slice::from_ref(&**fault)),
         scenario::ScenarioError::Many { faults, .. } => listed(py, faults),
     };
-    let raised = ScenarioError::new_err(format!(
-        "\n{}",
-        shown::all(&error, PLAIN).join("\n").trim_end()
-    ));
+    let raised = ScenarioError::new_err(format!("\n{}", shown::all(&error, PLAIN).join("\n").trim_end()));
     match faults.and_then(|faults| raised.value(py).setattr("faults", faults)) {
         Ok(()) => raised,
         Err(error) => error,
@@ -84,8 +81,7 @@ where
     T: Send,
     F: Send + FnOnce() -> PyResult<T>,
 {
-    py.detach(|| caught(work))
-        .unwrap_or_else(|said| Err(panicked(&said)))
+    py.detach(|| caught(work)).unwrap_or_else(|said| Err(panicked(&said)))
 }
 
 /// Warns of what is probably not meant in a run.
@@ -101,9 +97,7 @@ pub(crate) fn whole(name: &str, given: &Bound<'_, PyAny>, most: u64) -> PyResult
         PyTypeError::new_err(format!("{name} must be a whole number, got {kind}"))
     })?;
     let found = number.extract::<u64>().ok().filter(|n| *n <= most);
-    found.ok_or_else(|| {
-        PyValueError::new_err(format!("{name} must be from 0 to {most}, got {number}"))
-    })
+    found.ok_or_else(|| PyValueError::new_err(format!("{name} must be from 0 to {most}, got {number}")))
 }
 
 /// Panics where runs do, with these words: the tests make sure that it becomes an exception.

@@ -59,13 +59,7 @@ struct Facts {
 type SentFigure = (String, String, Option<String>, Option<String>);
 
 /// A result on its way to another process.
-type Sent = (
-    Facts,
-    Option<PathBuf>,
-    Py<PyAny>,
-    Py<PyAny>,
-    Vec<SentFigure>,
-);
+type Sent = (Facts, Option<PathBuf>, Py<PyAny>, Py<PyAny>, Vec<SentFigure>);
 
 impl PyRunResult {
     /// Of a run that is over.
@@ -147,8 +141,7 @@ impl PyRunResult {
 
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        py.import("json")?
-            .call_method1("loads", (&self.facts.summary,))
+        py.import("json")?.call_method1("loads", (&self.facts.summary,))
     }
 
     #[getter]
@@ -202,16 +195,9 @@ impl PyRunResult {
         let names: Vec<&str> = all.iter().map(|f| f.name.as_str()).collect();
         let found = found.ok_or_else(|| {
             let asked = name.unwrap_or("any");
-            PyKeyError::new_err(format!(
-                "the run has no figure `{asked}`; it has {}",
-                names.join(", ")
-            ))
+            PyKeyError::new_err(format!("the run has no figure `{asked}`; it has {}", names.join(", ")))
         })?;
-        Ok(PyFigure {
-            name: found.name.clone(),
-            title: found.title.clone(),
-            svg: found.svg.clone().map_err(other)?,
-        })
+        Ok(PyFigure { name: found.name.clone(), title: found.title.clone(), svg: found.svg.clone().map_err(other)? })
     }
 
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
@@ -310,9 +296,7 @@ impl PyFigure {
             Some("svg") => self.svg.clone().into_bytes(),
             Some("png") => self.bytes(py)?,
             _ => {
-                return Err(pyo3::exceptions::PyValueError::new_err(
-                    "a figure is saved as .svg or .png",
-                ));
+                return Err(pyo3::exceptions::PyValueError::new_err("a figure is saved as .svg or .png"));
             }
         };
         files::write(&path, &bytes).map(drop).map_err(other)
@@ -322,9 +306,7 @@ impl PyFigure {
         Ok(PyBytes::new(py, &self.bytes(py)?))
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (String, String, String))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String, String, String))> {
         let own = slf.get();
         let all = (own.name.clone(), own.title.clone(), own.svg.clone());
         Ok((slf.get_type().getattr("_restored")?, all))

@@ -105,16 +105,8 @@ fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<Made>
         return Err(raised);
     }
     written.map_err(other)?;
-    let kept = Kept {
-        gathered,
-        ocean: trial,
-    };
-    Ok(Made {
-        ended,
-        kept,
-        robots: watcher.robots,
-        gantries: watcher.gantries,
-    })
+    let kept = Kept { gathered, ocean: trial };
+    Ok(Made { ended, kept, robots: watcher.robots, gantries: watcher.gantries })
 }
 
 /// Most threads that a run may be asked to use.
@@ -165,13 +157,7 @@ pub(crate) fn run(
         warn_of_run(py, &unanswered(&asking, &deciders))?;
     }
     let kept = opened(py, cache)?;
-    let asked = Asked {
-        seed: seed.0,
-        files,
-        recording,
-        threads: threads.0,
-        controllers: deciders,
-    };
+    let asked = Asked { seed: seed.0, files, recording, threads: threads.0, controllers: deciders };
     let made = apart(py, || made(&loaded, asked, kept.as_ref()))?;
     tell_fault(py, kept.and_then(|kept| kept.fault()))?;
     let events = &made.kept.gathered.summary.abnormal;

@@ -82,10 +82,8 @@ impl PyScenario {
     /// As `parse`, with the folder to which paths in the scenario are relative: for copies in other processes.
     #[staticmethod]
     fn _restored(py: Python<'_>, text: &str, path: PathBuf, base_dir: PathBuf) -> PyResult<Self> {
-        let name = path.file_stem().map_or_else(
-            || path.display().to_string(),
-            |stem| stem.to_string_lossy().into_owned(),
-        );
+        let name =
+            path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned());
         let read = load_text(&Registry::default(), &name, text);
         let mut loaded = read.map_err(|error| scenario_error(py, error))?;
         (loaded.path, loaded.base_dir) = (path, base_dir);
@@ -96,10 +94,7 @@ impl PyScenario {
         let loaded = &slf.get().loaded;
         let folder = loaded.base_dir.clone();
         let restored = slf.get_type().getattr("_restored")?;
-        Ok((
-            restored,
-            (loaded.text().into_owned(), loaded.path.clone(), folder),
-        ))
+        Ok((restored, (loaded.text().into_owned(), loaded.path.clone(), folder)))
     }
 
     #[getter]
@@ -133,18 +128,10 @@ impl PyScenario {
         let (mut here, mut place) = (&whole, String::new());
         for part in parts(path) {
             here = here.step(&part).ok_or_else(|| {
-                let there = if place.is_empty() {
-                    "the scenario"
-                } else {
-                    &place
-                };
+                let there = if place.is_empty() { "the scenario" } else { &place };
                 PyKeyError::new_err(format!("{there} has no `{part}`; it has {}", here.has()))
             })?;
-            place = if place.is_empty() {
-                part
-            } else {
-                format!("{place}.{part}")
-            };
+            place = if place.is_empty() { part } else { format!("{place}.{part}") };
         }
         of_tree(py, here)
     }
@@ -155,9 +142,7 @@ impl PyScenario {
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other
-            .cast::<Self>()
-            .is_ok_and(|other| other.get().loaded.text() == self.loaded.text())
+        other.cast::<Self>().is_ok_and(|other| other.get().loaded.text() == self.loaded.text())
     }
 
     fn __hash__(&self) -> u64 {
@@ -165,10 +150,7 @@ impl PyScenario {
     }
 
     fn __repr__(&self) -> String {
-        format!(
-            "<rheotaxis.Scenario {}: {}>",
-            self.loaded.name, self.loaded.scenario.title
-        )
+        format!("<rheotaxis.Scenario {}: {}>", self.loaded.name, self.loaded.scenario.title)
     }
 }
 

@@ -1,8 +1,5 @@
 //! Ctrl-C during a run.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "how often signals are looked for never reaches a run"
-)]
+#![allow(clippy::disallowed_methods, reason = "how often signals are looked for never reaches a run")]
 
 use pyo3::prelude::*;
 use std::time::{Duration, Instant};
@@ -19,10 +16,7 @@ pub(crate) struct Signals {
 
 impl Default for Signals {
     fn default() -> Self {
-        Self {
-            due: Instant::now() + PERIOD,
-            raised: None,
-        }
+        Self { due: Instant::now() + PERIOD, raised: None }
     }
 }
 

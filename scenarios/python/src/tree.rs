@@ -1,8 +1,8 @@
 //! The values of a scenario as a tree that keeps what JSON would lose: names of choices, and values in parentheses.
 
 use serde::ser::{
-    Error, Impossible, Serialize, SerializeSeq, SerializeStruct, SerializeStructVariant,
-    SerializeTuple, SerializeTupleStruct, SerializeTupleVariant, Serializer,
+    Error, Impossible, Serialize, SerializeSeq, SerializeStruct, SerializeStructVariant, SerializeTuple,
+    SerializeTupleStruct, SerializeTupleVariant, Serializer,
 };
 use std::fmt::{self, Display};
 
@@ -153,19 +153,10 @@ impl Serializer for Planter {
     fn serialize_unit_struct(self, _: &'static str) -> Result<Tree, Unfit> {
         self.serialize_unit()
     }
-    fn serialize_unit_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        variant: &'static str,
-    ) -> Result<Tree, Unfit> {
+    fn serialize_unit_variant(self, _: &'static str, _: u32, variant: &'static str) -> Result<Tree, Unfit> {
         Ok(Tree::Name(variant.to_string()))
     }
-    fn serialize_newtype_struct<T: ?Sized + Serialize>(
-        self,
-        _: &'static str,
-        value: &T,
-    ) -> Result<Tree, Unfit> {
+    fn serialize_newtype_struct<T: ?Sized + Serialize>(self, _: &'static str, value: &T) -> Result<Tree, Unfit> {
         value.serialize(self)
     }
     fn serialize_newtype_variant<T: ?Sized + Serialize>(
@@ -191,13 +182,7 @@ impl Serializer for Planter {
     fn serialize_tuple_struct(self, _: &'static str, n: usize) -> Result<Items, Unfit> {
         self.serialize_tuple(n)
     }
-    fn serialize_tuple_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        variant: &'static str,
-        _: usize,
-    ) -> Result<Items, Unfit> {
+    fn serialize_tuple_variant(self, _: &'static str, _: u32, variant: &'static str, _: usize) -> Result<Items, Unfit> {
         Ok(Items(Vec::new(), Tree::Tuple, Some(variant)))
     }
     fn serialize_map(self, _: Option<usize>) -> Result<Self::SerializeMap, Unfit> {

@@ -9,9 +9,8 @@ use std::fmt::Write as _;
 
 /// A value of a scenario as Python's own: a variant is `{"Name": value}`, a choice without parameters a `rheotaxis.Ron`.
 pub(crate) fn of_tree<'py>(py: Python<'py>, value: &Tree) -> PyResult<Bound<'py, PyAny>> {
-    let all = |items: &[Tree]| -> PyResult<Vec<Bound<'py, PyAny>>> {
-        items.iter().map(|one| of_tree(py, one)).collect()
-    };
+    let all =
+        |items: &[Tree]| -> PyResult<Vec<Bound<'py, PyAny>>> { items.iter().map(|one| of_tree(py, one)).collect() };
     Ok(match value {
         Tree::None => py.None().into_bound(py),
         Tree::Bool(b) => PyBool::new(py, *b).into_bound().into_any(),
@@ -64,11 +63,7 @@ pub(crate) fn to_ron(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if list || value.is_instance_of::<PyTuple>() {
         let all: PyResult<Vec<String>> = value.try_iter()?.map(|one| to_ron(&one?)).collect();
         let all = all?.join(", ");
-        return Ok(if list {
-            format!("[{all}]")
-        } else {
-            format!("({all})")
-        });
+        return Ok(if list { format!("[{all}]") } else { format!("({all})") });
     }
     // Scalars and arrays of NumPy.
     if value.hasattr("tolist")? {
@@ -87,18 +82,11 @@ fn ron_type(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
 /// The text of a `rheotaxis.Ron`.
 fn ron_of(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     let ron = ron_type(value.py())?;
-    value
-        .is_instance(&ron)?
-        .then(|| value.extract())
-        .transpose()
+    value.is_instance(&ron)?.then(|| value.extract()).transpose()
 }
 
 fn number(value: f64) -> String {
-    if value.is_nan() {
-        "NaN".to_string()
-    } else {
-        format!("{value:?}")
-    }
+    if value.is_nan() { "NaN".to_string() } else { format!("{value:?}") }
 }
 
 fn quoted(text: &str) -> String {

@@ -14,7 +14,8 @@ use world::registry::Registry;
 use world::units::Heading;
 
 const REMUS: &str = "vehicle: Remus100()";
-const SENSORS: &str = "sensors: (fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl: (noise_m: 1))";
+const SENSORS: &str =
+    "sensors: (fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl: (noise_m: 1))";
 const SLOW_SENSORS: &str = "sensors: (fluorometer: (rate_hz: 1), dvl: (rate_hz: 1), adcp: (rate_hz: 1), compass: (rate_hz: 1), \
      depth: (rate_hz: 1), altimeter: (rate_hz: 1), lbl: (noise_m: 1))";
 
@@ -25,25 +26,13 @@ fn main() {
 /// The channel with a searcher outside that is asked every second.
 fn channel(kinematic: bool) -> Loaded {
     let changes = [
-        (
-            "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-            "strategy: External()",
-        ),
+        ("strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))", "strategy: External()"),
         ("release: (rate_hz: 5)", "release: (rate_hz: 0.5)"),
-        (
-            "limit_s: 1800)",
-            "limit_s: 36000), record: (frame_period_s: 40000, plume_period_s: 40000)",
-        ),
+        ("limit_s: 1800)", "limit_s: 36000), record: (frame_period_s: 40000, plume_period_s: 40000)"),
     ];
-    let simple = [
-        (REMUS, "vehicle: Kinematic()"),
-        (SENSORS, SLOW_SENSORS),
-        ("time: (", "time: (step_s: 1, "),
-    ];
+    let simple = [(REMUS, "vehicle: Kinematic()"), (SENSORS, SLOW_SENSORS), ("time: (", "time: (step_s: 1, ")];
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let all = changes
-        .into_iter()
-        .chain(simple.into_iter().filter(|_| kinematic));
+    let all = changes.into_iter().chain(simple.into_iter().filter(|_| kinematic));
     let text = all.fold(text.to_string(), |text, (from, to)| {
         assert!(text.contains(from), "the scenario has changed: {from}");
         text.replace(from, to)
@@ -53,16 +42,8 @@ fn channel(kinematic: bool) -> Loaded {
 
 fn answer(place: usize, question: &Question) -> Heard {
     let heading = Heading::from_deg(((place as u64 * 77 + question.number * 50) % 360) as f64);
-    let order = MoveOrder {
-        id: None,
-        manoeuvre: Manoeuvre::Steer { heading },
-        vertical: None,
-        speed_m_s: Some(1.0),
-    };
-    Heard::Answer(Answer {
-        order: Some(Order::Move(order)),
-        ..Answer::default()
-    })
+    let order = MoveOrder { id: None, manoeuvre: Manoeuvre::Steer { heading }, vertical: None, speed_m_s: Some(1.0) };
+    Heard::Answer(Answer { order: Some(Order::Move(order)), ..Answer::default() })
 }
 
 #[divan::bench(args = [(true, 8, 32), (true, 256, 1), (true, 1, 32), (false, 8, 32), (false, 32, 1)], sample_count = 20)]
@@ -80,17 +61,13 @@ fn decisions(bencher: Bencher<'_, '_>, (kinematic, plumes, each): (bool, usize, 
         (ocean, open)
     };
     let mut all: Vec<_> = (0..plumes).map(begin).collect();
-    bencher
-        .counter(ItemsCount::new(plumes * each))
-        .bench_local(|| {
-            for (ocean, open) in &mut all {
-                for (place, question) in open.drain(..) {
-                    ocean
-                        .answer(place, "auv0", answer(place, &question))
-                        .expect("it asks");
-                }
-                *open = ocean.until_asked();
-                assert!(open.len() == each, "all go on");
+    bencher.counter(ItemsCount::new(plumes * each)).bench_local(|| {
+        for (ocean, open) in &mut all {
+            for (place, question) in open.drain(..) {
+                ocean.answer(place, "auv0", answer(place, &question)).expect("it asks");
             }
-        });
+            *open = ocean.until_asked();
+            assert!(open.len() == each, "all go on");
+        }
+    });
 }

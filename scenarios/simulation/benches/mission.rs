@@ -19,11 +19,7 @@ fn run(name: &str, seed: u64) -> Ended {
 }
 
 #[divan::bench(args = ["duck_st", "flume_crab_paper", "uniform_channel"], sample_count = 3, sample_size = 1)]
-#[allow(
-    clippy::disallowed_methods,
-    clippy::print_stdout,
-    reason = "a benchmark reads the clock and speaks"
-)]
+#[allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a benchmark reads the clock and speaks")]
 fn mission(bencher: Bencher<'_, '_>, name: &str) {
     let mut seed = 0;
     bencher.bench_local(|| {
@@ -31,9 +27,6 @@ fn mission(bencher: Bencher<'_, '_>, name: &str) {
         let begun = Instant::now();
         let ended = run(name, seed);
         let factor = ended.t_s / begun.elapsed().as_secs_f64();
-        println!(
-            "{name}, seed {seed}: {:.0} s of mission, {factor:.0} x real time",
-            ended.t_s
-        );
+        println!("{name}, seed {seed}: {:.0} s of mission, {factor:.0} x real time", ended.t_s);
     });
 }

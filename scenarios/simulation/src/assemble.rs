@@ -41,11 +41,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If a part of the scenario cannot be built. A scenario without errors in [`crate::scenario::check`] can be.
-    pub fn assemble(
-        scenario: &Scenario,
-        base_dir: &Path,
-        seed: impl Into<Seed>,
-    ) -> Result<Self, AssembleError> {
+    pub fn assemble(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
         Self::assemble_with(&Registry::now(), scenario, base_dir, seed)
     }
 
@@ -89,11 +85,7 @@ impl Simulation {
 
     /// Of a world that is furnished.
     pub(crate) fn of(world: World, tick: Tick, origin: Origin) -> Self {
-        Self {
-            world,
-            tick,
-            origin,
-        }
+        Self { world, tick, origin }
     }
 
     /// The ocean as it is.
@@ -242,21 +234,12 @@ pub(crate) fn launch(
     base_dir: &Path,
     seed: Seed,
 ) -> Result<(), AssembleError> {
-    let launch = Launch {
-        base_dir,
-        seed,
-        dt_s: scenario.time.step_s.get(),
-    };
+    let launch = Launch { base_dir, seed, dt_s: scenario.time.step_s.get() };
     fleet.all().try_for_each(|a| a.spawn(world, &launch))
 }
 
 /// The tick with the systems of each kind of apparatus and of each extension.
-fn schedule(
-    world: &mut World,
-    fleet: &Fleet,
-    registry: &Registry,
-    frames: Frames,
-) -> Result<Tick, AssembleError> {
+fn schedule(world: &mut World, fleet: &Fleet, registry: &Registry, frames: Frames) -> Result<Tick, AssembleError> {
     let additions: Vec<&Addition> = registry.carried().collect();
     let kinds = fleet.kinds();
     let mut tick = Tick::new(kinds.len() + additions.len(), fleet.own_kinds(), frames);

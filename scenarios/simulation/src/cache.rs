@@ -68,9 +68,7 @@ pub enum CacheFault {
     #[error("spin-ups are not kept, and the runs go on without: {0}")]
     Folder(#[from] ShelfError),
     /// The program's own file cannot be read, so nobody can tell which program makes the states.
-    #[error(
-        "spin-ups are not kept, and the runs go on without: the program's own file cannot be read: {0}"
-    )]
+    #[error("spin-ups are not kept, and the runs go on without: the program's own file cannot be read: {0}")]
     Program(io::Error),
     /// A kept state was damaged, or something else stood in its place.
     #[error("a kept spin-up in {} was damaged; it was removed and made anew", .0.display())]
@@ -260,10 +258,7 @@ impl<W: Watch> Lanes<W> {
 /// Programs with other algorithms of their own have another one, even if they call themselves by one version.
 #[must_use]
 pub fn program_mark() -> String {
-    program().map_or_else(
-        |_| "unknown".to_string(),
-        |print| Fingerprint::hex(print)[..32].to_string(),
-    )
+    program().map_or_else(|_| "unknown".to_string(), |print| Fingerprint::hex(print)[..32].to_string())
 }
 
 /// Fingerprint of the running program's file, made once in a process.
@@ -272,11 +267,7 @@ fn program() -> Result<&'static [u8; 32], &'static io::Error> {
     let read = || {
         // On Linux this is the running file even if another has its name by now.
         let linux = Path::new("/proc/self/exe");
-        let path = if linux.exists() {
-            linux.to_owned()
-        } else {
-            std::env::current_exe()?
-        };
+        let path = if linux.exists() { linux.to_owned() } else { std::env::current_exe()? };
         fingerprint(&path)
     };
     PROGRAM.get_or_init(read).as_ref()

@@ -54,10 +54,7 @@ impl Extend for Registry {
     }
 
     fn with_topic(self, topic: Topic) -> Result<Self, WorldError> {
-        let wrong = |problem: String| WorldError::Invalid {
-            field: format!("topic `{}`", topic.name),
-            problem,
-        };
+        let wrong = |problem: String| WorldError::Invalid { field: format!("topic `{}`", topic.name), problem };
         let fits = |part: &str| {
             let legal = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
             part == "<id>" || (!part.is_empty() && part.chars().all(legal))

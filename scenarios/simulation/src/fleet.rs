@@ -18,10 +18,7 @@ impl<'s> Fleet<'s> {
     pub fn of(scenario: &'s Scenario) -> Self {
         let robots = scenario.robots.iter().map(|r| r as &dyn Apparatus);
         let gantries = scenario.gantries.iter().map(|g| g as &dyn Apparatus);
-        Self {
-            own: robots.chain(gantries).collect(),
-            added: scenario.apparatus.iter().map(|a| &**a).collect(),
-        }
+        Self { own: robots.chain(gantries).collect(), added: scenario.apparatus.iter().map(|a| &**a).collect() }
     }
 
     /// All of them.

@@ -66,66 +66,24 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
         chosen.kind::<robots::behave::TracksIn>(Algorithms),
         chosen.kind::<robots::behave::TracksOut>(Algorithms),
         chosen.kind::<robots::behave::Reacquires>(Algorithms),
-        within(
-            Algorithms,
-            "Behaviours of the strategies' own",
-            robots::behave::PARTS,
-        ),
+        within(Algorithms, "Behaviours of the strategies' own", robots::behave::PARTS),
         chosen.kind::<robots::map::Maps>(Algorithms),
         chosen.kind::<robots::plan::Planners>(Algorithms),
         chosen.kind::<robots::declare::Declares>(Algorithms),
         chosen.kind::<robots::declare::BeliefRules>(Algorithms),
-        within(
-            Algorithms,
-            "Eyes (rheotaxis segment, and a verifier's fields)",
-            robots::vision::CATALOGUE,
-        ),
+        within(Algorithms, "Eyes (rheotaxis segment, and a verifier's fields)", robots::vision::CATALOGUE),
         within(Algorithms, "Guidance", robots::guide::CATALOGUE),
-        fixed(
-            Algorithms,
-            "Estimators",
-            Named::Choice,
-            robots::estimate::CATALOGUE,
-        ),
+        fixed(Algorithms, "Estimators", Named::Choice, robots::estimate::CATALOGUE),
         within(Algorithms, "Autopilots", robots::actuate::CATALOGUE),
         chosen.kind::<robots::track::GantryStrategies>(Algorithms),
-        within(
-            Algorithms,
-            "Units of the Crab tracker, by their fields",
-            robots::track::UNITS,
-        ),
-        within(
-            Algorithms,
-            "Readings of the Crab tracker's paper, by their fields",
-            robots::track::READINGS,
-        ),
-        within(
-            Algorithms,
-            "Objects in a sidescan's picture",
-            robots::survey::CATALOGUE,
-        ),
+        within(Algorithms, "Units of the Crab tracker, by their fields", robots::track::UNITS),
+        within(Algorithms, "Readings of the Crab tracker's paper, by their fields", robots::track::READINGS),
+        within(Algorithms, "Objects in a sidescan's picture", robots::survey::CATALOGUE),
         chosen.kind::<plumes::flow::Currents>(Flows),
-        within(
-            Flows,
-            "What turns the flows (water: …)",
-            plumes::flow::OPTIONS,
-        ),
-        Section {
-            named: Named::Field,
-            ..chosen.kind::<robots::sense::Sensors>(Sensors)
-        },
-        fixed(
-            Sensors,
-            "Sensors of a gantry",
-            Named::Field,
-            robots::sense::PARTS,
-        ),
-        fixed(
-            Vehicles,
-            "Vehicles and gantries",
-            Named::Choice,
-            robots::vehicles::CATALOGUE,
-        ),
+        within(Flows, "What turns the flows (water: …)", plumes::flow::OPTIONS),
+        Section { named: Named::Field, ..chosen.kind::<robots::sense::Sensors>(Sensors) },
+        fixed(Sensors, "Sensors of a gantry", Named::Field, robots::sense::PARTS),
+        fixed(Vehicles, "Vehicles and gantries", Named::Choice, robots::vehicles::CATALOGUE),
         chosen.kind::<Apparatuses>(Vehicles),
     ];
     let mut sections: Vec<Section> = Vec::new();
@@ -141,17 +99,8 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
 /// All topics of a run: its own, those of each kind of apparatus, those that a registry carries.
 #[must_use]
 pub fn topics(registry: &Registry) -> Vec<Topic> {
-    let own = [
-        run::CLOCK,
-        auv::topics::TOPICS,
-        gantry::topics::TOPICS,
-        run::RUN,
-    ];
-    own.into_iter()
-        .flatten()
-        .chain(registry.carried())
-        .copied()
-        .collect()
+    let own = [run::CLOCK, auv::topics::TOPICS, gantry::topics::TOPICS, run::RUN];
+    own.into_iter().flatten().chain(registry.carried()).copied().collect()
 }
 
 /// The JSON messages of a frame, with their keys below `rheotaxis/<run>/`: those of each robot, those of each gantry,
@@ -175,22 +124,12 @@ struct Of<'r>(&'r Registry);
 
 impl Of<'_> {
     fn kind<K: Kind>(&self, group: Group) -> Section {
-        Section {
-            group,
-            heading: K::HEADING,
-            named: Named::Choice,
-            entries: self.0.entries::<K>(),
-        }
+        Section { group, heading: K::HEADING, named: Named::Choice, entries: self.0.entries::<K>() }
     }
 }
 
 fn fixed(group: Group, heading: &'static str, named: Named, entries: &[Entry]) -> Section {
-    Section {
-        group,
-        heading,
-        named,
-        entries: entries.to_vec(),
-    }
+    Section { group, heading, named, entries: entries.to_vec() }
 }
 
 fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
@@ -253,11 +192,7 @@ mod tests {
                 };
                 // A folder of one's own is no part of the program; `docs/vehicles.md` makes one.
                 let elsewhere = e.name == "File";
-                assert!(
-                    elsewhere || text.contains(&use_of),
-                    "no scenario uses {}",
-                    e.name
-                );
+                assert!(elsewhere || text.contains(&use_of), "no scenario uses {}", e.name);
             }
         }
     }
@@ -271,18 +206,12 @@ mod tests {
 
     impl Default for Spiral {
         fn default() -> Self {
-            Self {
-                turn_m: Positive::new(8.0),
-            }
+            Self { turn_m: Positive::new(8.0) }
         }
     }
 
     impl Listed for Spiral {
-        const ENTRY: Entry = Entry {
-            name: "Spiral",
-            what: "reacquire: in a spiral",
-            source: "ours",
-        };
+        const ENTRY: Entry = Entry { name: "Spiral", what: "reacquire: in a spiral", source: "ours" };
     }
 
     impl BehaviourParams for Spiral {
@@ -305,25 +234,12 @@ mod tests {
         let text = with("Spiral(turn_m: 5)");
         let scenario = parse_with(&registry, "own", &text).expect("legal");
         let amp = scenario.robots[0].strategy.get::<AmpSpec>().expect("Amp");
-        assert_eq!(
-            amp.reacquire,
-            ReacquireSpec::new(Spiral {
-                turn_m: Positive::new(5.0)
-            })
-        );
+        assert_eq!(amp.reacquire, ReacquireSpec::new(Spiral { turn_m: Positive::new(5.0) }));
         let lines = |text: &str, registry: &Registry| -> Vec<String> {
-            let refused = parse_with(registry, "own", text)
-                .expect_err("not legal")
-                .lines();
-            refused
-                .into_iter()
-                .map(|l| l.split_once(": ").expect("a place").1.to_string())
-                .collect()
+            let refused = parse_with(registry, "own", text).expect_err("not legal").lines();
+            refused.into_iter().map(|l| l.split_once(": ").expect("a place").1.to_string()).collect()
         };
-        assert_eq!(
-            lines(&text, &Registry::default()),
-            ["robots[0].strategy.reacquire: there is no choice `Spiral`"]
-        );
+        assert_eq!(lines(&text, &Registry::default()), ["robots[0].strategy.reacquire: there is no choice `Spiral`"]);
         assert_eq!(
             lines(&with("Spiral(turn_m: -5)"), &registry),
             ["robots[0].strategy.reacquire.turn_m: must be > 0, got -5"]

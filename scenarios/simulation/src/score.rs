@@ -195,10 +195,7 @@ impl Score {
     /// Without searchers.
     #[must_use]
     pub fn new(sources: Vec<Vector3<f64>>) -> Self {
-        Self {
-            sources,
-            ..Self::default()
-        }
+        Self { sources, ..Self::default() }
     }
 
     /// Adds a searcher and returns its place in [`Score::searchers`]. The run lasts until the missions of all

@@ -16,12 +16,7 @@ pub struct SearcherId {
 ///
 /// # Panics
 /// If there is one: with kind and name of the machine, and of what decides for it.
-pub(crate) fn must_be_sound(
-    fault: Option<String>,
-    [machine, id]: [&str; 2],
-    [part, name]: [&str; 2],
-    t_s: f64,
-) {
+pub(crate) fn must_be_sound(fault: Option<String>, [machine, id]: [&str; 2], [part, name]: [&str; 2], t_s: f64) {
     assert!(
         fault.is_none(),
         "{machine} \"{id}\": its {part} {name} decided what nobody can carry out at {t_s} s: {}; correct the {part}",

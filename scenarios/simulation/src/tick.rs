@@ -62,17 +62,8 @@ impl Tick {
             frames,
             waits: false,
         };
-        tick.act.add_systems(
-            move_bodies
-                .in_set(Stage::Physics)
-                .in_set(BodiesMove)
-                .before(Turn::Added(Stage::Physics)),
-        );
-        tick.report.add_systems(
-            ocean::digest_plume
-                .in_set(report)
-                .before(Turn::Added(report)),
-        );
+        tick.act.add_systems(move_bodies.in_set(Stage::Physics).in_set(BodiesMove).before(Turn::Added(Stage::Physics)));
+        tick.report.add_systems(ocean::digest_plume.in_set(report).before(Turn::Added(report)));
         for n in 1..turns {
             let after = Turn::Frame(n).after(Turn::Frame(n - 1));
             tick.frame.configure_sets(after);
@@ -82,12 +73,7 @@ impl Tick {
 
     /// Its parts, for what is added to them.
     pub(crate) fn parts(&mut self) -> [&mut Schedule; 4] {
-        [
-            &mut self.observe,
-            &mut self.act,
-            &mut self.report,
-            &mut self.frame,
-        ]
+        [&mut self.observe, &mut self.act, &mut self.report, &mut self.frame]
     }
 
     /// Fixes the order of all systems; an error says why there is none.
@@ -141,10 +127,7 @@ impl Tick {
 fn part(label: Part, stages: &[Stage], turns: usize, own: usize) -> Schedule {
     let mut part = Schedule::new(label);
     part.set_executor(SingleThreadedExecutor::new());
-    part.set_build_settings(ScheduleBuildSettings {
-        ambiguity_detection: LogLevel::Error,
-        ..Default::default()
-    });
+    part.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..Default::default() });
     for pair in stages.windows(2) {
         part.configure_sets(pair[0].before(pair[1]));
     }
@@ -233,11 +216,7 @@ mod tests {
             let world = &mut trial.simulation.world;
             let now = world.query::<&Truth>().single(world).expect("a robot");
             let now = now.pose.p_WB;
-            assert_eq!(
-                world.resource::<Noted>().1,
-                now,
-                "seen before the bodies moved"
-            );
+            assert_eq!(world.resource::<Noted>().1, now, "seen before the bodies moved");
         }
         let noted = &trial.simulation.world.resource::<Noted>().0;
         assert_eq!(*noted, ["first", "second", "first", "second"]);
@@ -248,8 +227,8 @@ mod tests {
         let watched = with(|systems| {
             systems.add(Stage::Physics, place);
         });
-        let [plain, watched] = [Registry::default(), watched]
-            .map(|registry| trial(&registry).expect("one order").finish_quietly().digest);
+        let [plain, watched] =
+            [Registry::default(), watched].map(|registry| trial(&registry).expect("one order").finish_quietly().digest);
         assert_eq!(plain, watched);
     }
 
@@ -258,10 +237,7 @@ mod tests {
         let said = refused(&with(|systems| {
             systems.add(Stage::Decide, (first, second));
         }));
-        assert!(
-            said.contains("Noted") || said.contains("conflict"),
-            "{said}"
-        );
+        assert!(said.contains("Noted") || said.contains("conflict"), "{said}");
         let chained = with(|systems| {
             systems.add(Stage::Decide, (first, second).chain());
         });
@@ -273,10 +249,7 @@ mod tests {
         let said = refused(&with(|systems| {
             systems.add_blind(Stage::Decide, place);
         }));
-        assert!(
-            said.contains("reads Truth, which holds the truth"),
-            "{said}"
-        );
+        assert!(said.contains("reads Truth, which holds the truth"), "{said}");
         let knows_nothing = with(|systems| {
             systems.add_blind(Stage::Decide, first);
         });

@@ -70,24 +70,14 @@ impl Trial {
     /// See [`Simulation::assemble_with`].
     pub fn assemble(loaded: &Loaded, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
-        let simulation =
-            Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;
+        let simulation = Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;
         let sources = simulation.ocean().sources();
         Ok(Self::of(scenario, simulation, sources))
     }
 
     /// A run of a scenario that is assembled, in an ocean with these sources (ENU, m).
-    pub(crate) fn of(
-        scenario: &Scenario,
-        simulation: Simulation,
-        sources: Vec<Vector3<f64>>,
-    ) -> Self {
-        Self {
-            simulation,
-            scenario: scenario.clone(),
-            progress: Progress::new(sources),
-            controllers: BTreeMap::new(),
-        }
+    pub(crate) fn of(scenario: &Scenario, simulation: Simulation, sources: Vec<Vector3<f64>>) -> Self {
+        Self { simulation, scenario: scenario.clone(), progress: Progress::new(sources), controllers: BTreeMap::new() }
     }
 
     /// Lets water and plume develop and returns a copy of them, which other runs can
@@ -140,11 +130,7 @@ impl Trial {
 
     /// Begins the mission in the ocean as it is, unless an observer has stopped the spin-up.
     pub(crate) fn set_out(&mut self, stopped: bool) {
-        self.progress.phase = if stopped {
-            RunPhase::Stopped
-        } else {
-            RunPhase::SpunUp
-        };
+        self.progress.phase = if stopped { RunPhase::Stopped } else { RunPhase::SpunUp };
         self.simulation.ocean_mut().set_out();
         self.digest_plume();
     }
@@ -231,12 +217,7 @@ impl Trial {
         };
         Ended {
             outcome,
-            flow_at_sources: self
-                .progress
-                .flow_sums
-                .iter()
-                .map(|sum| sum / samples)
-                .collect(),
+            flow_at_sources: self.progress.flow_sums.iter().map(|sum| sum / samples).collect(),
             digest: self.digest(outcome),
             steps: world.resource::<Clock>().step,
             t_s: self.simulation.t_s(),
@@ -278,8 +259,7 @@ impl Trial {
     #[must_use]
     pub fn apparatus(&self) -> BTreeMap<String, serde_json::Value> {
         let all = Fleet::of(&self.scenario);
-        let part =
-            |a: &dyn Apparatus| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
+        let part = |a: &dyn Apparatus| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
         all.all().filter_map(part).collect()
     }
 
@@ -308,9 +288,7 @@ impl Trial {
         }
         if let Some(t_s) = due {
             self.progress.flow_samples += 1;
-            let Progress {
-                flow_sums, sources, ..
-            } = &mut self.progress;
+            let Progress { flow_sums, sources, .. } = &mut self.progress;
             for (sum, p_W) in flow_sums.iter_mut().zip(&*sources) {
                 *sum += self.simulation.velocity(p_W);
             }
@@ -337,9 +315,7 @@ impl Trial {
     /// Declarations so far, by searcher.
     fn declarations(&self) -> BTreeMap<String, Vec<Declaration>> {
         let all = self.score().searchers.iter();
-        all.filter(|s| !s.declarations.is_empty())
-            .map(|s| (s.id.clone(), s.declarations.clone()))
-            .collect()
+        all.filter(|s| !s.declarations.is_empty()).map(|s| (s.id.clone(), s.declarations.clone())).collect()
     }
 
     fn outcome(&self) -> RunOutcome {
@@ -348,9 +324,7 @@ impl Trial {
         // A declaration that the vehicle itself has rejected does not count.
         let stands = |d: &&Declaration| d.verdict != Verdict::Rejected;
         let standing = || declarations.values().flatten().filter(stands);
-        let declared = |s: &Vector3<f64>, within_m: f64| {
-            standing().any(|d| (s.xy() - d.position).norm() <= within_m)
-        };
+        let declared = |s: &Vector3<f64>, within_m: f64| standing().any(|d| (s.xy() - d.position).norm() <= within_m);
         if let SuccessSpec::Declared(wanted) = &self.scenario.success
             && !declarations.is_empty()
         {
@@ -374,8 +348,7 @@ impl Trial {
             match &self.scenario.success {
                 SuccessSpec::Completed => RunOutcome::Completed,
                 SuccessSpec::AllDeclared(wanted)
-                    if (self.progress.sources.iter())
-                        .all(|s| declared(s, wanted.within_m.get())) =>
+                    if (self.progress.sources.iter()).all(|s| declared(s, wanted.within_m.get())) =>
                 {
                     RunOutcome::Found
                 }

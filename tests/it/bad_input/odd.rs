@@ -17,10 +17,7 @@ fn an_odd_character_anywhere_is_an_error_like_any_other() {
 
 #[test]
 fn a_minus_sign_from_a_document() {
-    refused(
-        pond("north_m: -30", "north_m: \u{2212}30"),
-        &golden("a_minus_sign_from_a_document"),
-    );
+    refused(pond("north_m: -30", "north_m: \u{2212}30"), &golden("a_minus_sign_from_a_document"));
 }
 
 #[test]
@@ -40,10 +37,7 @@ fn water_too_large_for_any_computer() {
 
 #[test]
 fn a_list_of_no_points() {
-    let text = pond(
-        "OpenLoop(table: [(t_s: 0, rpm: 0)], end_s: 1)",
-        "Amp(lost_points: 0)",
-    );
+    let text = pond("OpenLoop(table: [(t_s: 0, rpm: 0)], end_s: 1)", "Amp(lost_points: 0)");
     refused(text, &golden("a_list_of_no_points"));
 }
 
@@ -53,8 +47,5 @@ fn hulls_in_one_another() {
     let end = POND.find("    ],\n    time").unwrap();
     let robot = &POND[start..end];
     let second = robot.replace("auv0", "auv1");
-    refused(
-        POND.replacen(robot, &format!("{robot}{second}"), 1),
-        &golden("hulls_in_one_another"),
-    );
+    refused(POND.replacen(robot, &format!("{robot}{second}"), 1), &golden("hulls_in_one_another"));
 }

@@ -4,20 +4,11 @@ use super::{POND, in_folder, pond, stderr};
 
 /// What `check` says to a release, which ends with this.
 fn said(release: &str) -> String {
-    let text = pond(
-        "rate_g_s: 0.025),",
-        &format!("rate_g_s: 0.025, release: ({release})),"),
-    );
+    let text = pond("rate_g_s: 0.025),", &format!("rate_g_s: 0.025, release: ({release})),"));
     let output = in_folder(text.as_bytes(), &["check", "pond.ron"]);
     // One paragraph, so that line breaks do not matter.
-    let words: Vec<String> = stderr(&output)
-        .split_whitespace()
-        .map(str::to_owned)
-        .collect();
-    assert_eq!(
-        output.status.code(),
-        Some(if words.is_empty() { 0 } else { 1 })
-    );
+    let words: Vec<String> = stderr(&output).split_whitespace().map(str::to_owned).collect();
+    assert_eq!(output.status.code(), Some(if words.is_empty() { 0 } else { 1 }));
     words.join(" ").replace("│ ", "")
 }
 
@@ -37,35 +28,17 @@ fn a_buoyant_release_in_the_pond_is_fine() {
 #[test]
 fn impossible_releases_are_named() {
     for (release, says) in [
-        (
-            "buoyancy: Excess(-2)",
-            "needs the volume that it releases, in L/s",
-        ),
-        (
-            "buoyancy: Excess(-2), volume_l_s: 1, nozzle: (diameter_m: 0.05, speed_m_s: 0.1)",
-            "leave it out",
-        ),
-        (
-            "buoyancy: Excess(-2000), volume_l_s: 1",
-            "from -500 to 500 kg/m³",
-        ),
+        ("buoyancy: Excess(-2)", "needs the volume that it releases, in L/s"),
+        ("buoyancy: Excess(-2), volume_l_s: 1, nozzle: (diameter_m: 0.05, speed_m_s: 0.1)", "leave it out"),
+        ("buoyancy: Excess(-2000), volume_l_s: 1", "from -500 to 500 kg/m³"),
         ("buoyancy: Excess(-2), volume_l_s: 0", "must be"),
-        (
-            "buoyancy: Composition(solutes: [(what: Brine, g_l: 10)]), volume_l_s: 1",
-            "SodiumChloride",
-        ),
-        (
-            "buoyancy: Composition(solutes: [(what: Propanol, g_l: 900)]), volume_l_s: 1",
-            "must be at most 280",
-        ),
+        ("buoyancy: Composition(solutes: [(what: Brine, g_l: 10)]), volume_l_s: 1", "SodiumChloride"),
+        ("buoyancy: Composition(solutes: [(what: Propanol, g_l: 900)]), volume_l_s: 1", "must be at most 280"),
         (
             "buoyancy: Composition(solutes: [(what: Ethanol, g_l: 600), (what: Propanol, g_l: 280)]), volume_l_s: 1",
             "more than a litre",
         ),
-        (
-            "buoyancy: Composition(temperature_c: 90), volume_l_s: 1",
-            "from -2 to 40 °C",
-        ),
+        ("buoyancy: Composition(temperature_c: 90), volume_l_s: 1", "from -2 to 40 °C"),
         (
             "buoyancy: Composition(neutral_with: SodiumChloride, salinity: 42, around_c: 30), volume_l_s: 1",
             "no amount of",

@@ -37,25 +37,18 @@ fn a_variant_without_its_parentheses() {
 #[test]
 fn a_variant_without_its_parentheses_and_fields() {
     let text = pond("Level(depth_m: 10)", "Level");
-    refused(
-        text,
-        &golden("a_variant_without_its_parentheses_and_fields"),
-    );
+    refused(text, &golden("a_variant_without_its_parentheses_and_fields"));
 }
 
 #[test]
 fn values_without_their_names() {
-    let text = pond(
-        "(length_m: 100, width_m: 50, axis_heading_deg: 0)",
-        "(100, 50, 0)",
-    );
+    let text = pond("(length_m: 100, width_m: 50, axis_heading_deg: 0)", "(100, 50, 0)");
     refused(text, &golden("values_without_their_names"));
 }
 
 #[test]
 fn a_bracket_that_is_not_closed() {
-    let text =
-        pond("axis_heading_deg: 0),", "axis_heading_deg: 0,").replace("limit_s: 2", "limit_s: -2");
+    let text = pond("axis_heading_deg: 0),", "axis_heading_deg: 0,").replace("limit_s: 2", "limit_s: -2");
     refused(text, &golden("a_bracket_that_is_not_closed"));
 }
 
@@ -74,9 +67,7 @@ fn numbers(text: &str) -> Vec<(usize, usize)> {
         for (i, _) in code.match_indices(": ") {
             let quoted = code[..i].matches('"').count() % 2 == 1;
             let value = &code[i + 2..];
-            let len = value
-                .find(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c)))
-                .unwrap_or(value.len());
+            let len = value.find(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c))).unwrap_or(value.len());
             let whole = value[len..].starts_with([',', ')', '\n']);
             if len > 0 && whole && !quoted && !code[..i].ends_with("version") {
                 found.push((line_at + i + 2, len));
@@ -91,10 +82,7 @@ fn numbers(text: &str) -> Vec<(usize, usize)> {
 fn place(text: &str, at: usize) -> (usize, usize) {
     let before = &text[..at];
     let line = 1 + before.matches('\n').count();
-    (
-        line,
-        1 + before.chars().rev().take_while(|c| *c != '\n').count(),
-    )
+    (line, 1 + before.chars().rev().take_while(|c| *c != '\n').count())
 }
 
 /// Line and column of each mistake of a file.

@@ -23,9 +23,6 @@ fn verifiers_that_could_never_verify() {
                 eyes: (verifier: (colours: (alpha2: 300))),
             )";
     for (strategy, name) in [(survey, "survey"), (eyes, "eyes")] {
-        refused(
-            pond_with_eyes(strategy),
-            &golden(&format!("verifier_of_{name}")),
-        );
+        refused(pond_with_eyes(strategy), &golden(&format!("verifier_of_{name}")));
     }
 }

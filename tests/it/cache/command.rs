@@ -18,17 +18,12 @@ fn folder() -> tempfile::TempDir {
 
 /// Turns the cache of a command on, in `<dir>/kept`, for whatever is made, however quickly.
 fn cached<'a>(command: &'a mut Command, dir: &Path) -> &'a mut Command {
-    command
-        .env_remove("RHEOTAXIS_NO_CACHE")
-        .env("RHEOTAXIS_CACHE", dir.join("kept"))
-        .env("RHEOTAXIS_CACHE_FROM", "0")
+    command.env_remove("RHEOTAXIS_NO_CACHE").env("RHEOTAXIS_CACHE", dir.join("kept")).env("RHEOTAXIS_CACHE_FROM", "0")
 }
 
 fn rheotaxis(dir: &Path, args: &[&str]) -> Output {
     let mut command = common::command(dir, args);
-    cached(&mut command, dir)
-        .output()
-        .expect("rheotaxis starts")
+    cached(&mut command, dir).output().expect("rheotaxis starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -83,10 +78,7 @@ fn the_second_run_of_a_seed_takes_the_first_ones_spin_up() {
     let shown = told(&["cache"]);
     let place = dir.join("kept");
     assert!(shown.starts_with(place.to_str().unwrap()), "{shown}");
-    assert!(
-        shown.contains("2 spin-ups, ") && shown.contains("2.0 GB"),
-        "{shown}"
-    );
+    assert!(shown.contains("2 spin-ups, ") && shown.contains("2.0 GB"), "{shown}");
     fs::write(place.join("notes.txt"), "mine").unwrap();
     let cleared = told(&["cache", "clear"]);
     assert!(cleared.starts_with("removed 2 spin-ups"), "{cleared}");
@@ -100,21 +92,9 @@ fn scenarios_of_one_command_that_share_a_plume_take_it_together() {
     let folder = folder();
     let dir = folder.path();
     let s = fs::read_to_string(dir.join("s.ron")).unwrap();
-    fs::write(
-        dir.join("t.ron"),
-        common::with_fields(&s, &[("limit_s", "4")]),
-    )
-    .unwrap();
+    fs::write(dir.join("t.ron"), common::with_fields(&s, &[("limit_s", "4")])).unwrap();
     let both = |out: &str, more: &[&str]| {
-        let args = [
-            "run",
-            "s.ron",
-            "t.ron",
-            "--no-zenoh",
-            "--no-record",
-            "--out",
-            out,
-        ];
+        let args = ["run", "s.ron", "t.ron", "--no-zenoh", "--no-record", "--out", out];
         let end = rheotaxis(dir, &[&args, more].concat());
         let said = text(&end.stderr);
         assert_eq!(end.status.code(), Some(3), "{said}");
@@ -122,11 +102,7 @@ fn scenarios_of_one_command_that_share_a_plume_take_it_together() {
             let summary = summary(&dir.join(out), name);
             let taken = summary["run"]["spin_up_kept"].as_bool().unwrap();
             // Each says so when it begins its mission.
-            assert_eq!(
-                said.matches(TAKEN).count(),
-                if taken { 2 } else { 0 },
-                "{said}"
-            );
+            assert_eq!(said.matches(TAKEN).count(), if taken { 2 } else { 0 }, "{said}");
             (summary["digest"].as_str().unwrap().to_string(), taken)
         })
     };
@@ -184,20 +160,12 @@ fn processes_at_once_leave_one_whole_file() {
             cached(&mut command, dir).spawn().expect("it starts")
         })
         .collect();
-    let ends: Vec<_> = (children.into_iter())
-        .map(|c| c.wait_with_output().unwrap())
-        .collect();
+    let ends: Vec<_> = (children.into_iter()).map(|c| c.wait_with_output().unwrap()).collect();
     for (n, end) in ends.iter().enumerate() {
         let said = text(&end.stderr);
         assert_eq!(end.status.code(), Some(3), "{said}");
-        assert!(
-            !said.contains("damaged") && !said.contains("not kept"),
-            "{said}"
-        );
-        assert_eq!(
-            summary(dir, &n.to_string())["digest"],
-            summary(dir, "0")["digest"]
-        );
+        assert!(!said.contains("damaged") && !said.contains("not kept"), "{said}");
+        assert_eq!(summary(dir, &n.to_string())["digest"], summary(dir, "0")["digest"]);
     }
     assert_eq!(files(&dir.join("kept")).len(), 1);
     let (digest, taken) = run(dir, "after", &[]);
@@ -284,16 +252,10 @@ fn campaigns_and_reproduced_rows_share_it_with_runs() {
         assert_eq!(end.status.code(), Some(0), "{}", text(&end.stderr));
     };
     let campaign = |out: &'static str, more: &[&str]| {
-        let args = [
-            "campaign", "run", "c.ron", "--out", out, "--quiet", "--jobs", "2",
-        ];
+        let args = ["campaign", "run", "c.ron", "--out", out, "--quiet", "--jobs", "2"];
         done(&[&args, more].concat());
         let digest = |r: studies::campaign::RunRow| (r.run, r.digest);
-        let mut rows: Vec<_> = studies::campaign::read_rows(&dir.join(out))
-            .unwrap()
-            .into_iter()
-            .map(digest)
-            .collect();
+        let mut rows: Vec<_> = studies::campaign::read_rows(&dir.join(out)).unwrap().into_iter().map(digest).collect();
         rows.sort();
         rows
     };
@@ -306,15 +268,7 @@ fn campaigns_and_reproduced_rows_share_it_with_runs() {
     assert_eq!(files(&dir.join("kept")).len(), 2);
     let (digest, taken) = run(dir, "run", &["--seed", "2"]);
     assert!(taken && alone.iter().any(|(_, d)| *d == digest));
-    done(&[
-        "reproduce",
-        "row.ron",
-        "--seeds",
-        "3",
-        "--quiet",
-        "--out",
-        "rows",
-    ]);
+    done(&["reproduce", "row.ron", "--seeds", "3", "--quiet", "--out", "rows"]);
     assert_eq!(files(&dir.join("kept")).len(), 3);
     assert!(run(dir, "third", &["--seed", "3"]).1);
     // A rerun is a check of a row, and makes everything anew.

@@ -42,11 +42,7 @@ fn a_damaged_file_is_noticed_told_and_made_anew() {
 #[test]
 fn a_whole_file_with_another_content_is_an_error_and_no_panic() {
     let dir = tempfile::tempdir().unwrap();
-    for loaded in [
-        small(),
-        short("block_in_channel", 10.0, 5.0),
-        short("flume_crab", 1.0, 5.0),
-    ] {
+    for loaded in [small(), short("block_in_channel", 10.0, 5.0), short("flume_crab", 1.0, 5.0)] {
         let place = dir.path().join(&loaded.name);
         let (first, _) = developed(&loaded, 1, &all(&place));
         let key = key(&place);

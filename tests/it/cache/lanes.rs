@@ -114,20 +114,13 @@ fn a_lane_that_fails_or_stops_does_not_touch_what_the_other_takes() {
     let searchers = searchers();
     let alone = Trial::assemble(&searchers[1], 7).unwrap().finish_quietly();
     for stops in [true, false] {
-        let first = Listener {
-            stops,
-            panics: !stops,
-            ..Listener::default()
-        };
+        let first = Listener { stops, panics: !stops, ..Listener::default() };
         let listeners = [first, Listener::default()];
         let (developed, ends) = together(&searchers, 7.into(), &all(dir.path()), &listeners);
         assert_eq!(developed.unwrap().kept, !stops);
         match &ends[0] {
             Ok(ended) => assert!(stops && ended.steps == 0),
-            Err(said) => assert_eq!(
-                (stops, said.as_str()),
-                (false, "panicked: no room to write")
-            ),
+            Err(said) => assert_eq!((stops, said.as_str()), (false, "panicked: no room to write")),
         }
         assert_eq!(ends[1].as_ref(), Ok(&alone));
     }
@@ -137,10 +130,7 @@ fn a_lane_that_fails_or_stops_does_not_touch_what_the_other_takes() {
 fn lanes_that_all_stop_or_have_a_secret_key_keep_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let searchers = searchers();
-    let stopping = Listener {
-        stops: true,
-        ..Listener::default()
-    };
+    let stopping = Listener { stops: true, ..Listener::default() };
     let listeners = [stopping.clone(), stopping];
     let (developed, _) = together(&searchers, 7.into(), &all(dir.path()), &listeners);
     assert!(developed.is_none());

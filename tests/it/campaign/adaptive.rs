@@ -38,11 +38,7 @@ fn it_stops_when_the_intervals_are_as_narrow_as_asked_and_not_before() {
     // takes 35 seeds; the first look, at 20, is not enough.
     let dir = asked("0.05");
     let out = dir.path().join("out");
-    ends(
-        dir.path(),
-        0,
-        &["run", "c.ron", "--out", "out", "--block", "16", "--quiet"],
-    );
+    ends(dir.path(), 0, &["run", "c.ron", "--out", "out", "--block", "16", "--quiet"]);
     let reached = half_widths(&out);
     assert_eq!(reached.len(), 4);
     for (n, half_width) in &reached {
@@ -60,20 +56,14 @@ fn it_stops_when_the_intervals_are_as_narrow_as_asked_and_not_before() {
 fn shares_wait_for_each_other_and_come_to_the_same_rows() {
     let dir = asked("0.05");
     let in_blocks = |out: &str, code: i32, shard: &str, block: &str| {
-        let args = [
-            "run", "c.ron", "--out", out, "--block", block, "--quiet", "--shard", shard,
-        ];
+        let args = ["run", "c.ron", "--out", out, "--block", block, "--quiet", "--shard", shard];
         ends(dir.path(), code, &args)
     };
     let run = |out: &str, code: i32, shard: &str| in_blocks(out, code, shard, "16");
     run("alone", 0, "1/1");
     // How many runs are enough does not hang on the length of blocks, nor on what they cost.
     in_blocks("long", 0, "1/1", "1000");
-    ends(
-        dir.path(),
-        0,
-        &["run", "c.ron", "--out", "by_cost", "--quiet"],
-    );
+    ends(dir.path(), 0, &["run", "c.ron", "--out", "by_cost", "--quiet"]);
     // The first share cannot know whether 20 seeds are enough; the third sees them all and goes on with its
     // part of the next ones, for which the others have to come again.
     run("shared", 75, "1/3");

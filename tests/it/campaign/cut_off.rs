@@ -9,9 +9,7 @@ use std::process::Stdio;
 use world::seeds::Stream;
 
 fn start(dir: &Path) -> Process {
-    let args = [
-        "campaign", "run", "c.ron", "--out", "out", "--block", "4", "--quiet", "--jobs", "2",
-    ];
+    let args = ["campaign", "run", "c.ron", "--out", "out", "--block", "4", "--quiet", "--jobs", "2"];
     let mut command = scheduler_free(common::command(dir, &args));
     Process::start(command.stdout(Stdio::null()).stderr(Stdio::null()))
 }
@@ -36,10 +34,7 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
         // Blocks never change once they have their name: not while it runs, nor by the kill.
         let now = blocks(&out);
         for (name, bytes) in &before {
-            assert!(
-                now.get(name) == Some(bytes),
-                "{name} was lost or done again"
-            );
+            assert!(now.get(name) == Some(bytes), "{name} was lost or done again");
         }
         before = now;
         // Killed between making the folder and writing the manifest it has not begun; after its last block, on its way
@@ -55,13 +50,8 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
     };
     let start = || start(dir);
     let [kills, grew] = kill_again_and_again(start, || count(&out), || draw.uniform(), killed);
-    assert!(
-        kills >= 15 && grew >= 5,
-        "{kills} kills, {grew} with blocks"
-    );
-    let args = [
-        "run", "c.ron", "--out", "straight", "--block", "4", "--quiet",
-    ];
+    assert!(kills >= 15 && grew >= 5, "{kills} kills, {grew} with blocks");
+    let args = ["run", "c.ron", "--out", "straight", "--block", "4", "--quiet"];
     ends(dir, 0, &args);
     assert_eq!(rows(&out), rows(&dir.join("straight")));
     assert_eq!(rows(&out).len(), 4 * BLOCKS);
@@ -74,31 +64,16 @@ fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
     let dir = folder.path();
     let mut child = start(dir);
     assert!(child.handles(TERM));
-    until("two blocks are written", || {
-        (count(&dir.join("out")) >= 2).then_some(())
-    });
+    until("two blocks are written", || (count(&dir.join("out")) >= 2).then_some(()));
     child.signal("-TERM");
     assert_eq!(child.end().code(), Some(75));
-    let names = fs::read_dir(dir.join("out"))
-        .unwrap()
-        .map(|f| f.unwrap().file_name());
-    let temporary = names
-        .filter(|name| name.to_string_lossy().ends_with(".tmp"))
-        .count();
+    let names = fs::read_dir(dir.join("out")).unwrap().map(|f| f.unwrap().file_name());
+    let temporary = names.filter(|name| name.to_string_lossy().ends_with(".tmp")).count();
     assert_eq!(temporary, 0);
     let done = rows(&dir.join("out")).len();
     assert!(done >= 8, "{done}");
     // A limit of wall time ends it the same way.
-    let args = [
-        "run",
-        "c.ron",
-        "--out",
-        "out",
-        "--max-wall",
-        "1s",
-        "--jobs",
-        "1",
-    ];
+    let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s", "--jobs", "1"];
     let (_, said) = ends(dir, 75, &args);
     assert!(said.contains("the same command continues"), "{said}");
     assert!(rows(&dir.join("out")).len() >= done);
@@ -111,54 +86,40 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
     let folder = folder(RUNS as u64 / 4, "10", "2");
     let dir = folder.path();
     let block = RUNS.to_string();
-    let args = [
-        "campaign", "run", "c.ron", "--out", "out", "--block", &block, "--jobs", "2",
-    ];
+    let args = ["campaign", "run", "c.ron", "--out", "out", "--block", &block, "--jobs", "2"];
     let out = dir.join("out");
     let first = 0.05;
     let mut after = first;
-    let said = until(
-        "it is asked to stop between its first run and its last",
-        || {
-            let mut command = scheduler_free(common::command(dir, &args));
-            let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
-            let mut process = Process::start(command);
-            if process.handles(INT) {
-                pause(after);
-                process.signal("-INT");
-            }
-            let end = process.output();
-            // Too early no run is over, too late all are.
-            if end.status.success() {
-                fs::remove_dir_all(&out).unwrap();
-                after = first;
-                return None;
-            }
-            after *= 1.3;
-            assert_eq!(end.status.code(), Some(75), "{end:?}");
-            let written = out.join("part-000000.parquet").exists();
-            written.then(|| String::from_utf8(end.stderr).unwrap())
-        },
-    );
+    let said = until("it is asked to stop between its first run and its last", || {
+        let mut command = scheduler_free(common::command(dir, &args));
+        let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
+        let mut process = Process::start(command);
+        if process.handles(INT) {
+            pause(after);
+            process.signal("-INT");
+        }
+        let end = process.output();
+        // Too early no run is over, too late all are.
+        if end.status.success() {
+            fs::remove_dir_all(&out).unwrap();
+            after = first;
+            return None;
+        }
+        after *= 1.3;
+        assert_eq!(end.status.code(), Some(75), "{end:?}");
+        let written = out.join("part-000000.parquet").exists();
+        written.then(|| String::from_utf8(end.stderr).unwrap())
+    });
     let part = rows(&out);
     let n = part.len();
-    assert!(
-        said.contains(" done and written, ") && said.contains("the same command continues"),
-        "{said}"
-    );
+    assert!(said.contains(" done and written, ") && said.contains("the same command continues"), "{said}");
     assert!(n > 0 && n < RUNS, "{n} of one block's {RUNS} rows");
     assert!(said.contains(&format!("{} left;", RUNS - n)), "{n}: {said}");
     let (said, _) = ends(dir, 75, &["status", "out"]);
-    assert!(
-        said.contains(&format!("{n} of {RUNS} runs done, 0 of 1 block whole")),
-        "{said}"
-    );
+    assert!(said.contains(&format!("{n} of {RUNS} runs done, 0 of 1 block whole")), "{said}");
     let (said, said_of_missing) = ends(dir, 0, &["merge", "out", "-o", "all.parquet"]);
     assert!(said.starts_with(&format!("{n} row")), "{said}");
-    assert!(
-        said_of_missing.contains(&format!("{} runs missing", RUNS - n)),
-        "{said_of_missing}"
-    );
+    assert!(said_of_missing.contains(&format!("{} runs missing", RUNS - n)), "{said_of_missing}");
     // What is done is not done again, and all is as if it had never been cut off, by whatever blocks.
     let walls = |rows: &[studies::campaign::RunRow]| -> Vec<(u64, f64)> {
         rows.iter().map(|r| (r.run, r.mission_wall_s)).collect()

@@ -26,21 +26,9 @@ fn absurd_manifests_are_errors_with_field_and_range_for_every_command() {
     let range = "must be from 1 to 1099511627776, got";
     for (field, value, says) in [
         ("block", 0_u64, format!("block: {range} 0")),
-        (
-            "block",
-            1 << 63,
-            format!("block: {range} 9223372036854775808"),
-        ),
-        (
-            "runs",
-            1 << 63,
-            format!("runs: {range} 9223372036854775808"),
-        ),
-        (
-            "runs",
-            1 << 40,
-            "runs: must be the campaign's 4, got 1099511627776".to_string(),
-        ),
+        ("block", 1 << 63, format!("block: {range} 9223372036854775808")),
+        ("runs", 1 << 63, format!("runs: {range} 9223372036854775808")),
+        ("runs", 1 << 40, "runs: must be the campaign's 4, got 1099511627776".to_string()),
     ] {
         with(dir, field, value.into());
         let rerun = ["rerun", "out", "--run", "0"];
@@ -49,10 +37,7 @@ fn absurd_manifests_are_errors_with_field_and_range_for_every_command() {
         for args in commands {
             let (_, said) = ends(dir, 1, args);
             let differs = args[0] == "run" && said.contains("holds runs of another campaign");
-            assert!(
-                differs || said.contains("campaign.json") && said.contains(&says),
-                "{args:?} {field}: {said}"
-            );
+            assert!(differs || said.contains("campaign.json") && said.contains(&says), "{args:?} {field}: {said}");
         }
         fs::write(dir.join("out/campaign.json"), &good).unwrap();
     }
@@ -71,15 +56,8 @@ fn pipes_and_devices_in_the_place_of_a_block_are_said_and_stay() {
     std::os::unix::fs::symlink("/dev/zero", &block).unwrap();
     let says = "out/part-000001.parquet is not whole: it is a device, not a file";
     let (said, _) = ends(dir, 75, &["status", "out"]);
-    assert!(
-        said.contains(says) && said.contains("6 of 8 runs done"),
-        "{said}"
-    );
-    for args in [
-        &RUN[..],
-        &["merge", "out", "-o", "all.parquet"],
-        &["report", "out"],
-    ] {
+    assert!(said.contains(says) && said.contains("6 of 8 runs done"), "{said}");
+    for args in [&RUN[..], &["merge", "out", "-o", "all.parquet"], &["report", "out"]] {
         let (_, said) = ends(dir, 1, args);
         assert!(said.contains(says), "{args:?}: {said}");
     }
@@ -103,11 +81,7 @@ fn a_block_that_is_removed_meanwhile_is_made_again() {
     let dir = folder.path();
     let campaign = load(&dir.join("c.ron")).unwrap();
     let (out, removed) = (dir.join("out"), AtomicBool::new(false));
-    let options = RunOptions {
-        block: Some(4),
-        jobs: 1,
-        ..RunOptions::default()
-    };
+    let options = RunOptions { block: Some(4), jobs: 1, ..RunOptions::default() };
     let tell = |event: Event<'_>| {
         if matches!(event, Event::Wrote(2)) && !removed.swap(true, Ordering::Relaxed) {
             fs::remove_file(block_path(&out, 0)).unwrap();
@@ -125,11 +99,8 @@ fn what_killed_processes_left_goes_with_the_next_run_or_merge() {
     let dir = folder.path();
     let run = ["run", "c.ron", "--out", "out", "--quiet"];
     ends(dir, 0, &run);
-    let left = [
-        "out/campaign.json.17-0.tmp",
-        "out/part-000000.parquet.17-1.tmp",
-        "out/declarations-000000.parquet.17-2.tmp",
-    ];
+    let left =
+        ["out/campaign.json.17-0.tmp", "out/part-000000.parquet.17-1.tmp", "out/declarations-000000.parquet.17-2.tmp"];
     let of_merge = ["all.parquet.17-0.tmp", "all-declarations.csv.17-3.tmp"];
     let others = ["out/notes.parquet.17-1.tmp", "rows.parquet.17-1.tmp"];
     for name in left.iter().chain(&of_merge).chain(&others) {

@@ -16,21 +16,12 @@ fn runs_under_different_keys_never_share_a_folder() {
     let under_key = rows(&dir.join("out"));
     let manifest = fs::read_to_string(dir.join("out/campaign.json")).unwrap();
     let mark = world::seeds::Key::secret(SECRET).mark().unwrap();
-    assert!(
-        manifest.contains(&mark) && !manifest.contains(SECRET),
-        "{manifest}"
-    );
+    assert!(manifest.contains(&mark) && !manifest.contains(SECRET), "{manifest}");
     // Whoever goes on without it is told so, and loses nothing.
     let (_, said) = ends(dir, 1, &RUN);
-    assert!(
-        said.contains(&format!("mark of the key {mark} there, none here")),
-        "{said}"
-    );
+    assert!(said.contains(&format!("mark of the key {mark} there, none here")), "{said}");
     let (_, said) = ends(dir, 1, &["rerun", "out", "--run", "0", "--quiet"]);
-    assert!(
-        said.contains(&format!("the mark {mark}: give it with --key")),
-        "{said}"
-    );
+    assert!(said.contains(&format!("the mark {mark}: give it with --key")), "{said}");
     let (said, _) = keyed(0, &["rerun", "out", "--run", "0", "--quiet"]);
     assert!(said.contains("the same digest as its row"), "{said}");
     // Reading needs no key.

@@ -17,11 +17,7 @@ fn rows_of(dir: &Path, arms: &[&str]) -> Vec<RunRow> {
     let file = format!("{name}.ron");
     fs::write(dir.join(&file), text).unwrap();
     let out = format!("{name}-{}", arms[0].len());
-    ends(
-        dir,
-        0,
-        &["run", &file, "--out", &out, "--quiet", "--jobs", "1"],
-    );
+    ends(dir, 0, &["run", &file, "--out", &out, "--quiet", "--jobs", "1"]);
     rows(&dir.join(out))
 }
 
@@ -33,10 +29,8 @@ fn arms_that_differ_only_in_permeable_do_not_share_a_spin_up() {
     // 10 to 20 m down-stream of the source, which the dye passes within the spin-up.
     let block = r#"    obstacles: [(id: "block", shape: Box(size_m: (10, 30, 9)), east_m: -135, north_m: 0)],
     sources: ["#;
-    let pond = pond.replace("    sources: [", block).replace(
-        "    water: (",
-        "    water: (blockage: (cell_m: 5, levels: 6), ",
-    );
+    let pond =
+        pond.replace("    sources: [", block).replace("    water: (", "    water: (blockage: (cell_m: 5, levels: 6), ");
     fs::write(dir.join("pond.ron"), pond).unwrap();
     let both = rows_of(dir, &[SOLID, OPEN]);
     assert_eq!(both.len(), 4);

@@ -23,14 +23,8 @@ fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
     fs::write(dir.join("c.ron"), text.replace("\"1.2\"", "\"-1\"")).unwrap();
     for args in [&["plan", "c.ron"][..], &["run", "c.ron", "--out", "out"]] {
         let (_, said) = ends(dir, 1, args);
-        assert!(
-            said.contains("robots[0].strategy.speed_m_s: must be > 0, got -1"),
-            "{said}"
-        );
-        assert!(
-            said.contains("pond (arm slow, sources[0].rate_g_s=0.02):"),
-            "{said}"
-        );
+        assert!(said.contains("robots[0].strategy.speed_m_s: must be > 0, got -1"), "{said}");
+        assert!(said.contains("pond (arm slow, sources[0].rate_g_s=0.02):"), "{said}");
     }
     assert!(!dir.join("out").exists());
 }
@@ -39,21 +33,13 @@ fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
 fn the_share_is_read_from_the_scheduler() {
     let folder = folder(2, "30", "1");
     let dir = folder.path();
-    let args = [
-        "campaign", "run", "c.ron", "--out", "out", "--block", "2", "--quiet",
-    ];
+    let args = ["campaign", "run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
     let run = |variables: &[(&str, &str)]| {
         let mut command = scheduler_free(common::command(dir, &args));
         command.envs(variables.iter().copied());
         command.output().unwrap()
     };
-    let array = |id| {
-        [
-            ("SLURM_ARRAY_TASK_ID", id),
-            ("SLURM_ARRAY_TASK_MIN", "1"),
-            ("SLURM_ARRAY_TASK_COUNT", "3"),
-        ]
-    };
+    let array = |id| [("SLURM_ARRAY_TASK_ID", id), ("SLURM_ARRAY_TASK_MIN", "1"), ("SLURM_ARRAY_TASK_COUNT", "3")];
     assert!(run(&array("2")).status.success());
     assert_eq!(blocks(&dir.join("out")).len(), 1);
     assert!(block_path(&dir.join("out"), 1).is_file());

@@ -38,17 +38,7 @@ fn a_row_is_the_run_of_its_seed_digest_and_all() {
         }
         fs::write(dir.join("by_hand.ron"), text).unwrap();
         let seed = row.seed.to_string();
-        let args = [
-            "run",
-            "by_hand.ron",
-            "--seed",
-            &seed,
-            "--out",
-            "by_hand",
-            "--no-zenoh",
-            "--no-record",
-            "--quiet",
-        ];
+        let args = ["run", "by_hand.ron", "--seed", &seed, "--out", "by_hand", "--no-zenoh", "--no-record", "--quiet"];
         let end = common::rheotaxis_in(dir, &args);
         assert!(matches!(end.status.code(), Some(0 | 3)), "{end:?}");
         let summary = fs::read_to_string(dir.join("by_hand/summary.json")).unwrap();
@@ -58,18 +48,12 @@ fn a_row_is_the_run_of_its_seed_digest_and_all() {
     let (said, _) = ends(dir, 0, &["status", "other"]);
     assert!(said.contains("seeds 101 to 102"), "{said}");
     let (said, _) = ends(dir, 0, &["report", "other"]);
-    assert!(
-        said.starts_with("Two speeds\n") && said.contains("seeds 101 to 102"),
-        "{said}"
-    );
+    assert!(said.starts_with("Two speeds\n") && said.contains("seeds 101 to 102"), "{said}");
     let page = fs::read_to_string(dir.join("other/report/report.html")).unwrap();
     assert!(page.contains("<h1>Two speeds</h1>"), "{page}");
     assert!(page.contains("<td>slow</td><td>robots[0].strategy.speed_m_s=1.2</td>"));
     let manifest = fs::read_to_string(dir.join("other/campaign.json")).unwrap();
-    assert!(
-        manifest.contains("\"seeds\": \"seeds 101 to 102\""),
-        "{manifest}"
-    );
+    assert!(manifest.contains("\"seeds\": \"seeds 101 to 102\""), "{manifest}");
 }
 
 #[test]
@@ -77,17 +61,13 @@ fn a_file_of_version_1_means_what_it_meant_and_says_so() {
     let folder = folder(2, "30", "1");
     let dir = folder.path();
     let text = fs::read_to_string(dir.join("c.ron")).unwrap();
-    let old = text
-        .replace("version: 2", "version: 1")
-        .replace("seeds: 2", "seed: 7, seeds: 2");
+    let old = text.replace("version: 2", "version: 1").replace("seeds: 2", "seed: 7, seeds: 2");
     fs::write(dir.join("old.ron"), old).unwrap();
     with_seeds(dir, "new.ron", "seeds: Hashed(seed: 7, count: 2)");
     let (rows, said) = ran(dir, "old.ron", "old");
-    for says in [
-        "a file of version 1: its seeds are hashed from 7",
-        "`seeds: Hashed(seed: 7, count: 2)`",
-        "old.ron:2:5",
-    ] {
+    for says in
+        ["a file of version 1: its seeds are hashed from 7", "`seeds: Hashed(seed: 7, count: 2)`", "old.ron:2:5"]
+    {
         assert!(said.contains(says), "{says}: {said}");
     }
     for row in &rows {
@@ -99,8 +79,7 @@ fn a_file_of_version_1_means_what_it_meant_and_says_so() {
     assert_eq!((new, said.as_str()), (rows, ""));
     // A folder that an older program began is gone on with.
     let manifest = dir.join("old/campaign.json");
-    let mut json: serde_json::Value =
-        serde_json::from_str(&fs::read_to_string(&manifest).unwrap()).unwrap();
+    let mut json: serde_json::Value = serde_json::from_str(&fs::read_to_string(&manifest).unwrap()).unwrap();
     for field in ["seeds", "sealed"] {
         json.as_object_mut().unwrap().remove(field);
     }

@@ -26,11 +26,7 @@ fn best_median_and_worst_run_of_each_arm_are_made_anew() {
     assert_eq!(one.matches(FILM).count(), 6, "three of each arm");
     let stills = "<figure class=\"still\"><img src=\"data:image/png;base64,iVBOR";
     assert_eq!(one.matches(stills).count(), 6, "for print");
-    for says in [
-        "Best, median and worst run",
-        "slow, sources[0].rate_g_s=",
-        ": median run, number",
-    ] {
+    for says in ["Best, median and worst run", "slow, sources[0].rate_g_s=", ": median run, number"] {
         assert!(one.contains(says), "{says}");
     }
     assert!(one.len() < 3_000_000, "{} bytes", one.len());
@@ -46,18 +42,9 @@ fn best_median_and_worst_run_of_each_arm_are_made_anew() {
     assert!(campaign.film(&row).is_ok());
     let other = |row: RunRow| campaign.film(&row).expect_err("not that run");
     let digest = "0".repeat(32);
-    let said = other(RunRow {
-        digest: digest.clone(),
-        ..row.clone()
-    });
-    assert!(
-        said.contains("its row is out of date") && said.contains(&digest),
-        "{said}"
-    );
-    assert_eq!(
-        other(RunRow { seed: 77, ..row }),
-        "its row is of another campaign"
-    );
+    let said = other(RunRow { digest: digest.clone(), ..row.clone() });
+    assert!(said.contains("its row is out of date") && said.contains(&digest), "{said}");
+    assert_eq!(other(RunRow { seed: 77, ..row }), "its row is of another campaign");
 }
 
 #[test]

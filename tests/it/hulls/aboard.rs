@@ -14,19 +14,9 @@ fn every_shipped_vehicle_has_a_mount_for_every_instrument() {
     for vehicle in SHIPPED {
         let spec = VehicleSpec::Shipped(vehicle.folder.into());
         let craft = Craft::load(&spec, &Beside(Path::new(""))).expect("shipped");
-        assert!(
-            craft.told().is_empty(),
-            "{}: {:?}",
-            vehicle.folder,
-            craft.told()
-        );
+        assert!(craft.told().is_empty(), "{}: {:?}", vehicle.folder, craft.told());
         for sensor in world::registry::Registry::default().entries::<Sensors>() {
-            assert!(
-                craft.mount(sensor.name).is_some(),
-                "{}: {}",
-                vehicle.folder,
-                sensor.name
-            );
+            assert!(craft.mount(sensor.name).is_some(), "{}: {}", vehicle.folder, sensor.name);
         }
     }
 }
@@ -38,19 +28,14 @@ fn an_instrument_reads_from_where_its_link_is() {
     let joint = urdf.find("altimeter_joint").expect("its joint");
     let origin = joint + urdf[joint..].find("<origin xyz=\"").expect("its place") + 13;
     let place = urdf[origin..].split('"').next().expect("numbers");
-    let numbers: Vec<f64> = place
-        .split_whitespace()
-        .map(|n| n.parse().expect("a number"))
-        .collect();
+    let numbers: Vec<f64> = place.split_whitespace().map(|n| n.parse().expect("a number")).collect();
     let raised = format!("{} {} {}", numbers[0], numbers[1], numbers[2] + 0.25);
     let other = [&urdf[..origin], &raised, &urdf[origin + place.len()..]].concat();
     let dir = tempfile::tempdir().expect("a folder");
     let reads = |urdf: &str| {
         let folder = dir.path().join("hull");
         std::fs::create_dir_all(&folder).expect("a folder");
-        let file = robots::vehicles::Shipped::named("bluerov2_heavy")
-            .expect("shipped")
-            .file;
+        let file = robots::vehicles::Shipped::named("bluerov2_heavy").expect("shipped").file;
         std::fs::write(folder.join("vehicle.ron"), file).expect("a file");
         std::fs::write(folder.join("bluerov2_heavy.urdf"), urdf).expect("a file");
         let text = template("uniform_channel").expect("in the catalogue").text;
@@ -65,11 +50,7 @@ fn an_instrument_reads_from_where_its_link_is() {
         while first.is_none() && trial.step() {
             let world = &mut trial.simulation.world;
             let readings = world.query::<&Readings>().single(world).expect("a robot");
-            first = readings
-                .altimeter
-                .as_ref()
-                .filter(|r| r.valid)
-                .map(|r| r.altitude_m);
+            first = readings.altimeter.as_ref().filter(|r| r.valid).map(|r| r.altitude_m);
         }
         first.expect("a reading")
     };

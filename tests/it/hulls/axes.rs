@@ -83,12 +83,7 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
         assert_eq!(vehicle.told(), [""; 0]);
         // And there it pushes the hull.
         let deep = Pose::level(Vector3::new(0.0, 0.0, -20.0), Heading::from_deg(90.0));
-        let pushed = vehicle.step(
-            &Truth::at_rest(deep),
-            &still(1025.0),
-            &DriveCommand::new(&[0.0, 0.0, 20.0]),
-            0.02,
-        );
+        let pushed = vehicle.step(&Truth::at_rest(deep), &still(1025.0), &DriveCommand::new(&[0.0, 0.0, 20.0]), 0.02);
         assert!(pushed.v_WB_B.normalize().dot(&along) > 0.99, "{pushed:?}");
     }
 }
@@ -127,28 +122,17 @@ fn a_fin_turns_about_the_axis_of_its_joint() {
     }
     // An X tail on links that are not rolled: a positive angle about (0, 1, 1) pushes starboard-down's other way.
     let half = std::f64::consts::FRAC_1_SQRT_2;
-    let tail = urdf
-        .replace(ROLL, "/><axis xyz=\"0 1 1\"/>")
-        .replace("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 -1\"/>");
+    let tail = urdf.replace(ROLL, "/><axis xyz=\"0 1 1\"/>").replace("<axis xyz=\"0 1 0\"/>", "<axis xyz=\"0 1 -1\"/>");
     let tail = built(&file, &tail);
     assert!((way(&tail, 1) - Vector3::new(0.0, half, -half)).norm() < 1e-12);
     assert!((way(&tail, 3) - Vector3::new(0.0, -half, -half)).norm() < 1e-12);
     assert!(tail.capabilities().dives);
     // A link whose x axis points outwards, along the hinge: the chord lies along the hull.
-    let outwards = built(
-        &file,
-        &urdf.replace(
-            ROLL,
-            " rpy=\"0 -1.5707963267948966 0\"/><axis xyz=\"1 0 0\"/>",
-        ),
-    );
+    let outwards = built(&file, &urdf.replace(ROLL, " rpy=\"0 -1.5707963267948966 0\"/><axis xyz=\"1 0 0\"/>"));
     assert!((way(&outwards, 1) - way(&rolled, 1)).norm() < 1e-12);
     // Without an axis, URDF takes x, about which nothing is steered.
     let said = refused(&file, &upright(""));
-    assert!(
-        said.contains("drives[1].link: the fin on \"fin_top\"") && said.contains("cannot steer"),
-        "{said}"
-    );
+    assert!(said.contains("drives[1].link: the fin on \"fin_top\"") && said.contains("cannot steer"), "{said}");
 }
 
 #[test]

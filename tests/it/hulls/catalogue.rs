@@ -50,8 +50,5 @@ fn the_catalogue_runs_with_other_hulls() {
         }
     }
     let known = std::fs::read_to_string(common::root().join(REFUSED)).unwrap_or_default();
-    assert_eq!(
-        refused, known,
-        "what is refused is no longer what {REFUSED} holds; it is now\n{refused}"
-    );
+    assert_eq!(refused, known, "what is refused is no longer what {REFUSED} holds; it is now\n{refused}");
 }

@@ -9,14 +9,8 @@ fn flown(name: &str, vehicle: &str, energy: &str) -> serde_json::Value {
     let text = template("uniform_channel").expect("in the catalogue").text;
     let text = text
         .replace("Remus100()", vehicle)
-        .replace(
-            "strategy: Amp(speed_m_s: 1.5",
-            &format!("{energy} strategy: Amp(speed_m_s: 1.4"),
-        )
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 10, limit_s: 120",
-        );
+        .replace("strategy: Amp(speed_m_s: 1.5", &format!("{energy} strategy: Amp(speed_m_s: 1.4"))
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 10, limit_s: 120");
     common::mission(dir.path(), name, &text).1
 }
 
@@ -34,10 +28,7 @@ fn a_battery_that_lasts_changes_nothing_and_tells_its_endurance() {
         let watts = number("drives_wh") * 30.0;
         assert!((3.0..200.0).contains(&watts), "{vehicle}: {watts} W");
         let endurance_s = 1000.0 * 3600.0 / (watts + 30.0);
-        assert!(
-            (number("endurance_s") / endurance_s - 1.0).abs() < 0.02,
-            "{energy}"
-        );
+        assert!((number("endurance_s") / endurance_s - 1.0).abs() < 0.02, "{energy}");
         assert!(energy["emptied_s"].is_null());
     }
 }
@@ -45,11 +36,7 @@ fn a_battery_that_lasts_changes_nothing_and_tells_its_endurance() {
 #[test]
 fn an_empty_battery_stops_the_drives() {
     let full = flown("full", "Shipped(\"lauv\")", "energy: (),");
-    let empty = flown(
-        "empty",
-        "Shipped(\"lauv\")",
-        "energy: (battery_wh: 0.5, hotel_w: 30),",
-    );
+    let empty = flown("empty", "Shipped(\"lauv\")", "energy: (battery_wh: 0.5, hotel_w: 30),");
     let energy = &empty["robots"][0]["energy"];
     let emptied_s = energy["emptied_s"].as_f64().expect("it was emptied");
     assert!((5.0..60.0).contains(&emptied_s), "{energy}");
@@ -67,10 +54,5 @@ fn an_empty_battery_stops_the_drives() {
     assert_eq!(event["over"], false);
     let way = |s: &serde_json::Value| s["robots"][0]["travelled_m"].as_f64().expect("a way");
     // It coasts to rest in the water and drifts with 0.2 m/s.
-    assert!(
-        way(&empty) < 0.6 * way(&full),
-        "{} of {} m",
-        way(&empty),
-        way(&full)
-    );
+    assert!(way(&empty) < 0.6 * way(&full), "{} of {} m", way(&empty), way(&full));
 }

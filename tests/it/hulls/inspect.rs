@@ -22,10 +22,7 @@ fn inspected(changes: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
     let hovering = [
         ("Remus100()", "Shipped(\"bluerov2\")"),
         ("heading_deg: 270, speed_m_s: 1.5", "heading_deg: 270"),
-        (
-            "estimator: DeadReckoning(),",
-            "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.6),",
-        ),
+        ("estimator: DeadReckoning(),", "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.6),"),
         ("speed_m_s: 1.5,\n", "speed_m_s: 0.5,\n"),
         ("east_m: 10, north_m: 28", "east_m: -30, north_m: 28"),
         (
@@ -33,10 +30,7 @@ fn inspected(changes: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
             "compass: (bias_deg: 0), depth: (), altimeter: (), lbl: (noise_m: 0.2)",
         ),
     ];
-    let mut text = template("inspect_places")
-        .expect("in the catalogue")
-        .text
-        .to_string();
+    let mut text = template("inspect_places").expect("in the catalogue").text.to_string();
     for (from, to) in hovering.iter().chain(changes) {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text = text.replace(from, to);
@@ -54,12 +48,7 @@ fn inspected(changes: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
         let (truth, estimate, readings) = robots.single(world).expect("a robot");
         if readings.picture.is_some() {
             let p = truth.pose.p_WB;
-            taken.push(Taken {
-                t_s,
-                believed,
-                real: p.xy(),
-                altitude_m: p.z + 8.0,
-            });
+            taken.push(Taken { t_s, believed, real: p.xy(), altitude_m: p.z + 8.0 });
         }
         believed = estimate.position;
     }
@@ -78,9 +67,7 @@ fn pictures_are_taken_while_it_holds_over_the_place() {
         ("visibility_m: 4", "visibility_m: 15"),
     ]);
     for place in TOLD.map(Vector2::from) {
-        let here: Vec<&Taken> = (taken.iter())
-            .filter(|p| (p.real - place).norm() < 20.0)
-            .collect();
+        let here: Vec<&Taken> = (taken.iter()).filter(|p| (p.real - place).norm() < 20.0).collect();
         assert!((1..=6).contains(&here.len()), "{}", here.len());
         for p in here {
             assert!((p.believed - place).norm() <= 1.0, "{}", p.believed);

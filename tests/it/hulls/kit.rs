@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use rheotaxis::scenario::Beside;
 use robots::handoff::{PilotSpec, ThrustersSpec};
 use robots::vehicles::{
-    Axes, Block, CurveSpec, Described, DriveSpec, Files, HydrodynamicsSpec, InMemory, Shipped,
-    ThrusterSpec, VehicleFile,
+    Axes, Block, CurveSpec, Described, DriveSpec, Files, HydrodynamicsSpec, InMemory, Shipped, ThrusterSpec,
+    VehicleFile,
 };
 use std::path::Path;
 use world::fields::WaterSample;
@@ -16,9 +16,7 @@ use world::seeds::Stream;
 /// A shipped vehicle's file and URDF.
 pub(super) fn shipped(name: &str) -> (VehicleFile, String) {
     let shipped = Shipped::named(name).expect("it is shipped");
-    let file = Beside(Path::new(""))
-        .vehicle(name, shipped.file)
-        .unwrap_or_else(|e| panic!("{e}"));
+    let file = Beside(Path::new("")).vehicle(name, shipped.file).unwrap_or_else(|e| panic!("{e}"));
     (file, shipped.urdf.1.to_string())
 }
 
@@ -42,12 +40,7 @@ pub(super) fn newtons(link: &str) -> DriveSpec {
 
 /// Still water of a density, kg/m³.
 pub(super) fn still(density_kg_m3: f64) -> WaterSample {
-    WaterSample {
-        velocity: Vector3::zeros(),
-        gradient: Matrix3::zeros(),
-        rate: Vector3::zeros(),
-        density_kg_m3,
-    }
+    WaterSample { velocity: Vector3::zeros(), gradient: Matrix3::zeros(), rate: Vector3::zeros(), density_kg_m3 }
 }
 
 fn between(rng: &mut Stream, low: f64, high: f64) -> f64 {
@@ -88,8 +81,7 @@ pub(super) fn random_hull(rng: &mut Stream) -> Described {
     let size = math::exp(between(rng, -2.0, 1.5));
     let kg = 200.0 * size * size * size * between(rng, 0.3, 3.0);
     let arms = [0, 1, 2].map(|_| size * between(rng, 0.1, 0.5));
-    let [ixx, iyy, izz] =
-        [(1, 2), (0, 2), (0, 1)].map(|(i, j)| kg * (arms[i] * arms[i] + arms[j] * arms[j]) / 2.0);
+    let [ixx, iyy, izz] = [(1, 2), (0, 2), (0, 1)].map(|(i, j)| kg * (arms[i] * arms[i] + arms[j] * arms[j]) / 2.0);
     let g = [0, 1, 2].map(|_| 0.05 * size * between(rng, -1.0, 1.0));
     let urdf = format!(
         "<robot name=\"r\"><link name=\"base_link\"><inertial><origin xyz=\"{} {} {}\"/><mass value=\"{kg}\"/>\

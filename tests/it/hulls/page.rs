@@ -45,17 +45,11 @@ fn a_broken_folder_gets_a_plain_error() {
     let dir = tempfile::tempdir().expect("a folder");
     let run = |args: &[&str]| {
         let ended = common::rheotaxis_in(dir.path(), args);
-        (
-            ended.status.code(),
-            String::from_utf8_lossy(&ended.stderr).into_owned(),
-        )
+        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
     };
     let (code, said) = run(&["vehicle", "check", "nowhere"]);
     assert_eq!(code, Some(1));
-    assert!(
-        said.contains("there is no such folder") && said.contains("lauv"),
-        "{said}"
-    );
+    assert!(said.contains("there is no such folder") && said.contains("lauv"), "{said}");
     assert_eq!(run(&["vehicle", "init", "lauv", "mine"]).0, Some(0));
     let (code, said) = run(&["vehicle", "init", "lauv", "mine"]);
     assert!(code == Some(1) && said.contains("exists already"), "{said}");
@@ -64,10 +58,7 @@ fn a_broken_folder_gets_a_plain_error() {
     std::fs::write(&file, text.replace("lag_s: 0.05", "lag_s: -0.05")).expect("a file");
     let (code, said) = run(&["vehicle", "trials", "mine"]);
     assert_eq!(code, Some(1));
-    assert!(
-        said.contains("mine/vehicle.ron") && said.contains("drives[0].lag_s"),
-        "{said}"
-    );
+    assert!(said.contains("mine/vehicle.ron") && said.contains("drives[0].lag_s"), "{said}");
     assert!(said.contains("must be >= 0"), "{said}");
 }
 
@@ -93,84 +84,44 @@ fn a_table_flies_it() {
             "1",
         ];
         let ended = common::rheotaxis_in(dir.path(), &args);
-        (
-            ended.status.code(),
-            String::from_utf8_lossy(&ended.stderr).into_owned(),
-        )
+        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
     };
     let header = "t_s,propeller,fin_top,fin_bottom,fin_port,fin_starboard";
     let (code, said) = run(&format!("{header}\n0,8,0,0,0,0\n10,0,0,0,0,0\n"));
     assert_eq!(code, Some(0), "{said}");
     let text = std::fs::read_to_string(dir.path().join("flown.csv")).expect("the states");
-    let rows: Vec<Vec<f64>> = (text.lines().skip(1))
-        .map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect())
-        .collect();
+    let rows: Vec<Vec<f64>> =
+        (text.lines().skip(1)).map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), 21);
     // Nose to the north, carried to the east with the water; it coasts when the propeller stops.
     let [start, middle, end] = [&rows[0], &rows[10], &rows[20]];
-    assert!(
-        (start[1], start[2], start[3]) == (0.0, 0.0, -10.0),
-        "{start:?}"
-    );
-    assert!(
-        middle[2] > 12.0 && (middle[1] - 2.0).abs() < 0.3,
-        "{middle:?}"
-    );
+    assert!((start[1], start[2], start[3]) == (0.0, 0.0, -10.0), "{start:?}");
+    assert!(middle[2] > 12.0 && (middle[1] - 2.0).abs() < 0.3, "{middle:?}");
     assert!(end[8] < middle[8] - 0.2, "{end:?}");
     let (code, said) = run(&format!("{header}\n0,8,0,0,0,fast\n"));
     assert_eq!(code, Some(1));
-    assert!(
-        said.contains("tank.csv: line 2, fin_starboard: not a number"),
-        "{said}"
-    );
+    assert!(said.contains("tank.csv: line 2, fin_starboard: not a number"), "{said}");
     let (code, said) = run("t_s,propeller\n0,8\n");
-    assert!(
-        code == Some(1) && said.contains("no column \"fin_top\""),
-        "{said}"
-    );
+    assert!(code == Some(1) && said.contains("no column \"fin_top\""), "{said}");
 }
 
 /// Columns of the page's tables, and what the trials call it.
 const COLUMNS: &[(&str, &str, &str)] = &[
-    (
-        "speed at full ahead, m/s",
-        "speed",
-        "steady speed at full ahead",
-    ),
+    ("speed at full ahead, m/s", "speed", "steady speed at full ahead"),
     ("turn, °/s", "turn by the autopilot", "turn rate"),
     ("radius of the turn, m", "turn by the autopilot", "radius"),
     ("5 m down (90 %), s", "dive", "time to 90 % of 5 m"),
     ("error of depth, m", "dive", "error after 150 s"),
     ("way to a tenth of the speed, m", "stop", "way until then"),
-    (
-        "off its place in 0.25 m/s, m",
-        "station keeping",
-        "distance, root mean square after 30 s",
-    ),
+    ("off its place in 0.25 m/s, m", "station keeping", "distance, root mean square after 30 s"),
     ("advance, m", "turning circle", "advance"),
     ("transfer, m", "turning circle", "transfer"),
-    (
-        "tactical diameter, m",
-        "turning circle",
-        "tactical diameter",
-    ),
+    ("tactical diameter, m", "turning circle", "tactical diameter"),
     ("steady diameter, m", "turning circle", "steady diameter"),
-    (
-        "10/10: first overshoot, °",
-        "zigzag 10/10",
-        "first overshoot angle",
-    ),
+    ("10/10: first overshoot, °", "zigzag 10/10", "first overshoot angle"),
     ("second, °", "zigzag 10/10", "second overshoot angle"),
-    (
-        "20/20: first overshoot, °",
-        "zigzag 20/20",
-        "first overshoot angle",
-    ),
-    (
-        "second overshoot, °",
-        "zigzag 20/20",
-        "second overshoot angle",
-    ),
+    ("20/20: first overshoot, °", "zigzag 20/20", "first overshoot angle"),
+    ("second overshoot, °", "zigzag 20/20", "second overshoot angle"),
     ("time to check yaw, s", "zigzag 20/20", "time to check yaw"),
     ("rudder, °", "zigzag 20/20", "rudder"),
 ];
@@ -187,11 +138,7 @@ fn the_figures_of_the_shipped_vehicles_are_those_of_their_trials() {
     let tables = lines.split(|l| !l.starts_with('|'));
     let tables: Vec<(Vec<String>, Vec<Vec<String>>)> = tables
         .filter(|t| {
-            t.first().is_some_and(|head| {
-                cells(head)[1..]
-                    .iter()
-                    .any(|c| c == "advance, m" || c == "turn, °/s")
-            })
+            t.first().is_some_and(|head| cells(head)[1..].iter().any(|c| c == "advance, m" || c == "turn, °/s"))
         })
         .map(|t| (cells(t[0]), t[2..].iter().map(|l| cells(l)).collect()))
         .collect();
@@ -207,17 +154,12 @@ fn the_figures_of_the_shipped_vehicles_are_those_of_their_trials() {
             };
             trials(&Craft::load(&spec, &Beside(Path::new(""))).expect("a vehicle"))
         };
-        let all: Vec<_> = (names.iter())
-            .map(|name| scope.spawn(move || one(name)))
-            .collect();
+        let all: Vec<_> = (names.iter()).map(|name| scope.spawn(move || one(name))).collect();
         all.into_iter().map(|t| t.join().expect("trials")).collect()
     });
     for (head, rows) in &tables {
         for row in rows {
-            let k = names
-                .iter()
-                .position(|n| *n == row[0])
-                .expect("in the first table");
+            let k = names.iter().position(|n| *n == row[0]).expect("in the first table");
             for (column, printed) in head.iter().zip(row).skip(1) {
                 let known = COLUMNS.iter().find(|c| c.0 == column);
                 let (_, trial, what) = known.unwrap_or_else(|| panic!("column {column}"));

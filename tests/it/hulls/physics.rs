@@ -33,20 +33,12 @@ fn no_hull_gains_energy_from_still_water() {
         let idle = hull.idle();
         // The potential energy has no zero: what counts is its change beside the kinetic energy at the start.
         let mut energy = hull.energy_J(&truth, 1025.0);
-        let rest = Truth {
-            v_WB_B: Vector3::zeros(),
-            w_WB_B: Vector3::zeros(),
-            ..truth
-        };
+        let rest = Truth { v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros(), ..truth };
         let scale = energy - hull.energy_J(&rest, 1025.0) + 1.0;
         for step in 0..40 {
             truth = hull.step(&truth, &still(1025.0), &idle, dt_s);
             let now = hull.energy_J(&truth, 1025.0);
-            assert!(
-                now - energy < 1e-4 * scale,
-                "hull {n}, step {step} of {dt_s} s: {} J of {scale} J",
-                now - energy
-            );
+            assert!(now - energy < 1e-4 * scale, "hull {n}, step {step} of {dt_s} s: {} J of {scale} J", now - energy);
             energy = now;
         }
     }
@@ -79,10 +71,7 @@ fn a_current_only_carries() {
         let (still, carried) = (fly(Vector3::zeros()), fly(current));
         let apart = carried.pose.p_WB - still.pose.p_WB - current * 30.0;
         assert!(apart.norm() < 1e-7, "{name}: {apart}");
-        assert!(
-            carried.pose.R_WB.angle_to(&still.pose.R_WB) < 1e-8,
-            "{name}"
-        );
+        assert!(carried.pose.R_WB.angle_to(&still.pose.R_WB) < 1e-8, "{name}");
         assert!(still.pose.p_WB.xy().norm() > 0.2, "{name} did not move");
     }
 }
@@ -112,10 +101,7 @@ fn a_wall_stops_it_at_any_step() {
             let mut physics = Physics::new(dt_s);
             physics.add_obstacle(&wall);
             // ENU: its nose to the east.
-            let start = Pose {
-                p_WB: Vector3::new(0.0, 0.0, -10.0),
-                R_WB: UnitQuaternion::identity(),
-            };
+            let start = Pose { p_WB: Vector3::new(0.0, 0.0, -10.0), R_WB: UnitQuaternion::identity() };
             let mut truth = Truth::at_rest(start);
             let id = physics.add_body(hull.body_spec("auv", truth));
             let ahead: Vec<f64> = (hull.plant().drives.iter())
@@ -138,10 +124,7 @@ fn a_wall_stops_it_at_any_step() {
                 truth = physics.truth(id);
                 touched |= physics.contacts(id).touching;
                 fastest = fastest.max(truth.v_WB_B.norm());
-                assert!(
-                    truth.is_finite() && truth.pose.p_WB.x < 3.0,
-                    "{name} {dt_s}"
-                );
+                assert!(truth.is_finite() && truth.pose.p_WB.x < 3.0, "{name} {dt_s}");
             }
             assert!(touched, "{name} {dt_s}: never there");
             assert!(fastest < 4.0, "{name} {dt_s}: {fastest} m/s");
@@ -165,10 +148,7 @@ fn the_step_changes_little() {
     let set = DriveCommand::new(&[3.0, 2.0, -1.0, -3.0, -4.0, 4.0, 4.0, -4.0]);
     let fly = |dt_s: f64| {
         let mut hull = built(&file, &urdf);
-        let mut truth = Truth::at_rest(Pose {
-            p_WB: Vector3::new(0.0, 0.0, -50.0),
-            R_WB: UnitQuaternion::identity(),
-        });
+        let mut truth = Truth::at_rest(Pose { p_WB: Vector3::new(0.0, 0.0, -50.0), R_WB: UnitQuaternion::identity() });
         for _ in 0..(10.0 / dt_s).round() as u32 {
             truth = hull.step(&truth, &still(1025.0), &set, dt_s);
         }

@@ -53,19 +53,9 @@ fn links_may_be_frames_without_mass() {
     let frame = "<link name=\"footprint\"/><joint name=\"f\" type=\"fixed\"><parent link=\"footprint\"/>\
                  <child link=\"base_link\"/></joint><link name=\"base_link\">";
     let urdf = URDF.replace("<link name=\"base_link\">", frame);
-    assert_eq!(
-        load(VEHICLE, &urdf).expect("one body").mass_kg(),
-        whole.mass_kg()
-    );
-    let none = load(
-        VEHICLE,
-        &URDF.replace("<mass value=\"30\"/>", "<mass value=\"0\"/>"),
-    );
-    assert!(
-        none.as_ref()
-            .is_err_and(|e| e.contains("no link has a <mass> > 0")),
-        "{none:?}"
-    );
+    assert_eq!(load(VEHICLE, &urdf).expect("one body").mass_kg(), whole.mass_kg());
+    let none = load(VEHICLE, &URDF.replace("<mass value=\"30\"/>", "<mass value=\"0\"/>"));
+    assert!(none.as_ref().is_err_and(|e| e.contains("no link has a <mass> > 0")), "{none:?}");
 }
 
 #[test]
@@ -80,52 +70,21 @@ fn what_is_no_urdf_is_called_what_it_is() {
         let error = load(VEHICLE, urdf).expect_err("no URDF");
         assert!(error.contains(words), "{words} is not in: {error}");
     };
-    says(
-        "<?xml version=\"1.0\"?><sdf version=\"1.9\"><model name=\"box\"/></sdf>",
-        "it is SDF",
-    );
-    let xacro = URDF.replace(
-        "<robot name",
-        "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name",
-    );
+    says("<?xml version=\"1.0\"?><sdf version=\"1.9\"><model name=\"box\"/></sdf>", "it is SDF");
+    let xacro = URDF.replace("<robot name", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name");
     says(&xacro.replace("\"30\"", "\"${m}\""), "run `xacro");
     for address in ["package://box/hull.stl", "model://box/hull.stl"] {
         let mesh = format!("<mesh filename=\"{address}\"/>");
-        says(
-            &URDF.replace("<box size=\"0.6 0.4 0.3\"/>", &mesh),
-            "put the file beside the URDF",
-        );
+        says(&URDF.replace("<box size=\"0.6 0.4 0.3\"/>", &mesh), "put the file beside the URDF");
     }
-    let deep = format!(
-        "<robot name=\"deep\">{}{}</robot>",
-        "<a>".repeat(20_000),
-        "</a>".repeat(20_000)
-    );
-    says(
-        &deep,
-        "line 1: more than 100 elements stand one within the other",
-    );
+    let deep = format!("<robot name=\"deep\">{}{}</robot>", "<a>".repeat(20_000), "</a>".repeat(20_000));
+    says(&deep, "line 1: more than 100 elements stand one within the other");
     // Comments and elements without content open nothing.
-    load(
-        VEHICLE,
-        &URDF.replace(
-            "<robot name",
-            &format!("{}<robot name", "<!-- <a> -->".repeat(100)),
-        ),
-    )
-    .expect("fine");
-    let links: String = (0..4000)
-        .map(|n| format!("<link name=\"l{n}\"/>"))
-        .collect();
+    load(VEHICLE, &URDF.replace("<robot name", &format!("{}<robot name", "<!-- <a> -->".repeat(100)))).expect("fine");
+    let links: String = (0..4000).map(|n| format!("<link name=\"l{n}\"/>")).collect();
     let joint = |n: usize| {
-        format!(
-            "<joint name=\"j{n}\" type=\"fixed\"><parent link=\"l{n}\"/><child link=\"l{}\"/></joint>",
-            n + 1
-        )
+        format!("<joint name=\"j{n}\" type=\"fixed\"><parent link=\"l{n}\"/><child link=\"l{}\"/></joint>", n + 1)
     };
     let joints: String = (0..3999).map(joint).collect();
-    says(
-        &format!("<robot name=\"chain\">{links}{joints}</robot>"),
-        "at most 1000 links, got 4000",
-    );
+    says(&format!("<robot name=\"chain\">{links}{joints}</robot>"), "at most 1000 links, got 4000");
 }

@@ -43,32 +43,15 @@ fn the_shipped_vehicle_itself_has_no_doubts() {
 
 #[test]
 fn mistakes_of_form_are_told_with_line_and_column() {
-    let error = refused(
-        &[
-            ("volume_m3: 0.0", "volume_m3: -0.0"),
-            ("lag_s: 0.05", "lag: 0.05"),
-        ],
-        &[],
-    );
-    says(
-        &error,
-        &[
-            "/my_auv/vehicle.ron: ",
-            ":",
-            "volume_m3",
-            "must be > 0",
-            "lag",
-        ],
-    );
+    let error = refused(&[("volume_m3: 0.0", "volume_m3: -0.0"), ("lag_s: 0.05", "lag: 0.05")], &[]);
+    says(&error, &["/my_auv/vehicle.ron: ", ":", "volume_m3", "must be > 0", "lag"]);
 }
 
 #[test]
 fn a_folder_without_its_files_is_told() {
     let dir = tempfile::tempdir().expect("a folder");
     let load = |name: &str| {
-        Craft::load(&VehicleSpec::File(name.into()), &Beside(dir.path()))
-            .expect_err("nothing there")
-            .to_string()
+        Craft::load(&VehicleSpec::File(name.into()), &Beside(dir.path())).expect_err("nothing there").to_string()
     };
     says(&load("none"), &["none/vehicle.ron: ", "No such file"]);
     std::fs::create_dir(dir.path().join("half")).expect("a folder");
@@ -76,67 +59,35 @@ fn a_folder_without_its_files_is_told() {
     std::fs::write(dir.path().join("half/vehicle.ron"), lauv.file).expect("a file");
     says(&load("half"), &["half/lauv.urdf: ", "No such file"]);
     let shipped = Craft::load(&VehicleSpec::Shipped("lauf".into()), &Beside(Path::new("")));
-    says(
-        &shipped.expect_err("no such vehicle").to_string(),
-        &["no vehicle \"lauf\" comes with the program", "lauv"],
-    );
+    says(&shipped.expect_err("no such vehicle").to_string(), &["no vehicle \"lauf\" comes with the program", "lauv"]);
 }
 
 #[test]
 fn masses_that_no_body_has_are_refused() {
     let urdf = Shipped::named("lauv").expect("shipped").urdf.1;
     let mass = urdf.split("<mass value=\"").nth(1).expect("a mass");
-    let mass = format!(
-        "<mass value=\"{}\"",
-        mass.split('"').next().expect("a number")
-    );
-    says(
-        &refused(&[], &[(&mass, "<mass value=\"0\"")]),
-        &["my_auv/lauv.urdf", "no link has a <mass> > 0"],
-    );
-    says(
-        &refused(&[], &[(&mass, "<mass value=\"-3\"")]),
-        &["<mass> must be >= 0", "-3"],
-    );
+    let mass = format!("<mass value=\"{}\"", mass.split('"').next().expect("a number"));
+    says(&refused(&[], &[(&mass, "<mass value=\"0\"")]), &["my_auv/lauv.urdf", "no link has a <mass> > 0"]);
+    says(&refused(&[], &[(&mass, "<mass value=\"-3\"")]), &["<mass> must be >= 0", "-3"]);
     let ixx = urdf.split("ixx=\"").nth(1).expect("an inertia");
     let ixx = format!("ixx=\"{}\"", ixx.split('"').next().expect("a number"));
-    says(
-        &refused(&[], &[(&ixx, "ixx=\"-0.1\"")]),
-        &["my_auv/lauv.urdf", "<inertia> must be positive"],
-    );
-    says(
-        &refused(&[], &[(&ixx, "ixx=\"50\"")]),
-        &["no body has moments of inertia"],
-    );
+    says(&refused(&[], &[(&ixx, "ixx=\"-0.1\"")]), &["my_auv/lauv.urdf", "<inertia> must be positive"]);
+    says(&refused(&[], &[(&ixx, "ixx=\"50\"")]), &["no body has moments of inertia"]);
 }
 
 #[test]
 fn hydrodynamics_that_no_hull_has_are_refused() {
     let added = "added_mass: Diagonal(1, 16, 16, 0.005, 1.3, 1.3)";
     says(
-        &refused(
-            &[(added, "added_mass: Diagonal(-18, 16, 16, 0.005, 1.3, 1.3)")],
-            &[],
-        ),
+        &refused(&[(added, "added_mass: Diagonal(-18, 16, 16, 0.005, 1.3, 1.3)")], &[]),
         &["hydrodynamics.added_mass", "positive in every direction"],
     );
     let rows = "added_mass: Full((1, 0, 0, 0, 0, 0), (0, 16, 0, 0, 0, 9), (0, 0, 16, 0, 0, 0), (0, 0, 0, 0.005, 0, 0), \
                 (0, 0, 0, 0, 1.3, 0), (0, 0, 0, 0, 0, 1.3))";
-    says(
-        &refused(&[(added, rows)], &[]),
-        &[
-            "hydrodynamics.added_mass",
-            "must be symmetric",
-            "row 6 column 2",
-        ],
-    );
+    says(&refused(&[(added, rows)], &[]), &["hydrodynamics.added_mass", "must be symmetric", "row 6 column 2"]);
     says(
         &refused(&[("(2.4, 0, 0, 0, 0, 0)", "(-2.4, 0, 0, 0, 0, 0)")], &[]),
-        &[
-            "hydrodynamics.linear_damping",
-            "surge must be >= 0, got -2.4",
-            "change the signs",
-        ],
+        &["hydrodynamics.linear_damping", "surge must be >= 0, got -2.4", "change the signs"],
     );
 }
 
@@ -144,22 +95,13 @@ fn hydrodynamics_that_no_hull_has_are_refused() {
 fn drives_on_links_that_are_not_there_are_refused() {
     says(
         &refused(&[("link: \"propeller\"", "link: \"prop\"")], &[]),
-        &[
-            "drives[0].link",
-            "no link \"prop\" in the URDF",
-            "propeller",
-        ],
+        &["drives[0].link", "no link \"prop\" in the URDF", "propeller"],
     );
     says(
         &refused(&[("link: \"propeller\"", "link: \"propelar\"")], &[]),
-        &[
-            "drives[0].link: no link \"propelar\" in the URDF; did you mean `propeller`? links here: ",
-        ],
+        &["drives[0].link: no link \"propelar\" in the URDF; did you mean `propeller`? links here: "],
     );
-    says(
-        &refused(&[("Newtons(-50, 50)", "Newtons(5, 50)")], &[]),
-        &["drives[0].curve", "thrust <= 0"],
-    );
+    says(&refused(&[("Newtons(-50, 50)", "Newtons(5, 50)")], &[]), &["drives[0].curve", "thrust <= 0"]);
 }
 
 #[test]
@@ -171,10 +113,7 @@ fn a_mesh_of_many_triangles_is_refused_before_it_is_read() {
     let at = |name: &str| dir.path().join("my_auv").join(name);
     let collision = lauv.urdf.1.find("<collision").expect("a shape");
     let geometry = collision + lauv.urdf.1[collision..].find("<geometry>").expect("it");
-    let end = geometry
-        + lauv.urdf.1[geometry..]
-            .find("</geometry>")
-            .expect("its end");
+    let end = geometry + lauv.urdf.1[geometry..].find("</geometry>").expect("its end");
     let mesh = "<geometry><mesh filename=\"hull.stl\"/>";
     let urdf = [&lauv.urdf.1[..geometry], mesh, &lauv.urdf.1[end..]].concat();
     std::fs::write(at("vehicle.ron"), lauv.file).expect("a file");
@@ -182,32 +121,21 @@ fn a_mesh_of_many_triangles_is_refused_before_it_is_read() {
     let mut stl = vec![0u8; 80];
     stl.extend(100_000_000u32.to_le_bytes());
     std::fs::write(at("hull.stl"), &stl).expect("a file");
-    let error = Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path()))
-        .expect_err("not a mesh")
-        .to_string();
+    let error =
+        Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path())).expect_err("not a mesh").to_string();
     says(&error, &["my_auv/lauv.urdf", "mesh \"hull.stl\""]);
     // A file as long as so many triangles need, without the disk for it.
     let file = std::fs::File::create(at("hull.stl")).expect("a file");
     file.set_len(84 + 50 * 100_000_000).expect("a long file");
-    let error = Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path()))
-        .expect_err("too long")
-        .to_string();
+    let error =
+        Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path())).expect_err("too long").to_string();
     says(&error, &["my_auv/lauv.urdf", "mesh \"hull.stl\"", "longer"]);
 }
 
 #[test]
 fn doubts_are_told() {
-    let told = changed(
-        &[(
-            "centre_of_buoyancy_m: (0, 0, 0.01)",
-            "centre_of_buoyancy_m: (0, 0, -0.01)",
-        )],
-        &[],
-    );
-    says(
-        &told.expect("legal").join("; "),
-        &["turns over, or a frame is upside down"],
-    );
+    let told = changed(&[("centre_of_buoyancy_m: (0, 0, 0.01)", "centre_of_buoyancy_m: (0, 0, -0.01)")], &[]);
+    says(&told.expect("legal").join("; "), &["turns over, or a frame is upside down"]);
     let told = changed(&[("volume_m3: 0.01755", "volume_m3: 0.02755")], &[]);
     says(&told.expect("legal").join("; "), &["it rises"]);
     let model = "<gazebo><plugin filename=\"libuuv_underwater_object_ros_plugin.so\" name=\"u\">\
@@ -216,9 +144,6 @@ fn doubts_are_told() {
         <wobble>3</wobble></hydrodynamic_model></link></plugin></gazebo></robot>";
     let told = changed(&[], &[("</robot>", model)]).expect("legal");
     says(&told.join("; "), &["which are not used", "from_urdf: true"]);
-    let told = changed(
-        &[("axes: Frd,", "axes: Frd, from_urdf: true,")],
-        &[("</robot>", model)],
-    );
+    let told = changed(&[("axes: Frd,", "axes: Frd, from_urdf: true,")], &[("</robot>", model)]);
     says(&told.expect("legal").join("; "), &["wobble"]);
 }

@@ -27,15 +27,9 @@ fn flown(curve: Option<&str>) -> serde_json::Value {
     let text = template("uniform_channel").expect("in the catalogue").text;
     let text = text
         .replace("Remus100()", "File(\"rov\")")
-        .replace(
-            "strategy: Amp(speed_m_s: 1.5",
-            "strategy: Amp(speed_m_s: 0.4",
-        )
+        .replace("strategy: Amp(speed_m_s: 1.5", "strategy: Amp(speed_m_s: 0.4")
         .replace("speed_m_s: 1.5)", "speed_m_s: 0.2)")
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 10, limit_s: 60",
-        );
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 10, limit_s: 60");
     common::mission(dir.path(), "rov_in_channel", &text).1
 }
 
@@ -46,9 +40,7 @@ fn share(run: &serde_json::Value) -> f64 {
 fn told(run: &serde_json::Value) -> Vec<f64> {
     let events = run["abnormal"].as_array().expect("a list").iter();
     let saturated = events.filter(|e| e["what"] == "thrusters_saturated");
-    saturated
-        .map(|e| e["lasted_s"].as_f64().expect("a time"))
-        .collect()
+    saturated.map(|e| e["lasted_s"].as_f64().expect("a time")).collect()
 }
 
 #[test]
@@ -85,10 +77,7 @@ fn a_torpedo_is_never_steered_slower_than_its_fins_can_steer_it() {
             rates_rad_s: Vector3::zeros(),
         },
         v_ground_body: Vector3::new(least_m_s, 0.0, 0.0),
-        flow: Some(FlowEstimate {
-            velocity: Vector2::zeros(),
-            age_s: 0.0,
-        }),
+        flow: Some(FlowEstimate { velocity: Vector2::zeros(), age_s: 0.0 }),
         fix_jump: Vector2::zeros(),
     };
     let set = |water_speed_m_s: f64| {

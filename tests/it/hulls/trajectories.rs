@@ -12,11 +12,7 @@ const DT_S: f64 = 0.02;
 
 /// Rows of t, position (NED), quaternion, velocities.
 fn rows(text: &str) -> Vec<Vec<f64>> {
-    let of = |line: &str| {
-        line.split(',')
-            .map(|n| n.parse().expect("a number"))
-            .collect()
-    };
+    let of = |line: &str| line.split(',').map(|n| n.parse().expect("a number")).collect();
     text.lines().skip(1).map(of).collect()
 }
 
@@ -26,10 +22,7 @@ fn pose(row: &[f64]) -> Pose {
     // FLU to FRD, FRD to NED, NED to ENU.
     let half_turn = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
     let to_enu = UnitQuaternion::from_quaternion(Quaternion::new(0.0, 1.0, 1.0, 0.0));
-    Pose {
-        p_WB: Vector3::new(row[2], row[1], -row[3]),
-        R_WB: to_enu * ned * half_turn,
-    }
+    Pose { p_WB: Vector3::new(row[2], row[1], -row[3]), R_WB: to_enu * ned * half_turn }
 }
 
 /// Flies a vehicle from the first row, with set-points by time; greatest distance (m) and angle (degrees).
@@ -103,21 +96,13 @@ fn near((metres, degrees): (f64, f64)) {
 #[test]
 fn a_bluerov_pitches_as_it_surges() {
     let set = vec![2.5, 2.5, -2.5, -2.5, 0.0, 0.0, 0.0, 0.0];
-    near(apart(
-        &mut bluerov(),
-        reference!("bluerov2_surge_step"),
-        |_| set.clone(),
-    ));
+    near(apart(&mut bluerov(), reference!("bluerov2_surge_step"), |_| set.clone()));
 }
 
 #[test]
 fn a_bluerov_turns_and_sinks() {
     let set = vec![-3.0, 3.0, 3.0, -3.0, -6.0, 6.0, 6.0, -6.0];
-    near(apart(
-        &mut bluerov(),
-        reference!("bluerov2_yaw_heave"),
-        |_| set.clone(),
-    ));
+    near(apart(&mut bluerov(), reference!("bluerov2_yaw_heave"), |_| set.clone()));
 }
 
 #[test]
@@ -126,11 +111,7 @@ fn a_lauv_coasts_and_turns() {
     let n = vehicle.states().len();
     near(apart(&mut vehicle, reference!("lauv_coast_turn"), |t_s| {
         // FRD: to starboard is positive, so the port one pushes ahead.
-        let turn = if (5.0 - 1e-9..15.0 - 1e-9).contains(&t_s) {
-            1.5
-        } else {
-            0.0
-        };
+        let turn = if (5.0 - 1e-9..15.0 - 1e-9).contains(&t_s) { 1.5 } else { 0.0 };
         let mut set = vec![0.0; n];
         (set[0], set[1], set[2]) = (8.0, turn, -turn);
         set
@@ -141,7 +122,5 @@ fn a_lauv_coasts_and_turns() {
 fn a_lauv_released_heeled_swings() {
     let mut vehicle = lauv();
     let n = vehicle.states().len();
-    near(apart(&mut vehicle, reference!("lauv_heel_release"), |_| {
-        vec![0.0; n]
-    }));
+    near(apart(&mut vehicle, reference!("lauv_heel_release"), |_| vec![0.0; n]));
 }

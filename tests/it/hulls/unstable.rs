@@ -74,8 +74,7 @@ const DRAG: &str = "(2.4, 0, 0, 0, 0, 0),
 
 fn drag(times: f64) -> String {
     let [ahead, across] = [2.4 * times, 80.0 * times];
-    DRAG.replace("(2.4,", &format!("({ahead},"))
-        .replace("80,", &format!("{across},"))
+    DRAG.replace("(2.4,", &format!("({ahead},")).replace("80,", &format!("{across},"))
 }
 
 #[test]
@@ -87,10 +86,7 @@ fn damping_beyond_that_of_hulls_is_doubted() {
     };
     assert_eq!(told(10.0), "");
     let doubt = told(1000.0);
-    assert!(
-        doubt.starts_with("hydrodynamics: at 1 m/s its motion decays") && doubt.contains("units"),
-        "{doubt}"
-    );
+    assert!(doubt.starts_with("hydrodynamics: at 1 m/s its motion decays") && doubt.contains("units"), "{doubt}");
 }
 
 /// It is steady at rest, and not at the speed at which it starts.

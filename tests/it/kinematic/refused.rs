@@ -12,73 +12,32 @@ fn error(vehicle: &str) -> String {
     let mut lines = error.lines();
     let line = lines.pop().expect("a line");
     assert!(lines.is_empty(), "{lines:?}");
-    let row = text
-        .lines()
-        .position(|l| l.contains("vehicle:"))
-        .expect("it has one")
-        + 1;
+    let row = text.lines().position(|l| l.contains("vehicle:")).expect("it has one") + 1;
     let (place, said) = line.split_once(": ").expect("a place");
-    assert!(
-        place.contains(&format!(":{row}:")),
-        "{place} is not in line {row}"
-    );
+    assert!(place.contains(&format!(":{row}:")), "{place} is not in line {row}");
     said.to_string()
 }
 
 #[test]
 fn numbers_without_meaning_are_refused_with_their_range() {
     for (vehicle, said) in [
-        (
-            "Kinematic(turn: Radius(radius_m: 0))",
-            "turn.radius_m: must be > 0, got 0",
-        ),
-        (
-            "Kinematic(turn: Radius(radius_m: -3))",
-            "turn.radius_m: must be > 0, got -3",
-        ),
-        (
-            "Kinematic(turn: Radius(radius_m: NaN))",
-            "turn.radius_m: must be > 0, got NaN",
-        ),
-        (
-            "Kinematic(turn: Radius(radius_m: 0.001))",
-            "turn.radius_m: must be from 0.01 to 10000 m, got 0.001",
-        ),
-        (
-            "Kinematic(turn: Rate(deg_s: 1e6))",
-            "turn.deg_s: must be from 0.01 to 720 degrees/s, got 1000000",
-        ),
-        (
-            "Kinematic(turn: Rate(deg_s: 0))",
-            "turn.deg_s: must be > 0, got 0",
-        ),
-        (
-            "Kinematic(max_speed_m_s: -2)",
-            "max_speed_m_s: must be > 0, got -2",
-        ),
-        (
-            "Kinematic(max_speed_m_s: NaN)",
-            "max_speed_m_s: must be > 0, got NaN",
-        ),
-        (
-            "Kinematic(max_speed_m_s: 99)",
-            "max_speed_m_s: must be from 0 to 15 m/s, got 99",
-        ),
+        ("Kinematic(turn: Radius(radius_m: 0))", "turn.radius_m: must be > 0, got 0"),
+        ("Kinematic(turn: Radius(radius_m: -3))", "turn.radius_m: must be > 0, got -3"),
+        ("Kinematic(turn: Radius(radius_m: NaN))", "turn.radius_m: must be > 0, got NaN"),
+        ("Kinematic(turn: Radius(radius_m: 0.001))", "turn.radius_m: must be from 0.01 to 10000 m, got 0.001"),
+        ("Kinematic(turn: Rate(deg_s: 1e6))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 1000000"),
+        ("Kinematic(turn: Rate(deg_s: 0))", "turn.deg_s: must be > 0, got 0"),
+        ("Kinematic(max_speed_m_s: -2)", "max_speed_m_s: must be > 0, got -2"),
+        ("Kinematic(max_speed_m_s: NaN)", "max_speed_m_s: must be > 0, got NaN"),
+        ("Kinematic(max_speed_m_s: 99)", "max_speed_m_s: must be from 0 to 15 m/s, got 99"),
         ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0, got 0"),
         ("Kinematic(lag_s: -1)", "lag_s: must be >= 0, got -1"),
         ("Kinematic(lag_s: inf)", "lag_s: must be >= 0, got inf"),
     ] {
-        assert_eq!(
-            error(vehicle),
-            format!("robots[0].vehicle.{said}"),
-            "{vehicle}"
-        );
+        assert_eq!(error(vehicle), format!("robots[0].vehicle.{said}"), "{vehicle}");
     }
     let misspelt = error("Kinematic(turn: Radius(radius: 5))");
-    assert!(
-        misspelt.contains("there is no field `radius`"),
-        "{misspelt}"
-    );
+    assert!(misspelt.contains("there is no field `radius`"), "{misspelt}");
     let unknown = error("Kinematic(moves: InAir)");
     assert!(unknown.contains("InAir"), "{unknown}");
 }
@@ -87,10 +46,7 @@ fn numbers_without_meaning_are_refused_with_their_range() {
 fn told(vehicle: &str, changes: &[(&str, &str)]) -> Vec<String> {
     let loaded = with("uniform_channel", vehicle, changes);
     let found = check(&loaded.scenario, &loaded.base_dir);
-    found
-        .iter()
-        .map(|f| format!("{}: {}", f.path, f.message))
-        .collect()
+    found.iter().map(|f| format!("{}: {}", f.path, f.message)).collect()
 }
 
 #[test]
@@ -98,33 +54,22 @@ fn what_it_cannot_do_is_warned_of() {
     assert_eq!(told("Kinematic()", &[]), [""; 0]);
     assert_eq!(told("Kinematic(moves: OverGround)", &[]), [""; 0]);
     // The channel's water moves at 0.2 m/s.
-    let limit = (
-        "estimator: DeadReckoning()",
-        "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.1)",
-    );
+    let limit = ("estimator: DeadReckoning()", "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.1)");
     let slow = told("Kinematic(max_speed_m_s: 0.1)", &[limit]);
     assert!(
-        slow[0].starts_with("robots[0].vehicle: the water carries it away: it reaches at most 0.10 m/s through the water"),
+        slow[0]
+            .starts_with("robots[0].vehicle: the water carries it away: it reaches at most 0.10 m/s through the water"),
         "{slow:?}"
     );
     // Over ground that is merely slow.
     let slow = told("Kinematic(max_speed_m_s: 0.1, moves: OverGround)", &[limit]);
-    assert!(
-        slow.iter().all(|s| !s.contains("carries it away")),
-        "{slow:?}"
-    );
-    assert!(
-        slow.iter()
-            .any(|s| s.contains("it reaches at most 0.10 m/s over ground")),
-        "{slow:?}"
-    );
+    assert!(slow.iter().all(|s| !s.contains("carries it away")), "{slow:?}");
+    assert!(slow.iter().any(|s| s.contains("it reaches at most 0.10 m/s over ground")), "{slow:?}");
     let nimble = told("Kinematic(turn: Rate(deg_s: 60))", &[]);
     assert_eq!(
         nimble,
-        [
-            "robots[0].guidance.heading_rate_deg_s: the guidance asks for at most 10 degrees/s, so the vehicle never \
-             turns at the 60.0 degrees/s that it can"
-        ]
+        ["robots[0].guidance.heading_rate_deg_s: the guidance asks for at most 10 degrees/s, so the vehicle never \
+             turns at the 60.0 degrees/s that it can"]
     );
 }
 
@@ -136,9 +81,7 @@ fn steps_may_be_long_without_dynamics() {
     let said = |vehicle: &str, step_s: &str| -> Vec<String> {
         let text = template("uniform_channel").expect("in the catalogue").text;
         let times = format!("record: (frame_period_s: 2),\n    time: (step_s: {step_s}, ");
-        let text = text
-            .replace("Remus100()", vehicle)
-            .replace("time: (", &times);
+        let text = text.replace("Remus100()", vehicle).replace("time: (", &times);
         assert!(text.contains(each));
         let text = text.replace(each, &slow);
         let loaded = load_text(&Registry::default(), "long", &text).expect("it can be read");

@@ -7,19 +7,13 @@ use rheotaxis::scenario::{Loaded, cost, load_text};
 use rheotaxis::trial::Trial;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use studies::campaign::{
-    CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run,
-};
+use studies::campaign::{CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run};
 use studies::reproduce::{Plan, Reproduced, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
 
 fn timeless(row: RunRow) -> RunRow {
-    RunRow {
-        spin_up_wall_s: 0.0,
-        mission_wall_s: 0.0,
-        ..row
-    }
+    RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..row }
 }
 
 /// How many of these runs go in lanes together, group by group.
@@ -47,9 +41,7 @@ fn cut_campaign(name: &str) -> Campaign {
     let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
     let seeds = format!("seeds: {},", whole.spec.seeds.count());
     assert_eq!(whole.text.matches(&seeds).count(), 1, "{name}");
-    let text = whole
-        .text
-        .replace(&seeds, "seeds: Literal(first: 4, count: 1),");
+    let text = whole.text.replace(&seeds, "seeds: Literal(first: 4, count: 1),");
     Campaign::new(&whole.shown, &whole.name, &text, base).unwrap()
 }
 
@@ -58,11 +50,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
     for template in CAMPAIGNS {
         let campaign = cut_campaign(template.name);
         let dir = tempfile::tempdir().unwrap();
-        let options = RunOptions {
-            jobs: 1,
-            block: Some(campaign.n_arms()),
-            ..RunOptions::default()
-        };
+        let options = RunOptions { jobs: 1, block: Some(campaign.n_arms()), ..RunOptions::default() };
         let stop = AtomicBool::new(false);
         let ended = run(&campaign, dir.path(), &options, &stop, &|_| {}).unwrap();
         assert_eq!(ended, RunEnded::Complete);
@@ -71,9 +59,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
         let arms = campaign.spec.arms.len();
         for of_seed in rows.chunks(arms) {
             let condition = campaign.place(of_seed[0].run).condition;
-            let loaded: Vec<Loaded> = (0..arms)
-                .map(|arm| campaign.loaded(condition, arm).unwrap())
-                .collect();
+            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.loaded(condition, arm).unwrap()).collect();
             let seed = campaign.place(of_seed[0].run).seed;
             let runs: Vec<_> = loaded.iter().map(|l| (l, seed)).collect();
             // The arms of all these campaigns differ in the searcher alone, but for one that compares steps.
@@ -108,21 +94,13 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
             // Each arm ends at another time.
             cut(loaded, 10.0, 3.0 + 0.5 * k as f64);
         }
-        let plan = Plan {
-            n: 1,
-            first_seed: 5,
-            key: Key::public(),
-            until_half_width: None,
-            jobs: 1,
-        };
+        let plan = Plan { n: 1, first_seed: 5, key: Key::public(), until_half_width: None, jobs: 1 };
         let id = reference.row.id.clone();
         let stop = AtomicBool::new(false);
         let row = Reproduced::begin(&reference);
         let done = reproduce(&reference, row, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         assert_eq!(done.runs.len(), reference.arms.len());
-        let runs: Vec<_> = (reference.arms.iter())
-            .map(|(_, loaded)| (loaded, Seed::from(5)))
-            .collect();
+        let runs: Vec<_> = (reference.arms.iter()).map(|(_, loaded)| (loaded, Seed::from(5))).collect();
         let groups = groups(&runs);
         if groups.iter().any(|n| *n > 1) {
             shared.push(format!("{id} {groups:?}"));
@@ -136,11 +114,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
                 seed: Seed::from(5),
             };
             assert!(row.error.is_none(), "{row:?}");
-            assert_eq!(
-                timeless(row.clone()),
-                row_alone(loaded, &name, k == 0),
-                "{id}"
-            );
+            assert_eq!(timeless(row.clone()), row_alone(loaded, &name, k == 0), "{id}");
         }
     }
     assert!(shared.len() >= 5, "{shared:#?}");
@@ -150,9 +124,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
 #[test]
 fn lanes_with_other_strategies_maps_and_sensors_end_as_alone() {
     let campaign = cut_campaign("moth_plus");
-    let all: Vec<Loaded> = (0..campaign.spec.arms.len())
-        .map(|arm| campaign.loaded(0, arm).unwrap())
-        .collect();
+    let all: Vec<Loaded> = (0..campaign.spec.arms.len()).map(|arm| campaign.loaded(0, arm).unwrap()).collect();
     let (ends, _) = super::in_lanes(&all.iter().collect::<Vec<_>>());
     for (end, loaded) in ends.into_iter().zip(&all) {
         assert_eq!(end.unwrap(), alone(loaded));

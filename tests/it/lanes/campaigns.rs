@@ -40,9 +40,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 fn start(dir: &Path, out: &str) -> Process {
-    let args = [
-        "campaign", "run", "c.ron", "--out", out, "--block", "6", "--quiet", "--jobs", "2",
-    ];
+    let args = ["campaign", "run", "c.ron", "--out", out, "--block", "6", "--quiet", "--jobs", "2"];
     let mut command = common::command(dir, &args);
     for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"] {
         command.env_remove(name);
@@ -59,11 +57,7 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
     let mut before = Vec::new();
     let killed = || {
         let begun = out.join("campaign.json").exists();
-        let now = if begun {
-            read_rows(&out).unwrap()
-        } else {
-            Vec::new()
-        };
+        let now = if begun { read_rows(&out).unwrap() } else { Vec::new() };
         // What was written stays as it was, wall times included.
         for row in &before {
             assert!(now.contains(row), "run {} was lost or done again", row.run);
@@ -78,10 +72,7 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
     };
     let start_again = || start(dir, "out");
     let [kills, grew] = kill_again_and_again(start_again, parts, || draw.uniform(), killed);
-    assert!(
-        kills >= 12 && grew >= 3,
-        "{kills} kills, {grew} with blocks"
-    );
+    assert!(kills >= 12 && grew >= 3, "{kills} kills, {grew} with blocks");
     let done = rows(&out);
     assert_eq!(done.len(), 144);
     let campaign = load(&dir.join("c.ron")).unwrap();

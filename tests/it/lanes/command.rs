@@ -55,24 +55,15 @@ fn scenarios_of_one_command_have_the_results_of_runs_alone() {
     let dir = dir.path();
     scenarios(dir);
     let all = ["long.ron", "other.ron", "turned.ron"];
-    let (out, _) = run(
-        dir,
-        &[&["--no-zenoh", "--out", "lanes"], &all[..]].concat(),
-        3,
-    );
+    let (out, _) = run(dir, &[&["--no-zenoh", "--out", "lanes"], &all[..]].concat(), 3);
     for name in ["long", "other", "turned"] {
-        assert!(
-            out.contains(&format!("results in lanes/{name}: ")),
-            "{name}: {out}"
-        );
+        assert!(out.contains(&format!("results in lanes/{name}: ")), "{name}: {out}");
         let folder = format!("alone/{name}");
         let file = format!("{name}.ron");
         run(dir, &["--no-zenoh", "--quiet", "--out", &folder, &file], 3);
         let [in_lanes, alone] = ["lanes", "alone"].map(|of| results(&dir.join(of).join(name)));
         assert_eq!(in_lanes.1, alone.1, "{name}");
-        let names = |of: &[(String, Vec<u8>)]| -> Vec<String> {
-            of.iter().map(|(name, _)| name.clone()).collect()
-        };
+        let names = |of: &[(String, Vec<u8>)]| -> Vec<String> { of.iter().map(|(name, _)| name.clone()).collect() };
         assert_eq!(names(&in_lanes.0), names(&alone.0), "{name}");
         for ((file, theirs), (_, ours)) in alone.0.iter().zip(&in_lanes.0) {
             assert!(theirs == ours, "{name}/{file} differs");
@@ -88,15 +79,9 @@ fn lanes_publish_at_one_port() {
     let dir = tempfile::tempdir().unwrap();
     scenarios(dir.path());
     let args = ["--zenoh-listen", "tcp/127.0.0.1:0", "--out", "live"];
-    let (_, said) = run(
-        dir.path(),
-        &[&args[..], &["long.ron", "turned.ron"]].concat(),
-        3,
-    );
+    let (_, said) = run(dir.path(), &[&args[..], &["long.ron", "turned.ron"]].concat(), 3);
     let port = |name: &str| -> &str {
-        let line = said
-            .lines()
-            .find(|l| l.ends_with(&format!("under rheotaxis/{name}_1")));
+        let line = said.lines().find(|l| l.ends_with(&format!("under rheotaxis/{name}_1")));
         let line = line.unwrap_or_else(|| panic!("{name}: {said}"));
         line.split_whitespace().nth(2).unwrap()
     };
@@ -115,26 +100,11 @@ fn a_scenario_that_cannot_start_leaves_the_other_lane_as_it_is() {
     // A file has the name of the folder of its results.
     fs::create_dir(dir.join("out")).unwrap();
     fs::write(dir.join("out/turned"), "mine").unwrap();
-    let args = [
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-        "out",
-        "missing.ron",
-        "turned.ron",
-        "long.ron",
-    ];
+    let args = ["--no-zenoh", "--quiet", "--out", "out", "missing.ron", "turned.ron", "long.ron"];
     let (_, said) = run(dir, &args, 1);
-    assert!(
-        said.contains("missing.ron") && said.contains("turned"),
-        "{said}"
-    );
+    assert!(said.contains("missing.ron") && said.contains("turned"), "{said}");
     assert_eq!(fs::read_to_string(dir.join("out/turned")).unwrap(), "mine");
-    run(
-        dir,
-        &["--no-zenoh", "--quiet", "--out", "alone", "long.ron"],
-        3,
-    );
+    run(dir, &["--no-zenoh", "--quiet", "--out", "alone", "long.ron"], 3);
     let [a, b] = ["out/long", "alone"].map(|folder| results(&dir.join(folder)).1);
     assert_eq!(a, b);
 }

@@ -111,9 +111,7 @@ impl Recording {
                 }
             }
         }
-        let tops: BTreeSet<&String> = (parents.values())
-            .filter(|p| !parents.contains_key(*p))
-            .collect();
+        let tops: BTreeSet<&String> = (parents.values()).filter(|p| !parents.contains_key(*p)).collect();
         assert_eq!(Vec::from_iter(tops), ["world"]);
         parents.into_iter().flat_map(|(a, b)| [a, b]).collect()
     }

@@ -14,8 +14,8 @@ use zenoh::Wait;
 #[test]
 #[ignore = "started by the tests below as a process of its own"]
 fn subscriber_process() {
-    let [endpoint, key] = ["LIVE_ENDPOINT", "LIVE_KEY"]
-        .map(|name| std::env::var(name).expect("started by another test"));
+    let [endpoint, key] =
+        ["LIVE_ENDPOINT", "LIVE_KEY"].map(|name| std::env::var(name).expect("started by another test"));
     let session = client(&endpoint);
     let _samples = session
         .declare_subscriber(key)
@@ -28,12 +28,7 @@ fn subscriber_process() {
         .wait()
         .unwrap();
     // An answer means that the run knows of the subscription.
-    session
-        .get("rheotaxis/*/clock")
-        .wait()
-        .unwrap()
-        .recv()
-        .unwrap();
+    session.get("rheotaxis/*/clock").wait().unwrap().recv().unwrap();
     say("READY");
     loop {
         std::thread::park();
@@ -43,9 +38,7 @@ fn subscriber_process() {
 /// Past the test harness, which would keep it to itself.
 fn say(word: &str) {
     let mut out = std::io::stdout();
-    writeln!(out, "\n{word}")
-        .and_then(|()| out.flush())
-        .expect("the parent listens");
+    writeln!(out, "\n{word}").and_then(|()| out.flush()).expect("the parent listens");
 }
 
 pub(super) struct Process(Child, BufReader<ChildStdout>);
@@ -54,12 +47,7 @@ impl Process {
     /// A subscriber to `key` that stalls with the first message.
     pub(super) fn start(endpoint: &str, key: &str) -> Self {
         let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-            .args([
-                "--exact",
-                "--ignored",
-                "--nocapture",
-                "live::hostile::subscriber_process",
-            ])
+            .args(["--exact", "--ignored", "--nocapture", "live::hostile::subscriber_process"])
             .env("LIVE_ENDPOINT", endpoint)
             .env("LIVE_KEY", key)
             .stdout(Stdio::piped())
@@ -72,12 +60,7 @@ impl Process {
     }
 
     pub(super) fn wait_for(&mut self, word: &str) {
-        let said = self
-            .1
-            .by_ref()
-            .lines()
-            .map_while(Result::ok)
-            .any(|line| line == word);
+        let said = self.1.by_ref().lines().map_while(Result::ok).any(|line| line == word);
         assert!(said, "the subscriber ended before it said {word}");
     }
 }
@@ -104,9 +87,7 @@ fn a_killed_subscriber_changes_nothing_for_the_others() {
     live.publish(&frame(2));
     sent(&live);
     live.finish("d1");
-    while next_of(&samples, "/clock")
-        != json!({"t_s": 0.2, "step": 2, "ended": true, "sent": 3, "superseded": 0})
-    {}
+    while next_of(&samples, "/clock") != json!({"t_s": 0.2, "step": 2, "ended": true, "sent": 3, "superseded": 0}) {}
     session.close().wait().unwrap();
 }
 

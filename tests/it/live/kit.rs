@@ -9,10 +9,9 @@ use rheotaxis::frame::{Frame, Heard, PlumeFrame, RobotFrame, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
 use robots::handoff::{
-    Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration,
-    Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, Layer,
-    LayerState, MAX_PROBES, Manoeuvre, PictureEvidence, ProbeScan, Region, RegionState, Regions,
-    Setpoint, TrackerState, Vertical, Zone,
+    Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
+    GantryBehaviour, GantryDecision, Goal, JointReadings, Layer, LayerState, MAX_PROBES, Manoeuvre, PictureEvidence,
+    ProbeScan, Region, RegionState, Regions, Setpoint, TrackerState, Vertical, Zone,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -87,17 +86,9 @@ pub(super) fn frame(step: u64) -> Frame {
         position: Vector2::new(11.0, 19.0),
         depth_m: 3.1,
         altitude_m: Some(2.0),
-        attitude: Attitude {
-            heading,
-            roll_rad: 0.0,
-            pitch_rad: 0.1,
-            rates_rad_s: Vector3::zeros(),
-        },
+        attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.1, rates_rad_s: Vector3::zeros() },
         v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-        flow: Some(FlowEstimate {
-            velocity: Vector2::new(0.1, -0.2),
-            age_s: 0.5,
-        }),
+        flow: Some(FlowEstimate { velocity: Vector2::new(0.1, -0.2), age_s: 0.5 }),
         fix_jump: Vector2::zeros(),
     };
     let vertical = Vertical::Altitude(2.0);
@@ -108,53 +99,28 @@ pub(super) fn frame(step: u64) -> Frame {
         estimate,
         goal: Some(Goal {
             id: 3,
-            manoeuvre: Manoeuvre::GoToPoint {
-                point: Vector2::new(50.0, 60.0),
-                radius_m: Some(5.0),
-            },
+            manoeuvre: Manoeuvre::GoToPoint { point: Vector2::new(50.0, 60.0), radius_m: Some(5.0) },
             vertical,
             speed_m_s: 2.0,
         }),
-        command: Some(Command::Steer(Setpoint {
-            heading,
-            water_speed_m_s: 2.0,
-            vertical,
-        })),
+        command: Some(Command::Steer(Setpoint { heading, water_speed_m_s: 2.0, vertical })),
         keeps_height: true,
         actuators: Actuation::default(),
-        heard: Heard {
-            ranging: Some(super::readings::ping_ahead()),
-            ..Heard::default()
-        },
+        heard: Heard { ranging: Some(super::readings::ping_ahead()), ..Heard::default() },
         zone: Arc::new(Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0)),
-        chemical: Some(ChemicalReading {
-            volts: 1.0,
-            of_full_scale: 0.2,
-            detected: true,
-        }),
+        chemical: Some(ChemicalReading { volts: 1.0, of_full_scale: 0.2, detected: true }),
         detected: true,
         behaviour: Behaviour::TrackIn,
         layers: Arc::new([
-            Layer {
-                name: "find",
-                state: LayerState::Suppressed,
-            },
-            Layer {
-                name: "maintain",
-                state: LayerState::Holds,
-            },
+            Layer { name: "find", state: LayerState::Suppressed },
+            Layer { name: "maintain", state: LayerState::Holds },
         ]),
         lost_points: vec![Vector2::new(1.0, 2.0)],
         planned: Arc::default(),
         belief: Some(belief()),
         regions: Regions {
             all: Arc::new([Region {
-                area: Area {
-                    centre: Vector2::zeros(),
-                    length_m: 100.0,
-                    width_m: 50.0,
-                    axis: heading,
-                },
+                area: Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 50.0, axis: heading },
                 state: RegionState::Searching,
                 from_s: Some(0.0),
                 until_s: None,
@@ -199,20 +165,13 @@ fn gantry() -> GantryFrame {
         forward: Vector2::new(-1.0, 0.0),
         head_W,
         tips_W: vec![head_W],
-        scan: Some(ProbeScan {
-            t_s: 0.35,
-            volts,
-            count: 1,
-        }),
+        scan: Some(ProbeScan { t_s: 0.35, volts, count: 1 }),
         decision: GantryDecision {
             behaviour: GantryBehaviour::Done,
             id: 12,
             target_m: Vector2::zeros(),
             speed_m_s: Vector2::zeros(),
-            working: TrackerState {
-                predicted_v: Some(0.4),
-                ..TrackerState::default()
-            },
+            working: TrackerState { predicted_v: Some(0.4), ..TrackerState::default() },
             stopped: Some(true),
         },
         touching: Some("block".to_owned()),
@@ -231,11 +190,7 @@ pub(super) fn plume(points: usize) -> PlumeFrame {
 
 /// The flow at two places.
 pub(super) fn water() -> WaterFrame {
-    WaterFrame {
-        t_s: 0.5,
-        points: vec![[1.0, 2.0, -3.0, 0.25, 0.0, -0.5]; 2],
-        ..WaterFrame::default()
-    }
+    WaterFrame { t_s: 0.5, points: vec![[1.0, 2.0, -3.0, 0.25, 0.0, -0.5]; 2], ..WaterFrame::default() }
 }
 
 pub(super) fn client(endpoint: &str) -> Session {
@@ -248,20 +203,13 @@ pub(super) fn client(endpoint: &str) -> Session {
 
 pub(super) fn listen(session: &Session, run: &str) -> Samples {
     let key = format!("rheotaxis/{run}/**");
-    session
-        .declare_subscriber(key)
-        .wait()
-        .expect("key is valid")
+    session.declare_subscriber(key).wait().expect("key is valid")
 }
 
 /// What the run keeps, by key below the run's.
 pub(super) fn kept(session: &Session, run: &str) -> BTreeMap<String, Sample> {
     let base = format!("rheotaxis/{run}/");
-    let replies = session
-        .get(format!("{base}**"))
-        .timeout(PATIENCE)
-        .wait()
-        .expect("session is open");
+    let replies = session.get(format!("{base}**")).timeout(PATIENCE).wait().expect("session is open");
     replies
         .iter()
         .map(|reply| reply.into_result().expect("only samples are answered"))
@@ -270,10 +218,7 @@ pub(super) fn kept(session: &Session, run: &str) -> BTreeMap<String, Sample> {
 }
 
 pub(super) fn next(samples: &FifoChannelHandler<Sample>) -> Sample {
-    samples
-        .recv_timeout(PATIENCE)
-        .expect("session is open")
-        .expect("something should have come by now")
+    samples.recv_timeout(PATIENCE).expect("session is open").expect("something should have come by now")
 }
 
 pub(super) fn json(sample: &Sample) -> Value {
@@ -359,10 +304,7 @@ pub(super) fn broken(schema: &Value, value: &Value, at: &str, out: &mut Vec<Stri
     }
     if schema["pattern"] == "^[a-z0-9_]+$" {
         let small = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !value
-            .as_str()
-            .is_some_and(|s| !s.is_empty() && s.chars().all(small))
-        {
+        if !value.as_str().is_some_and(|s| !s.is_empty() && s.chars().all(small)) {
             out.push(format!("{at}: {value} is no name"));
         }
     }

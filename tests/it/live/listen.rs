@@ -13,18 +13,13 @@ use zenoh::bytes::Encoding;
 use zenoh::{Config, Wait};
 
 fn at(live: &Live, key: Option<&str>) -> Listener {
-    let options = ListenOptions {
-        key: key.map(str::to_owned),
-        connect: Some(live.endpoint().to_owned()),
-        config_file: None,
-    };
+    let options =
+        ListenOptions { key: key.map(str::to_owned), connect: Some(live.endpoint().to_owned()), config_file: None };
     Listener::open(&options).expect("it connects by itself")
 }
 
 fn next(listener: &mut Listener) -> News {
-    until("news of a run", || {
-        listener.next(Duration::from_millis(20)).expect("open")
-    })
+    until("news of a run", || listener.next(Duration::from_millis(20)).expect("open"))
 }
 
 /// The next message; nothing else comes before it.
@@ -84,9 +79,7 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
         let t_s = line["message"]["t_s"].as_f64();
         t_s.is_none_or(|t_s| t_s == 0.1 || t_s == 0.2)
     };
-    let texts: Vec<String> = (all.iter().filter(different))
-        .map(ToString::to_string)
-        .collect();
+    let texts: Vec<String> = (all.iter().filter(different)).map(ToString::to_string).collect();
     let once: BTreeSet<&String> = texts.iter().collect();
     assert_eq!(once.len(), texts.len(), "a message came twice");
     assert!(texts.len() > 20);
@@ -104,10 +97,7 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     assert_eq!((of("/plume").len(), masses), (1, &equal));
     assert!(of("/picture")[0]["jpeg"]["bytes"].as_u64() > Some(100));
     // The run answers and sends at the same time, so the last answers may come after the last clock.
-    assert_eq!(
-        of("heard_1/clock").last().unwrap()["message"]["ended"],
-        true
-    );
+    assert_eq!(of("heard_1/clock").last().unwrap()["message"]["ended"], true);
 }
 
 /// A run keeps a message before it sends it: who asks between the two is answered, and then hears the same.
@@ -140,21 +130,15 @@ fn a_message_that_is_answered_and_then_sent_is_heard_once() {
         })
         .wait()
         .unwrap();
-    let token = run
-        .liveliness()
-        .declare_token("rheotaxis/between_1/@live/sim");
+    let token = run.liveliness().declare_token("rheotaxis/between_1/@live/sim");
     let _alive = token.wait().unwrap();
-    let options = ListenOptions {
-        connect: Some(endpoint),
-        ..ListenOptions::default()
-    };
+    let options = ListenOptions { connect: Some(endpoint), ..ListenOptions::default() };
     let mut listener = Listener::open(&options).unwrap();
     assert_eq!(next(&mut listener), News::Begun("between_1".to_owned()));
     let (lines, end) = to_the_end(&mut listener);
     assert_eq!(end, News::Ended("between_1".to_owned()));
-    let truths: Vec<&Value> = (lines.iter().filter(|line| line["key"] == truth))
-        .map(|line| &line["message"]["t_s"])
-        .collect();
+    let truths: Vec<&Value> =
+        (lines.iter().filter(|line| line["key"] == truth)).map(|line| &line["message"]["t_s"]).collect();
     // What is sent twice is heard twice.
     assert_eq!(truths, [1, 2, 2]);
 }
@@ -164,11 +148,7 @@ fn a_key_narrows_what_is_heard_and_the_end_is_heard_in_any_case() {
     let live = start("narrow_1");
     live.publish(&frame(1));
     sent(&live);
-    let heard = [
-        "auv/*/truth",
-        "rheotaxis/narrow_1/meta/schema/clock",
-        "auv/*/smell",
-    ];
+    let heard = ["auv/*/truth", "rheotaxis/narrow_1/meta/schema/clock", "auv/*/smell"];
     let mut listeners = heard.map(|key| at(&live, Some(key)));
     let other = &mut at(&live, Some("rheotaxis/another_1/**"));
     for listener in &mut listeners {
@@ -182,9 +162,7 @@ fn a_key_narrows_what_is_heard_and_the_end_is_heard_in_any_case() {
     });
     assert_eq!(poses[0]["key"], "rheotaxis/narrow_1/auv/auv0/truth");
     assert_eq!((poses.len(), schema.len(), nothing.len()), (1, 1, 0));
-    let notices = listeners
-        .each_ref()
-        .map(|listener| listener.notice().is_some());
+    let notices = listeners.each_ref().map(|listener| listener.notice().is_some());
     assert_eq!(notices, [false, false, true]);
     // All that has come by now.
     for _ in 0..50 {
@@ -195,10 +173,7 @@ fn a_key_narrows_what_is_heard_and_the_end_is_heard_in_any_case() {
 #[test]
 fn a_run_that_breaks_off_is_gone_and_one_of_the_same_id_is_heard_anew() {
     let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
-    let options = LiveOptions {
-        listen: Some(format!("tcp/{}", port.expect("a free port"))),
-        ..options("again_1")
-    };
+    let options = LiveOptions { listen: Some(format!("tcp/{}", port.expect("a free port"))), ..options("again_1") };
     let live = Live::start(&options, meta()).unwrap();
     let mut listener = at(&live, Some("clock"));
     assert_eq!(next(&mut listener), News::Begun("again_1".to_owned()));
@@ -215,10 +190,7 @@ fn a_run_that_breaks_off_is_gone_and_one_of_the_same_id_is_heard_anew() {
 #[test]
 fn whoever_listens_to_the_keys_of_commands_commands_nothing() {
     let plane = Arc::new(Plane::new(true, None));
-    let options = LiveOptions {
-        plane: Arc::clone(&plane),
-        ..options("commanded_1")
-    };
+    let options = LiveOptions { plane: Arc::clone(&plane), ..options("commanded_1") };
     let live = Live::start(&options, meta()).unwrap();
     let mut listener = at(&live, Some("rpc/stop"));
     assert_eq!(next(&mut listener), News::Begun("commanded_1".to_owned()));
@@ -231,16 +203,10 @@ fn whoever_listens_to_the_keys_of_commands_commands_nothing() {
 
 #[test]
 fn without_an_endpoint_it_finds_the_port_that_a_run_has_taken() {
-    let live = LiveOptions {
-        listen: None,
-        ..options("found_1")
-    };
+    let live = LiveOptions { listen: None, ..options("found_1") };
     let live = Live::start(&live, meta()).unwrap();
     // Other runs may be there, too.
-    let options = ListenOptions {
-        key: Some("rheotaxis/found_1/meta/version".to_owned()),
-        ..ListenOptions::default()
-    };
+    let options = ListenOptions { key: Some("rheotaxis/found_1/meta/version".to_owned()), ..ListenOptions::default() };
     let mut listener = Listener::open(&options).unwrap();
     assert_eq!(next(&mut listener), News::Begun("found_1".to_owned()));
     let version = message(&mut listener);

@@ -9,10 +9,7 @@ use std::sync::Arc;
 
 /// A ping with an echo 3 m ahead of the instrument and a free beam.
 pub(super) fn ping_ahead() -> At<RangeScan> {
-    let beam = |echo_m| Beam {
-        dir_B: Vector3::x(),
-        echo_m,
-    };
+    let beam = |echo_m| Beam { dir_B: Vector3::x(), echo_m };
     At {
         t_s: 0.5,
         value: RangeScan {

@@ -10,9 +10,7 @@ use nalgebra::Vector3;
 use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};
 use rheotaxis::frame::{At, Frame};
 use rheotaxis::scenario;
-use robots::handoff::{
-    AdcpReading, AltimeterReading, AttitudeReading, Beam, DepthReading, DvlReading, RangeScan,
-};
+use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, Beam, DepthReading, DvlReading, RangeScan};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use world::units::Heading;
@@ -36,10 +34,7 @@ fn scene() -> Scene {
 
 fn with_ros2(run: &str, domain: u32) -> LiveOptions {
     let scene = Arc::new(scene());
-    LiveOptions {
-        ros2: Some(Ros2 { domain, scene }),
-        ..options(run)
-    }
+    LiveOptions { ros2: Some(Ros2 { domain, scene }), ..options(run) }
 }
 
 fn start(run: &str, domain: u32) -> Live {
@@ -54,15 +49,8 @@ fn told(step: u64) -> Frame {
     let mut frame = frame(step);
     let robot = &mut frame.robots[0];
     let v_body_m_s = Vector3::new(1.5, 0.0, 0.25);
-    robot.heard.dvl = at(DvlReading {
-        v_body_m_s,
-        valid: true,
-    });
-    robot.heard.adcp = at(AdcpReading {
-        v_body_m_s,
-        above_m: 1.0,
-        valid: true,
-    });
+    robot.heard.dvl = at(DvlReading { v_body_m_s, valid: true });
+    robot.heard.adcp = at(AdcpReading { v_body_m_s, above_m: 1.0, valid: true });
     robot.heard.attitude = at(AttitudeReading {
         heading: Heading::from_deg(90.0),
         roll_rad: 0.0,
@@ -70,10 +58,7 @@ fn told(step: u64) -> Frame {
         rates_rad_s: Vector3::z(),
     });
     robot.heard.depth = at(DepthReading { depth_m: 10.0 });
-    robot.heard.altimeter = at(AltimeterReading {
-        altitude_m: 2.5,
-        valid: true,
-    });
+    robot.heard.altimeter = at(AltimeterReading { altitude_m: 2.5, valid: true });
     let beam = |dir_B, echo_m| Beam { dir_B, echo_m };
     robot.heard.ranging = at(RangeScan {
         p_BS: Vector3::new(0.8, 0.0, 0.0),
@@ -104,12 +89,7 @@ fn row(name: &str) -> &'static RosTopic {
 
 /// Publishers in the graph: key of the topic and token, by name.
 fn publishers(session: &Session, domain: u32) -> BTreeMap<String, (String, String)> {
-    let tokens = session
-        .liveliness()
-        .get(format!("@ros2_lv/{domain}/*/0/*/MP/**"))
-        .timeout(PATIENCE)
-        .wait()
-        .unwrap();
+    let tokens = session.liveliness().get(format!("@ros2_lv/{domain}/*/0/*/MP/**")).timeout(PATIENCE).wait().unwrap();
     let token = |reply: zenoh::query::Reply| {
         let sample = reply.into_result().expect("only tokens are answered");
         let token = sample.key_expr().as_str().to_owned();
@@ -171,10 +151,7 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
         let row = row(name);
         assert_eq!(sample.key_expr().as_str(), key);
         let kind = format!("{}/{}", row.kind.dds_name(), row.kind.hash());
-        assert!(
-            token.ends_with(&format!("/{kind}/{}", row.qos.chunk())),
-            "{token}"
-        );
+        assert!(token.ends_with(&format!("/{kind}/{}", row.qos.chunk())), "{token}");
         let (number, id) = beside(sample);
         assert!(number >= 1);
         let hash = xxhash_rust::xxh3::xxh3_128(token.as_bytes());
@@ -185,16 +162,10 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
     let frame_id = String::from_utf8_lossy(&odometry[16..19]).into_owned();
     assert_eq!(frame_id, "map");
     // A reading has its own time.
-    assert_eq!(
-        stamp(&heard["/auv0/imu"].payload().to_bytes()),
-        (0, 250_000_000)
-    );
+    assert_eq!(stamp(&heard["/auv0/imu"].payload().to_bytes()), (0, 250_000_000));
     let pressure = heard["/auv0/pressure"].payload().to_bytes();
     let pa = f64::from_le_bytes(pressure[pressure.len() - 16..][..8].try_into().unwrap());
-    assert!(
-        (pa - (101_325.0 + 1025.0 * 9.806_65 * 10.0)).abs() < 1e-6,
-        "{pa}"
-    );
+    assert!((pa - (101_325.0 + 1025.0 * 9.806_65 * 10.0)).abs() < 1e-6, "{pa}");
     drop(samples);
     drop(live);
     session.close().wait().unwrap();
@@ -206,10 +177,7 @@ fn the_clock_goes_on_and_its_messages_are_numbered() {
     live.publish(&told(1));
     sent(&live);
     let session = client(live.endpoint());
-    let clocks = session
-        .declare_subscriber("32/clock/rosgraph_msgs::msg::dds_::Clock_/*")
-        .wait()
-        .unwrap();
+    let clocks = session.declare_subscriber("32/clock/rosgraph_msgs::msg::dds_::Clock_/*").wait().unwrap();
     // An answer means that the run knows of the subscription.
     publishers(&session, 32);
     let mut before = (0, (0, 0));
@@ -233,17 +201,11 @@ fn who_comes_late_hears_what_is_latched_and_the_node_goes_with_the_run() {
     live.end("d1");
     sent(&live);
     let session = client(live.endpoint());
-    let alive = session
-        .liveliness()
-        .declare_subscriber("@ros2_lv/33/*/0/0/NN/%/%/*")
-        .history(true)
-        .wait()
-        .unwrap();
+    let alive = session.liveliness().declare_subscriber("@ros2_lv/33/*/0/0/NN/%/%/*").history(true).wait().unwrap();
     assert!(next(&alive).key_expr().as_str().ends_with("/rheotaxis"));
     // The time is what is said last of a state.
-    let known = until("the clock is published", || {
-        Some(publishers(&session, 33)).filter(|known| known.contains_key("/clock"))
-    });
+    let known =
+        until("the clock is published", || Some(publishers(&session, 33)).filter(|known| known.contains_key("/clock")));
     for (name, (key, _)) in known {
         if row(&name).qos != Qos::Latched {
             continue;

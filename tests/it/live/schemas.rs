@@ -49,8 +49,7 @@ impl Watch for Checking {
             assert!(wrong.is_empty(), "at {} s: {wrong:#?}\n{value}", frame.t_s);
             self.said.insert(name);
             let words = ["manoeuvre", "kind"].map(|field| value[field].as_str());
-            self.words
-                .extend(words.into_iter().flatten().map(str::to_owned));
+            self.words.extend(words.into_iter().flatten().map(str::to_owned));
         }
     }
 }
@@ -107,10 +106,7 @@ fn answered(loaded: &Loaded, robot: &str, answers: Vec<Value>) -> Checking {
     trial.control(robot, answer).expect("it asks");
     trial.run(&mut checking);
     let consulted = trial.score().searchers[0].consulted.expect("it asked");
-    assert_eq!(
-        consulted.answered, consulted.asked,
-        "each can be carried out"
-    );
+    assert_eq!(consulted.answered, consulted.asked, "each can be carried out");
     checking
 }
 
@@ -139,25 +135,19 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
     let asks = "External(period_s: 0.2)";
     let text = text.replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", asks);
     assert!(text.contains(asks) && text.contains("Remus100()"));
-    for (vehicle, drives, fins) in [
-        ("Remus100()", 3, true),
-        ("Kinematic()", 3, false),
-        ("Shipped(\"bluerov2_heavy\")", 8, false),
-    ] {
+    for (vehicle, drives, fins) in
+        [("Remus100()", 3, true), ("Kinematic()", 3, false), ("Shipped(\"bluerov2_heavy\")", 8, false)]
+    {
         let own = text.replace("Remus100()", vehicle);
         let loaded = load_text(&Registry::default(), "asks", &own);
         let loaded = loaded.unwrap_or_else(|e| panic!("{vehicle}: {:?}", e.lines()));
         let mut orders = orders(drives);
         if fins {
-            orders.push(goal(
-                json!({"direct": {"rudder_rad": 0.1, "stern_rad": 0.0, "rpm": 900.0}}),
-            ));
+            orders.push(goal(json!({"direct": {"rudder_rad": 0.1, "stern_rad": 0.0, "rpm": 900.0}})));
         }
         let checking = answered(&short(loaded, 3.5), "auv0", orders);
         assert!(checking.said.contains("declaration"), "{vehicle}");
-        let (_, _, schema) = (checking.topics.iter())
-            .find(|(name, ..)| *name == "goal")
-            .expect("a topic");
+        let (_, _, schema) = (checking.topics.iter()).find(|(name, ..)| *name == "goal").expect("a topic");
         let words = schema["properties"]["manoeuvre"]["enum"].as_array();
         for word in words.expect("a list").iter().filter_map(Value::as_str) {
             let said = checking.words.contains(word);
@@ -171,9 +161,5 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
     ];
     let flume = answered(&short(shipped("flume_external"), 3.0), "crab0", heads);
     let said = ["joints", "gantry_behaviour", "gantry_declaration"];
-    assert!(
-        said.iter().all(|t| flume.said.contains(t)),
-        "{:?}",
-        flume.said
-    );
+    assert!(said.iter().all(|t| flume.said.contains(t)), "{:?}", flume.said);
 }

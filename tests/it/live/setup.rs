@@ -13,10 +13,7 @@ fn a_busy_port_is_named_with_the_cure() {
     let other = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = other.local_addr().unwrap().port();
     let endpoint = format!("tcp/127.0.0.1:{port}");
-    let options = LiveOptions {
-        listen: Some(endpoint.clone()),
-        ..options("busy_1")
-    };
+    let options = LiveOptions { listen: Some(endpoint.clone()), ..options("busy_1") };
     let error = Live::start(&options, meta()).unwrap_err();
     assert_eq!(
         error.to_string(),
@@ -32,19 +29,10 @@ fn a_busy_port_is_named_with_the_cure() {
 fn without_a_port_given_the_next_free_one_is_taken_and_told() {
     // Whoever holds it, ourselves or another program: it is busy.
     let _held = TcpListener::bind("127.0.0.1:7447");
-    let options = LiveOptions {
-        listen: None,
-        ..options("default_1")
-    };
+    let options = LiveOptions { listen: None, ..options("default_1") };
     let live = Live::start(&options, meta()).unwrap();
     assert_ne!(live.endpoint(), "tcp/127.0.0.1:7447");
-    assert_eq!(
-        live.notice(),
-        Some(&*format!(
-            "port 7447 is already in use: zenoh listens on {}",
-            live.endpoint()
-        ))
-    );
+    assert_eq!(live.notice(), Some(&*format!("port 7447 is already in use: zenoh listens on {}", live.endpoint())));
     let session = client(live.endpoint());
     assert!(kept(&session, "default_1").contains_key("meta/version"));
     session.close().wait().unwrap();
@@ -60,10 +48,7 @@ fn runs_that_start_together_each_hold_a_port() {
             .map(|k| {
                 let together = &together;
                 scope.spawn(move || {
-                    let options = LiveOptions {
-                        listen: None,
-                        ..options(&format!("together_{k}"))
-                    };
+                    let options = LiveOptions { listen: None, ..options(&format!("together_{k}")) };
                     together.wait();
                     Live::start(&options, meta()).expect("there are ports enough")
                 })
@@ -85,29 +70,17 @@ fn runs_that_start_together_each_hold_a_port() {
 fn a_configuration_file_is_honoured_whole() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("zenoh.json5");
-    let port = TcpListener::bind("127.0.0.1:0")
-        .unwrap()
-        .local_addr()
-        .unwrap()
-        .port();
+    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let text = format!(
         r#"{{ mode: "peer", listen: {{ endpoints: ["tcp/127.0.0.1:{port}"] }}, scouting: {{ multicast: {{ enabled: false }} }} }}"#
     );
     std::fs::write(&file, text).unwrap();
-    let options = LiveOptions {
-        listen: None,
-        config_file: Some(file),
-        ..options("config_1")
-    };
+    let options = LiveOptions { listen: None, config_file: Some(file), ..options("config_1") };
     let live = Live::start(&options, meta()).unwrap();
     assert_eq!(live.endpoint(), format!("tcp/127.0.0.1:{port}"));
     assert_eq!(live.notice(), None);
     let session = client(live.endpoint());
-    assert_eq!(
-        session.info().peers_zid().wait().count(),
-        1,
-        "the file says peer, so a peer it is"
-    );
+    assert_eq!(session.info().peers_zid().wait().count(), 1, "the file says peer, so a peer it is");
     assert!(kept(&session, "config_1").contains_key("meta/version"));
     session.close().wait().unwrap();
 }
@@ -119,18 +92,12 @@ fn a_wrong_configuration_or_endpoint_is_named() {
     let wrong = folder.path().join("wrong.json5");
     std::fs::write(&wrong, r#"{ mode: "captain" }"#).unwrap();
     for file in [missing, wrong] {
-        let options = LiveOptions {
-            config_file: Some(file.clone()),
-            ..options("wrong_1")
-        };
+        let options = LiveOptions { config_file: Some(file.clone()), ..options("wrong_1") };
         let text = Live::start(&options, meta()).unwrap_err().to_string();
         let named = format!("zenoh configuration {}: ", file.display());
         assert!(text.starts_with(&named) && !text.contains(".rs:"), "{text}");
     }
-    let options = LiveOptions {
-        listen: Some("7447".to_owned()),
-        ..options("wrong_1")
-    };
+    let options = LiveOptions { listen: Some("7447".to_owned()), ..options("wrong_1") };
     assert_eq!(
         Live::start(&options, meta()).unwrap_err().to_string(),
         "`7447` is not a zenoh endpoint; write one like tcp/127.0.0.1:7447"

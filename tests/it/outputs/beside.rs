@@ -35,11 +35,7 @@ fn files(out: &Path) -> BTreeMap<String, Vec<u8>> {
             "summary.json" | "report.html" => String::from_utf8(text)
                 .unwrap()
                 .lines()
-                .filter(|line| {
-                    !["wall", "real time", "real_time"]
-                        .iter()
-                        .any(|w| line.contains(w))
-                })
+                .filter(|line| !["wall", "real time", "real_time"].iter().any(|w| line.contains(w)))
                 .collect::<String>()
                 .into_bytes(),
             _ => text,
@@ -67,10 +63,7 @@ fn it_leaves_the_same_files() {
     };
     let (here, beside) = (run("here", false), run("beside", true));
     assert!(here.len() > 7, "{:?}", here.keys());
-    assert_eq!(
-        here.keys().collect::<Vec<_>>(),
-        beside.keys().collect::<Vec<_>>()
-    );
+    assert_eq!(here.keys().collect::<Vec<_>>(), beside.keys().collect::<Vec<_>>());
     for (name, bytes) in &here {
         assert!(*bytes == beside[name], "{name} differs");
     }
@@ -97,10 +90,7 @@ fn one_that_is_dropped_has_written_all_it_was_shown() {
     let part = mcap::read::Options::IgnoreEndMagic.into();
     let messages = mcap::MessageStream::new_with_options(&recorded, part).unwrap();
     let newest = messages.map_while(Result::ok).map(|m| m.log_time).max();
-    assert!(
-        newest.unwrap() as f64 * 1e-9 + 5.1 > last,
-        "{newest:?} of {last} s"
-    );
+    assert!(newest.unwrap() as f64 * 1e-9 + 5.1 > last, "{newest:?} of {last} s");
 }
 
 /// A fault of ours in the other thread ends the run as one in its own thread does.
@@ -109,10 +99,7 @@ fn a_panic_comes_over() {
     let dir = tempfile::tempdir().unwrap();
     let loaded = loaded(dir.path());
     let mut follower = follower(&loaded, &dir.path().join("out")).beside();
-    let late = Arc::new(Frame {
-        t_s: 1e10,
-        ..Frame::default()
-    });
+    let late = Arc::new(Frame { t_s: 1e10, ..Frame::default() });
     let shown = catch_unwind(AssertUnwindSafe(|| {
         for _ in 0..1000 {
             follower.frame(&late);

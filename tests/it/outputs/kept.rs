@@ -21,20 +21,11 @@ fn a_folder_used_again_holds_files_of_one_run() {
     };
     run("crab.ron");
     let of_crab = names();
-    assert!(
-        of_crab.contains(&"probes-crab0.csv".to_string()),
-        "{of_crab:?}"
-    );
+    assert!(of_crab.contains(&"probes-crab0.csv".to_string()), "{of_crab:?}");
     fs::write(at("out/notes.csv"), "mine").unwrap();
     let said = String::from_utf8(run("s.ron").stderr).unwrap();
-    assert!(
-        said.contains("removed from out what an earlier run left"),
-        "{said}"
-    );
-    assert!(
-        said.contains("probes-crab0.csv") && !said.contains("notes.csv"),
-        "{said}"
-    );
+    assert!(said.contains("removed from out what an earlier run left"), "{said}");
+    assert!(said.contains("probes-crab0.csv") && !said.contains("notes.csv"), "{said}");
     let mixed = names();
     assert!(mixed.contains(&"map.svg".to_string()) && mixed.contains(&"notes.csv".to_string()));
     assert!(!mixed.iter().any(|n| n.contains("crab0")), "{mixed:?}");
@@ -50,22 +41,11 @@ fn a_folder_used_again_holds_files_of_one_run() {
     // Neither do two scenarios of one name share a folder unnoticed.
     fs::create_dir(at("other")).unwrap();
     fs::copy(at("s.ron"), at("other/s.ron")).unwrap();
-    let args = [
-        "run",
-        "s.ron",
-        "other/s.ron",
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-        "both",
-    ];
+    let args = ["run", "s.ron", "other/s.ron", "--no-zenoh", "--quiet", "--out", "both"];
     let end = rheotaxis_in(dir.path(), &args);
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(
-        said.contains("both/s: another scenario of this command"),
-        "{said}"
-    );
+    assert!(said.contains("both/s: another scenario of this command"), "{said}");
 }
 
 #[test]

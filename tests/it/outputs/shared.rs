@@ -34,24 +34,13 @@ fn a_second_run_into_a_folder_is_refused_before_it_begins_until_the_first_has_en
     let lies = dir.path().join("both");
     fs::create_dir(&lies).unwrap();
     std::os::unix::fs::symlink(dir.path().join("out"), lies.join("t")).unwrap();
-    let both = [
-        "run",
-        "s.ron",
-        "t.ron",
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-        "both",
-    ];
+    let both = ["run", "s.ron", "t.ron", "--no-zenoh", "--quiet", "--out", "both"];
     let picture = ["picture", "s.ron", "--at", "0,0,-3", "--out", "out/map.png"];
     let trials = ["vehicle", "trials", "kinematic", "--out", "out"];
     for args in [&again[..], &overwriting, &both, &picture, &trials] {
         let (code, said) = ends(dir.path(), args);
         assert_eq!(code, Some(1), "{args:?}: {said}");
-        assert!(
-            said.contains("run is writing its results"),
-            "{args:?}: {said}"
-        );
+        assert!(said.contains("run is writing its results"), "{args:?}: {said}");
     }
     assert!(!lies.join("s").exists(), "the first of two has run");
     assert_eq!((first.ended(), list()), (None, before));
@@ -73,22 +62,8 @@ fn files_of_others_with_names_of_results_are_refused_before_the_run() {
     // A scenario may have any name.
     for (name, args) in [
         ("out/series-auv0.svg", &RUN[..]),
-        (
-            "map.png",
-            &["run", "map.png", "--no-zenoh", "--quiet", "--out", "."],
-        ),
-        (
-            "out/summary.json",
-            &[
-                "run",
-                "s.ron",
-                "map.png",
-                "--no-zenoh",
-                "--quiet",
-                "--out",
-                "x",
-            ],
-        ),
+        ("map.png", &["run", "map.png", "--no-zenoh", "--quiet", "--out", "."]),
+        ("out/summary.json", &["run", "s.ron", "map.png", "--no-zenoh", "--quiet", "--out", "x"]),
     ] {
         fs::write(at(name), short()).unwrap();
         if args.contains(&"x") {
@@ -97,10 +72,7 @@ fn files_of_others_with_names_of_results_are_refused_before_the_run() {
         }
         let (code, said) = ends(dir.path(), args);
         assert_eq!(code, Some(1), "{said}");
-        assert!(
-            said.contains("no earlier run left it") && said.contains("--overwrite"),
-            "{said}"
-        );
+        assert!(said.contains("no earlier run left it") && said.contains("--overwrite"), "{said}");
     }
     assert_eq!(fs::read_to_string(at("map.png")).unwrap(), short());
     assert!(!at("run-files.txt").exists() && !at("x/s").exists());
@@ -108,11 +80,7 @@ fn files_of_others_with_names_of_results_are_refused_before_the_run() {
     for args in [&overwriting[..], &RUN] {
         let (code, said) = ends(dir.path(), args);
         assert!(matches!(code, Some(0 | 3)), "{said}");
-        assert!(
-            fs::read_to_string(at("out/series-auv0.svg"))
-                .unwrap()
-                .contains("<svg")
-        );
+        assert!(fs::read_to_string(at("out/series-auv0.svg")).unwrap().contains("<svg"));
     }
 }
 

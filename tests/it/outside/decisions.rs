@@ -84,30 +84,22 @@ fn the_stream_that_other_doors_are_tested_with_is_the_planners() {
     }
     let kept = std::fs::read_to_string(&path).expect("it is there");
     let kept: Value = serde_json::from_str(&kept).expect("JSON");
-    assert!(
-        kept == now,
-        "the planner's answers have changed: write them with RHEOTAXIS_BLESS=1"
-    );
+    assert!(kept == now, "the planner's answers have changed: write them with RHEOTAXIS_BLESS=1");
 }
 
 #[test]
 fn each_robot_has_a_controller_of_its_own() {
     let text = channel(&external("Hold"), 5.0);
-    let robot = &text[text
-        .find("        (\n            id: \"auv0\"")
-        .expect("a robot")..];
+    let robot = &text[text.find("        (\n            id: \"auv0\"").expect("a robot")..];
     let robot = &robot[..robot.find("        ),\n    ],").expect("its end")];
-    let second = robot
-        .replace("auv0", "auv1")
-        .replace("north_m: -30", "north_m: 30");
+    let second = robot.replace("auv0", "auv1").replace("north_m: -30", "north_m: 30");
     let both = text.replace(robot, &format!("{robot}        ),\n{second}"));
     let run = Run::controlled(&both);
     let session = client(&run.endpoint);
     let to = |robot: &'static str, rad: f64| {
         controller(&session, robot, move |question| {
             assert_eq!(question["robot"], robot);
-            json!({"number": question["number"], "steer": {"heading_rad": rad}, "behaviour": robot})
-                .to_string()
+            json!({"number": question["number"], "steer": {"heading_rad": rad}, "behaviour": robot}).to_string()
         })
     };
     let controllers = [to("auv0", 1.0), to("auv1", 2.0)];
@@ -124,16 +116,10 @@ fn each_robot_has_a_controller_of_its_own() {
 
 #[test]
 fn a_gantry_goes_where_it_is_told() {
-    let text =
-        std::fs::read_to_string(crate::common::root().join("scenarios/catalog/flume_external.ron"));
+    let text = std::fs::read_to_string(crate::common::root().join("scenarios/catalog/flume_external.ron"));
     let text = text.expect("it is there");
-    let text = text
-        .replace("limit_s: 180", "limit_s: 6")
-        .replace("spin_up_s: 60", "spin_up_s: 2");
-    let run = Run::controlled(&text.replace(
-        "deadline_s: 2",
-        &format!("deadline_s: {}", PATIENCE.as_secs()),
-    ));
+    let text = text.replace("limit_s: 180", "limit_s: 6").replace("spin_up_s: 60", "spin_up_s: 2");
+    let run = Run::controlled(&text.replace("deadline_s: 2", &format!("deadline_s: {}", PATIENCE.as_secs())));
     let session = client(&run.endpoint);
     let _controller = controller(&session, "crab0", |question| {
         let scans = question["scans"].as_array().expect("scans").len();

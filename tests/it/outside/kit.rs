@@ -12,28 +12,19 @@ use zenoh::{Config, Session, Wait};
 
 /// A channel in which `auv0` asks; the plume is a few minutes old.
 pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
-    let text =
-        std::fs::read_to_string(common::root().join("scenarios/catalog/uniform_channel.ron"));
+    let text = std::fs::read_to_string(common::root().join("scenarios/catalog/uniform_channel.ron"));
     let text = text.expect("it is there");
     let amp = "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))";
     assert!(text.contains(amp));
-    text.replace(amp, &format!("strategy: {strategy}")).replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        &format!("spin_up_s: 300, limit_s: {limit_s}"),
-    )
+    text.replace(amp, &format!("strategy: {strategy}"))
+        .replace("spin_up_s: 2000, limit_s: 1800", &format!("spin_up_s: 300, limit_s: {limit_s}"))
 }
 
 /// So long that a test ends the run before, s.
 pub(super) const ENDLESS_S: f64 = 1e5;
 
 /// Keys of a run, below its name, that only the run itself should publish or answer.
-pub(super) const KEYS: [&str; 5] = [
-    "auv/auv0/truth",
-    "auv/auv0/estimate",
-    "clock",
-    "ask/auv0",
-    "rpc/stop",
-];
+pub(super) const KEYS: [&str; 5] = ["auv/auv0/truth", "auv/auv0/estimate", "clock", "ask/auv0", "rpc/stop"];
 
 /// Who asks once a second, and waits for each answer so long that no machine is too slow to give it.
 pub(super) fn external(on_late: &str) -> String {
@@ -74,11 +65,7 @@ impl Run {
         }
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let process = Process::start(&mut command);
-        Self {
-            process,
-            dir,
-            endpoint,
-        }
+        Self { process, dir, endpoint }
     }
 
     /// One that may be controlled.
@@ -119,9 +106,7 @@ impl End {
     /// How often a robot was told so.
     pub(super) fn count(&self, robot: usize, what: &str) -> u64 {
         let counts = &self.summary["robots"][robot]["consulted"];
-        counts[what]
-            .as_u64()
-            .unwrap_or_else(|| panic!("{what} in {}", self.summary))
+        counts[what].as_u64().unwrap_or_else(|| panic!("{what} in {}", self.summary))
     }
 
     pub(super) fn digest(&self) -> &str {
@@ -134,10 +119,7 @@ impl End {
         let said = String::from_utf8_lossy(&again.stdout);
         let wrong = String::from_utf8_lossy(&again.stderr);
         assert_eq!(again.status.code(), Some(0), "{said}{wrong}");
-        assert!(
-            said.starts_with(&format!("the same run: digest {}", self.digest())),
-            "{said}"
-        );
+        assert!(said.starts_with(&format!("the same run: digest {}", self.digest())), "{said}");
     }
 }
 
@@ -183,8 +165,5 @@ pub(super) fn controller(
         let text = answer(&question);
         let _gone = query.reply(query.key_expr(), text).wait();
     };
-    (session.declare_queryable(format!("rheotaxis/*/ask/{robot}")))
-        .callback(reply)
-        .wait()
-        .expect("a queryable")
+    (session.declare_queryable(format!("rheotaxis/*/ask/{robot}"))).callback(reply).wait().expect("a queryable")
 }

@@ -15,10 +15,7 @@ const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 
 fn listen(args: &[&str]) -> Process {
     let mut listen = command(Path::new("."), &["listen"]);
-    listen
-        .args(args)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
+    listen.args(args).stdout(Stdio::piped()).stderr(Stdio::piped());
     Process::start(&mut listen)
 }
 
@@ -55,10 +52,7 @@ fn who_listens_before_a_run_sees_its_state_and_ends_with_it() {
     assert!(said.contains("rheotaxis/asks_1 has ended"), "{said}");
     let summary = fs::read(dir.path().join("runs/asks-1/summary.json")).unwrap();
     let summary: Value = serde_json::from_slice(&summary).unwrap();
-    assert_eq!(
-        of(&lines, "/meta/digest")[0]["message"]["digest"],
-        summary["digest"]
-    );
+    assert_eq!(of(&lines, "/meta/digest")[0]["message"]["digest"], summary["digest"]);
     assert_eq!(of(&lines, "/meta/scenario")[0]["message"]["seed"], 1);
     let pose = of(&lines, "/auv/auv0/truth").pop().expect("a pose");
     assert!(pose["message"]["t_s"].as_f64() > Some(0.0), "{pose}");
@@ -114,15 +108,7 @@ fn a_listener_with_the_password_is_let_in_and_one_without_waits() {
         assert!(user.contains("change me"));
         fs::write(&file, user.replace("change me", password)).unwrap();
         let file = file.to_str().expect("a plain path").to_owned();
-        listen(&[
-            "clock",
-            "--count",
-            "2",
-            "--connect",
-            &run.endpoint,
-            "--zenoh-config",
-            &file,
-        ])
+        listen(&["clock", "--count", "2", "--connect", &run.endpoint, "--zenoh-config", &file])
     };
     let out = client("right.json5", "to look").output();
     let (lines, said) = lines(&out);
@@ -142,18 +128,9 @@ fn a_listener_with_the_password_is_let_in_and_one_without_waits() {
 #[test]
 fn what_cannot_be_listened_to_is_refused_with_the_legal_form() {
     for (args, said) in [
-        (
-            ["auv//truth", "--count=1"],
-            "`auv//truth` is no key expression: ",
-        ),
-        (
-            ["clock", "--connect=7447"],
-            "`7447` is not a zenoh endpoint",
-        ),
-        (
-            ["clock", "--zenoh-config=/no.json5"],
-            "zenoh configuration /no.json5: ",
-        ),
+        (["auv//truth", "--count=1"], "`auv//truth` is no key expression: "),
+        (["clock", "--connect=7447"], "`7447` is not a zenoh endpoint"),
+        (["clock", "--zenoh-config=/no.json5"], "zenoh configuration /no.json5: "),
     ] {
         let out = rheotaxis(&["listen", args[0], args[1]]);
         let error = String::from_utf8_lossy(&out.stderr);

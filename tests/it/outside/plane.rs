@@ -14,11 +14,7 @@ pub(super) fn command(session: &Session, command: &str) -> Result<Value, String>
 
 /// The same of a run, or of any.
 fn command_to(session: &Session, run: &str, command: &str) -> Result<Value, String> {
-    let replies = session
-        .get(format!("rheotaxis/{run}/rpc/{command}"))
-        .timeout(PATIENCE)
-        .wait()
-        .unwrap();
+    let replies = session.get(format!("rheotaxis/{run}/rpc/{command}")).timeout(PATIENCE).wait().unwrap();
     let Ok(reply) = replies.recv() else {
         return Err("nobody answers".to_string());
     };
@@ -41,21 +37,15 @@ fn held(session: &Session) -> f64 {
 
 #[test]
 fn a_run_pauses_steps_and_stops_when_told() {
-    let run = Run::start(
-        &channel(AMP, ENDLESS_S),
-        &["--allow-control", "--speed", "5"],
-    );
+    let run = Run::start(&channel(AMP, ENDLESS_S), &["--allow-control", "--speed", "5"]);
     let session = client(&run.endpoint);
     command(&session, "pause").unwrap();
     let t_s = held(&session);
     // The answer comes when the step is done, whether the run is named or not.
     let mut at = t_s;
-    for (run, step, s) in [
-        ("asks_1", "step?s=2", 2.0),
-        ("asks_1", "step", 0.02),
-        ("*", "step", 0.02),
-        ("**", "step?s=1", 1.0),
-    ] {
+    for (run, step, s) in
+        [("asks_1", "step?s=2", 2.0), ("asks_1", "step", 0.02), ("*", "step", 0.02), ("**", "step?s=1", 1.0)]
+    {
         let told = command_to(&session, run, step).unwrap();
         let now = told["t_s"].as_f64().unwrap();
         assert!((now - at - s).abs() < 1e-6, "{run} {step}: {at} {now}");
@@ -72,11 +62,7 @@ fn a_run_pauses_steps_and_stops_when_told() {
         assert!(replies.recv().unwrap().result().is_ok());
     }
     assert!((held(&session) - at - 3.0).abs() < 1e-6);
-    assert!(
-        command(&session, "speed?times=-1")
-            .unwrap_err()
-            .contains("above 0")
-    );
+    assert!(command(&session, "speed?times=-1").unwrap_err().contains("above 0"));
     assert!(command(&session, "fly").unwrap_err().contains("resume"));
     command(&session, "speed?times=max").unwrap();
     let told = command(&session, "step?s=30").unwrap();
@@ -99,11 +85,7 @@ fn a_run_that_does_not_allow_it_only_tells_how_it_stands() {
         let refused = command(&session, name).unwrap_err();
         assert!(refused.contains("--allow-control"), "{refused}");
     }
-    for (name, value) in [
-        ("paused", false.into()),
-        ("stopping", false.into()),
-        ("times", json!(0.5)),
-    ] {
+    for (name, value) in [("paused", false.into()), ("stopping", false.into()), ("times", json!(0.5))] {
         assert_eq!(status()[name], value, "{name}");
     }
     let steps = || status()["steps"].as_u64();

@@ -64,10 +64,7 @@ impl Process {
 /// Killed while it is asked.
 #[test]
 fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
-    for on_late in [
-        "Abort",
-        "Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2)))",
-    ] {
+    for on_late in ["Abort", "Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2)))"] {
         let run = Run::controlled(&channel(&external(on_late), 30.0));
         let mut process = Process::start(&run.endpoint);
         process.wait_for(&format!("ASKED {HELD}"));
@@ -90,10 +87,7 @@ fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
 fn a_stopped_controller_is_late_until_it_goes_on() {
     // The pace leaves time to come back where zenoh has given up a stopped process.
     let asks = "External(period_s: 1, deadline_s: 2, on_late: Hold)";
-    let run = Run::start(
-        &channel(asks, ENDLESS_S),
-        &["--allow-control", "--speed", "4"],
-    );
+    let run = Run::start(&channel(asks, ENDLESS_S), &["--allow-control", "--speed", "4"]);
     let session = client(&run.endpoint);
     let mut process = Process::start(&run.endpoint);
     process.wait_for(&format!("ASKED {HELD}"));
@@ -103,9 +97,7 @@ fn a_stopped_controller_is_late_until_it_goes_on() {
         status["t_s"].as_f64().unwrap()
     };
     let stopped_s = t_s();
-    until("the run does not wait for ever", || {
-        (t_s() > stopped_s + 3.0).then_some(())
-    });
+    until("the run does not wait for ever", || (t_s() > stopped_s + 3.0).then_some(()));
     process.process.signal("-CONT");
     writeln!(process.line).unwrap();
     process.wait_for(&format!("ASKED {}", HELD + 10));
@@ -134,12 +126,7 @@ fn nonsense_floods_and_a_hundred_watchers_change_nothing() {
     let run = Run::controlled(&text);
     let sessions: Vec<_> = (0..10).map(|_| client(&run.endpoint)).collect();
     let watchers: Vec<_> = (sessions.iter().flat_map(|s| (0..10).map(move |_| s)))
-        .map(|s| {
-            s.declare_subscriber("rheotaxis/**")
-                .callback(|_| {})
-                .wait()
-                .unwrap()
-        })
+        .map(|s| s.declare_subscriber("rheotaxis/**").callback(|_| {}).wait().unwrap())
         .collect();
     let flood = sessions[0].clone();
     let _controller = controller(&sessions[1], "auv0", move |question| {
@@ -173,12 +160,7 @@ fn a_run_that_asks_needs_to_be_allowed() {
     let text = channel(&external("Hold"), 10.0);
     let end = Run::start(&text, &[]).end();
     assert_eq!(end.code, 1);
-    assert!(
-        end.said
-            .contains("auv0 of asks asks a searcher outside the program"),
-        "{}",
-        end.said
-    );
+    assert!(end.said.contains("auv0 of asks asks a searcher outside the program"), "{}", end.said);
     assert!(end.said.contains("--allow-control"), "{}", end.said);
     assert!(end.summary.is_null(), "nothing was written");
 }

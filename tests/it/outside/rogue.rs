@@ -58,12 +58,7 @@ impl Rogue {
         let command = session.get(format!("{BASE}/rpc/stop")).wait();
         // The run takes what a session says in its order: once this is over, it has had all of it.
         while command.as_ref().expect("sent").recv().is_ok() {}
-        Self {
-            session,
-            asked,
-            _answers: answers,
-            _token: token.expect("a token"),
-        }
+        Self { session, asked, _answers: answers, _token: token.expect("a token") }
     }
 
     /// How often it was asked anything.
@@ -99,12 +94,7 @@ impl Watcher {
             .callback(move |token| seen.store(token.kind() == SampleKind::Delete, Ordering::SeqCst))
             .wait()
             .expect("a subscriber");
-        Self {
-            session,
-            heard,
-            gone,
-            _subscribers: [subscriber, there],
-        }
+        Self { session, heard, gone, _subscribers: [subscriber, there] }
     }
 
     /// Asks everybody for the state of the run: how many replies come, and how many of them are forged.
@@ -148,9 +138,7 @@ impl Watcher {
 
     /// Waits until the run has ended.
     pub(super) fn see_it_end(&self) {
-        until("the run's token goes", || {
-            self.gone.load(Ordering::SeqCst).then_some(())
-        });
+        until("the run's token goes", || self.gone.load(Ordering::SeqCst).then_some(()));
     }
 
     /// Waits until the clock of the run was heard so often, and so many forged messages.
@@ -165,17 +153,14 @@ impl Watcher {
     /// How often the clock of the run was heard, and how much of all that was heard is forged.
     pub(super) fn heard(&self) -> [usize; 2] {
         let heard = self.heard.lock().expect("sound");
-        let clock = (heard.iter())
-            .filter(|sample| sample.key_expr().as_str().ends_with("/clock") && !forged(sample));
+        let clock = (heard.iter()).filter(|sample| sample.key_expr().as_str().ends_with("/clock") && !forged(sample));
         [clock.count(), heard.iter().filter(|s| forged(s)).count()]
     }
 }
 
 /// What came in reply, once no more can come.
 pub(super) fn samples(replies: FifoChannelHandler<Reply>) -> Vec<Sample> {
-    (replies.into_iter())
-        .filter_map(|reply| reply.into_result().ok())
-        .collect()
+    (replies.into_iter()).filter_map(|reply| reply.into_result().ok()).collect()
 }
 
 /// The run itself deletes nothing.

@@ -25,10 +25,7 @@ fn node(session: &Session, said: Vec<u8>, over: &Arc<AtomicBool>) -> JoinHandle<
 #[test]
 fn a_command_that_is_not_finite_or_in_another_frame_is_no_answer() {
     for (frame, up_m_s) in [("auv0/base_link", f64::NAN), ("map", 0.0)] {
-        let run = Run::start(
-            &channel(&external("Hold"), 3.0),
-            &["--allow-control", "--ros2", "--ros-domain", "42"],
-        );
+        let run = Run::start(&channel(&external("Hold"), 3.0), &["--allow-control", "--ros2", "--ros-domain", "42"]);
         let session = client(&run.endpoint);
         let over = Arc::new(AtomicBool::new(false));
         let ahead = twist_stamped(0, frame, &nalgebra::Vector3::new(1.5, 0.0, up_m_s));
@@ -45,26 +42,15 @@ fn a_command_that_is_not_finite_or_in_another_frame_is_no_answer() {
 
 #[test]
 fn commands_of_a_node_steer_a_robot_and_are_recorded() {
-    let run = Run::start(
-        &channel(&external("Abort"), 8.0),
-        &["--allow-control", "--ros2", "--ros-domain", "42"],
-    );
+    let run = Run::start(&channel(&external("Abort"), 8.0), &["--allow-control", "--ros2", "--ros-domain", "42"]);
     let session = client(&run.endpoint);
     // The graph shows that the run listens.
-    let tokens = (session.liveliness().declare_subscriber("@ros2_lv/42/**"))
-        .history(true)
-        .wait()
-        .unwrap();
+    let tokens = (session.liveliness().declare_subscriber("@ros2_lv/42/**")).history(true).wait().unwrap();
     loop {
         let token = tokens.recv_timeout(PATIENCE).unwrap().expect("in time");
         let token = token.key_expr().as_str();
         if token.contains("/MS/") {
-            assert!(
-                token.contains(&format!(
-                    "%auv0%cmd/geometry_msgs::msg::dds_::TwistStamped_/{HASH}"
-                )),
-                "{token}"
-            );
+            assert!(token.contains(&format!("%auv0%cmd/geometry_msgs::msg::dds_::TwistStamped_/{HASH}")), "{token}");
             break;
         }
     }

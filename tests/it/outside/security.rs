@@ -28,13 +28,7 @@ fn example(name: &str) -> PathBuf {
 }
 
 /// A run with a configuration of the docs.
-fn secured(
-    name: &str,
-    listen: &str,
-    text: &str,
-    more: &[&str],
-    prepare: impl FnOnce(&Path),
-) -> Run {
+fn secured(name: &str, listen: &str, text: &str, more: &[&str], prepare: impl FnOnce(&Path)) -> Run {
     let config = example(name);
     let mut args = vec!["--zenoh-config", config.to_str().expect("a plain path")];
     args.extend(more);
@@ -49,10 +43,7 @@ fn client_config(name: &str, endpoint: &str, patient: bool, values: &[(&str, Val
         set.expect("a key of zenoh");
     };
     set("connect/endpoints", &json!([endpoint]));
-    set(
-        "connect/timeout_ms",
-        &json!(if patient { patience_ms() as u64 } else { 0 }),
-    );
+    set("connect/timeout_ms", &json!(if patient { patience_ms() as u64 } else { 0 }));
     for (key, value) in values {
         set(key, value);
     }
@@ -79,13 +70,7 @@ fn counted(session: &Session) -> (Queryable<()>, Arc<AtomicU64>) {
 #[test]
 fn watchers_see_a_run_that_nobody_can_touch() {
     let nobody = ["--allow-control", "--control-wait", "0", "--speed", "3"];
-    let run = secured(
-        "watchers.json5",
-        LOOPBACK,
-        &asks(ENDLESS_S),
-        &nobody,
-        |_| {},
-    );
+    let run = secured("watchers.json5", LOOPBACK, &asks(ENDLESS_S), &nobody, |_| {});
     let watcher = Watcher::new(client(&run.endpoint));
     let rogues = ["client", "peer", "router"].map(|mode| Rogue::at(&run.endpoint, mode));
     let [replies, forged] = watcher.asks();
@@ -174,10 +159,7 @@ fn users_need_their_password_and_only_the_pilot_steers() {
         fs::write(dir.join("users.txt"), passwords).expect("the folder is ours");
     });
     let user = |name: &str, password: &str, patient: bool| {
-        let values = [
-            ("transport/auth/usrpwd/user", json!(name)),
-            ("transport/auth/usrpwd/password", json!(password)),
-        ];
+        let values = [("transport/auth/usrpwd/user", json!(name)), ("transport/auth/usrpwd/password", json!(password))];
         client_config("as_user.json5", &run.endpoint, patient, &values)
     };
     let pilot = opened(user("pilot", "to steer", true));
@@ -186,13 +168,9 @@ fn users_need_their_password_and_only_the_pilot_steers() {
     let nameless = "{ mode: 'client', scouting: { multicast: { enabled: false } } }";
     let mut nameless = Config::from_json5(nameless).unwrap();
     let endpoints = json!([run.endpoint]).to_string();
-    nameless
-        .insert_json5("connect/endpoints", &endpoints)
-        .unwrap();
+    nameless.insert_json5("connect/endpoints", &endpoints).unwrap();
     refused(nameless);
-    let stranger = zenoh::open(user("stranger", "let in", false))
-        .wait()
-        .unwrap();
+    let stranger = zenoh::open(user("stranger", "let in", false)).wait().unwrap();
     let stranger = Watcher::new(stranger);
     let questions = stranger.questions();
     let watcher = opened(user("watcher", "to look", true));
@@ -206,10 +184,7 @@ fn users_need_their_password_and_only_the_pilot_steers() {
 
 /// A client of a run over TLS that trusts this authority, and shows a certificate if it has one.
 fn over_tls(run: &Run, dir: &Path, authority: &str, name: Option<&str>, patient: bool) -> Config {
-    let mut values = vec![(
-        "transport/link/tls/root_ca_certificate",
-        json!(dir.join(authority)),
-    )];
+    let mut values = vec![("transport/link/tls/root_ca_certificate", json!(dir.join(authority)))];
     if let Some(name) = name {
         let own = |end: &str| json!(dir.join(format!("{name}.{end}")));
         values.push(("transport/link/tls/connect_certificate", own("pem")));
@@ -236,17 +211,11 @@ fn over_tls_only_who_trusts_the_authority_connects() {
     let dir = tempfile::tempdir().unwrap();
     certificates(dir.path(), &[]);
     let steered = ["--allow-control", "--control-wait", "0", "--speed", "10"];
-    let run = secured(
-        "tls.json5",
-        "tls/127.0.0.1",
-        &asks(ENDLESS_S),
-        &steered,
-        |to| {
-            for file in ["run.pem", "run.key"] {
-                fs::copy(dir.path().join(file), to.join(file)).unwrap();
-            }
-        },
-    );
+    let run = secured("tls.json5", "tls/127.0.0.1", &asks(ENDLESS_S), &steered, |to| {
+        for file in ["run.pem", "run.key"] {
+            fs::copy(dir.path().join(file), to.join(file)).unwrap();
+        }
+    });
     let session = opened(over_tls(&run, dir.path(), "authority.pem", None, true));
     refused(over_tls(&run, dir.path(), "another.pem", None, false));
     let plain = run.endpoint.replace("tls/", "tcp/");
@@ -266,26 +235,14 @@ fn certificates_of_clients_say_who_steers() {
     certificates(dir.path(), &["pilot", "watcher"]);
     let other = tempfile::tempdir().unwrap();
     Authority::new("authority").sign(other.path(), "pilot");
-    fs::copy(
-        dir.path().join("authority.pem"),
-        other.path().join("authority.pem"),
-    )
-    .unwrap();
+    fs::copy(dir.path().join("authority.pem"), other.path().join("authority.pem")).unwrap();
     let steered = ["--allow-control", "--speed", "10"];
-    let run = secured(
-        "mutual_tls.json5",
-        "tls/127.0.0.1",
-        &asks(ENDLESS_S),
-        &steered,
-        |to| {
-            for file in ["run.pem", "run.key", "authority.pem"] {
-                fs::copy(dir.path().join(file), to.join(file)).unwrap();
-            }
-        },
-    );
-    let as_one = |dir: &Path, name: Option<&str>, patient: bool| {
-        over_tls(&run, dir, "authority.pem", name, patient)
-    };
+    let run = secured("mutual_tls.json5", "tls/127.0.0.1", &asks(ENDLESS_S), &steered, |to| {
+        for file in ["run.pem", "run.key", "authority.pem"] {
+            fs::copy(dir.path().join(file), to.join(file)).unwrap();
+        }
+    });
+    let as_one = |dir: &Path, name: Option<&str>, patient: bool| over_tls(&run, dir, "authority.pem", name, patient);
     let pilot = opened(as_one(dir.path(), Some("pilot"), true));
     refused(as_one(dir.path(), None, false));
     refused(as_one(other.path(), Some("pilot"), false));

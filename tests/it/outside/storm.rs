@@ -27,18 +27,11 @@ fn visitor(session: &Session) -> Queryable<()> {
     let reply = |query: Query| {
         let asked = query.payload().expect("a question").to_bytes();
         let question: Value = serde_json::from_slice(&asked).expect("a question is JSON");
-        if !question["number"]
-            .as_u64()
-            .expect("a number")
-            .is_multiple_of(HELD)
-        {
+        if !question["number"].as_u64().expect("a number").is_multiple_of(HELD) {
             let _gone = query.reply(query.key_expr(), answer(&question)).wait();
         }
     };
-    (session.declare_queryable("rheotaxis/*/ask/auv0"))
-        .callback(reply)
-        .wait()
-        .expect("a queryable")
+    (session.declare_queryable("rheotaxis/*/ask/auv0")).callback(reply).wait().expect("a queryable")
 }
 
 /// Comes, answers and watches for a moment, and goes; `false` if there is no run to come to.
@@ -63,18 +56,13 @@ fn visit(endpoint: &str) -> bool {
 fn a_storm_of_controllers_that_come_and_go_loses_nothing() {
     let run = Run::controlled(&channel(&asking(0.1, "Abort"), 10.0));
     let steady = client(&run.endpoint);
-    let (over, visits) = (
-        Arc::new(AtomicBool::new(false)),
-        Arc::new(AtomicU64::new(0)),
-    );
+    let (over, visits) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicU64::new(0)));
     let seen = Arc::clone(&visits);
     let _controller = controller(&steady, "auv0", move |question| {
         let number = question["number"].as_u64().expect("a number");
         if number % HELD == 0 {
             let wanted = VISITS * (1 + number / HELD);
-            until("the storm blows", || {
-                (seen.load(Ordering::Relaxed) >= wanted).then_some(())
-            });
+            until("the storm blows", || (seen.load(Ordering::Relaxed) >= wanted).then_some(()));
         }
         answer(question)
     });
@@ -94,13 +82,7 @@ fn a_storm_of_controllers_that_come_and_go_loses_nothing() {
     }
     let visits = visits.load(Ordering::Relaxed);
     assert!(visits >= VISITS * QUESTIONS / HELD, "only {visits} visits");
-    assert_eq!(
-        end.count(0, "answered"),
-        QUESTIONS,
-        "{} {}",
-        end.said,
-        end.summary
-    );
+    assert_eq!(end.count(0, "answered"), QUESTIONS, "{} {}", end.said, end.summary);
     assert_eq!(end.count(0, "asked"), QUESTIONS);
     end.run_again();
     let _closed = steady.close().wait();

@@ -12,9 +12,7 @@ use std::path::Path;
 fn spans(text: &str) -> Vec<String> {
     let outside: String = text.split("\n```").step_by(2).collect();
     let spans = outside.split('`').skip(1).step_by(2);
-    spans
-        .map(|s| s.split_whitespace().collect::<Vec<_>>().join(" "))
-        .collect()
+    spans.map(|s| s.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
 }
 
 /// What is wrong with a command line of `rheotaxis`, or with a file, an example or a scenario that a line names.
@@ -28,10 +26,7 @@ fn fault(line: &str) -> Option<String> {
         let named = || usage(&words).or_else(|| scenario(&words));
         return if choice { None } else { named() };
     }
-    let example = words
-        .iter()
-        .position(|w| *w == "--example")
-        .map(|k| &words[k + 1..]);
+    let example = words.iter().position(|w| *w == "--example").map(|k| &words[k + 1..]);
     if let Some(name) = example {
         let file = match name {
             [program, example, ..] => format!("{program}/{example}.rs"),
@@ -40,12 +35,9 @@ fn fault(line: &str) -> Option<String> {
         let crates = ["simulation", "studies"].map(|c| format!("scenarios/{c}/examples/{file}"));
         return (!crates.iter().any(|f| exists(f))).then(|| format!("there is no example {file}"));
     }
-    let script = words
-        .iter()
-        .find(|w| w.ends_with(".py") || w.ends_with(".sh"));
+    let script = words.iter().find(|w| w.ends_with(".py") || w.ends_with(".sh"));
     let ours = script.filter(|w| words[0].starts_with("python") && w.contains('/'));
-    ours.filter(|w| !exists(w))
-        .map(|w| format!("there is no {w}"))
+    ours.filter(|w| !exists(w)).map(|w| format!("there is no {w}"))
 }
 
 fn exists(path: &str) -> bool {
@@ -97,13 +89,8 @@ fn commands_in_sentences_and_blocks_are_ones_that_the_program_knows() {
     for (page, text) in pages() {
         let blocks = shell_blocks(&text).into_iter().flat_map(commands_of);
         let all: Vec<String> = spans(&text).into_iter().chain(blocks).collect();
-        assert!(
-            page == "docs/scene.md" || !all.is_empty(),
-            "{page} was not read"
-        );
-        let wrong = all
-            .iter()
-            .filter_map(|line| Some(format!("{page}: {line}: {}", fault(line)?)));
+        assert!(page == "docs/scene.md" || !all.is_empty(), "{page} was not read");
+        let wrong = all.iter().filter_map(|line| Some(format!("{page}: {line}: {}", fault(line)?)));
         faults.extend(wrong);
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
@@ -124,12 +111,7 @@ fn a_command_that_nobody_knows_is_found() {
     ] {
         assert!(fault(line).is_some(), "{line}");
     }
-    for line in [
-        "rheotaxis run SCENARIO --ros2",
-        "rheotaxis campaign plan | run",
-        "rheotaxis campaign",
-        "rheotaxis",
-    ] {
+    for line in ["rheotaxis run SCENARIO --ros2", "rheotaxis campaign plan | run", "rheotaxis campaign", "rheotaxis"] {
         assert_eq!(fault(line), None, "{line}");
     }
 }

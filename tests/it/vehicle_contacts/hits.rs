@@ -9,10 +9,7 @@ use world::frames::Truth;
 #[test]
 fn no_hit_gives_energy() {
     for step_s in [0.005, 0.02, 0.1] {
-        for (n, heading) in [0.0, 20.0, 45.0, 70.0, 90.0, 135.0, 250.0]
-            .into_iter()
-            .enumerate()
-        {
+        for (n, heading) in [0.0, 20.0, 45.0, 70.0, 90.0, 135.0, 250.0].into_iter().enumerate() {
             let start = moving(-1.2 - 0.01 * n as f64, heading, Vector3::new(1.8, 0.4, 0.1));
             let mut other = moving(-1.2, heading, Vector3::new(1.0, -0.6, 0.0));
             other.pose.p_WB.y = 1.7;
@@ -51,10 +48,8 @@ fn hit(step_s: f64, heading_deg: f64) -> (Water, Truth, Vector3<f64>) {
 /// Velocity of the point at `arm` (FRD) by ν.
 fn at(arm: &Vector3<f64>) -> nalgebra::Matrix3x6<f64> {
     let mut j = nalgebra::Matrix3x6::zeros();
-    j.fixed_view_mut::<3, 3>(0, 0)
-        .copy_from(&Matrix3::identity());
-    j.fixed_view_mut::<3, 3>(0, 3)
-        .copy_from(&-arm.cross_matrix());
+    j.fixed_view_mut::<3, 3>(0, 0).copy_from(&Matrix3::identity());
+    j.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm.cross_matrix());
     j
 }
 
@@ -62,9 +57,7 @@ fn at(arm: &Vector3<f64>) -> nalgebra::Matrix3x6<f64> {
 fn stopping(vehicle: &Vehicle, nu: &Vector6<f64>, arm: &Vector3<f64>) -> Vector3<f64> {
     let j = at(arm);
     let inverse = mass(vehicle).try_inverse().expect("a mass");
-    let give = (j * inverse * j.transpose())
-        .try_inverse()
-        .expect("a point");
+    let give = (j * inverse * j.transpose()).try_inverse().expect("a point");
     -(give * (j * nu))
 }
 
@@ -81,18 +74,12 @@ fn a_hit_takes_the_mass_that_the_hull_has_in_its_direction() {
             let (vehicle, _) = &water.hulls[0];
             let expected = stopping(vehicle, &nu(&start), &arm);
             let got = flip(start.pose.R_WB.inverse() * impulse);
-            assert!(
-                (got - expected).norm() < 3e-3 * expected.norm(),
-                "{got} is not {expected}"
-            );
+            assert!((got - expected).norm() < 3e-3 * expected.norm(), "{got} is not {expected}");
             assert!((impulse.x / -kg - 1.0).abs() < 0.05, "{impulse}, {kg} kg");
             let load = join(expected, arm.cross(&expected));
             let after = nu(&start) + mass(vehicle).try_inverse().expect("a mass") * load;
             let off = (nu(&water.truth()) - after).norm();
-            assert!(
-                off < 2e-3,
-                "{off} off the velocities that this impulse gives"
-            );
+            assert!(off < 2e-3, "{off} off the velocities that this impulse gives");
         }
     }
 }
@@ -104,11 +91,7 @@ fn an_oblique_hit_turns_the_hull_by_its_lever_arm() {
         let (water, start, impulse) = hit(0.02, heading_deg);
         let (vehicle, _) = &water.hulls[0];
         let back = start.pose.R_WB.inverse();
-        let ahead = if (back * Vector3::x()).x > 0.0 {
-            HALF_M
-        } else {
-            -HALF_M
-        };
+        let ahead = if (back * Vector3::x()).x > 0.0 { HALF_M } else { -HALF_M };
         let n = flip(back * -Vector3::x());
         let arm = Vector3::new(ahead, 0.0, 0.0) - n * RADIUS_M;
         let load = flip(back * impulse);
@@ -120,14 +103,10 @@ fn an_oblique_hit_turns_the_hull_by_its_lever_arm() {
         let left = at(&arm) * after;
         assert!(left.dot(&n).abs() < 0.02, "heading {heading_deg}: {left}");
         let across = impulse - Vector3::x() * impulse.x;
-        assert!(
-            across.norm() <= 0.4 * impulse.x.abs() * (1.0 + 1e-9),
-            "{impulse}"
-        );
+        assert!(across.norm() <= 0.4 * impulse.x.abs() * (1.0 + 1e-9), "{impulse}");
         assert!(water.truth().w_WB_B.z.abs() > 0.1, "it turns");
         // With a scalar mass of 50.9 kg it would be another impulse.
-        let effective =
-            1.0 / (at(&arm).transpose() * n).dot(&(inverse * (at(&arm).transpose() * n)));
+        let effective = 1.0 / (at(&arm).transpose() * n).dot(&(inverse * (at(&arm).transpose() * n)));
         assert!((10.0..60.0).contains(&effective), "{effective} kg");
     }
 }

@@ -95,11 +95,7 @@ impl Water {
                 (vehicle, id)
             })
             .collect();
-        Self {
-            physics,
-            hulls,
-            command: ActuatorCommand::default(),
-        }
+        Self { physics, hulls, command: ActuatorCommand::default() }
     }
 
     pub(super) fn truth(&self) -> Truth {
@@ -109,9 +105,7 @@ impl Water {
     /// No water: straight on.
     pub(super) fn glide(&mut self) -> bool {
         self.physics.step();
-        self.hulls
-            .iter()
-            .any(|(_, id)| self.physics.contacts(*id).touching)
+        self.hulls.iter().any(|(_, id)| self.physics.contacts(*id).touching)
     }
 
     /// By the hull's own equation.
@@ -139,8 +133,7 @@ impl Water {
         let of = |(vehicle, id): &(Vehicle, BodyId)| {
             let (t, c) = (self.physics.truth(*id), vehicle.coefficients());
             let upright = (t.pose.R_WB * Vector3::z()).z;
-            0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t)))
-                + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
+            0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t))) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
         };
         self.hulls.iter().map(of).sum()
     }

@@ -15,61 +15,33 @@ fn meshed(thick_m: f64) -> Obstacle {
     let mut text = String::new();
     for corner in 0..8 {
         let side = |bit: u32, half: f64| if corner >> bit & 1 == 0 { -half } else { half };
-        text += &format!(
-            "v {} {} {}\n",
-            side(0, thick_m / 2.0),
-            side(1, 15.0),
-            side(2, 19.5)
-        );
+        text += &format!("v {} {} {}\n", side(0, thick_m / 2.0), side(1, 15.0), side(2, 19.5));
     }
-    for [a, b, c, d] in [
-        [1, 3, 4, 2],
-        [5, 6, 8, 7],
-        [1, 2, 6, 5],
-        [3, 7, 8, 4],
-        [1, 5, 7, 3],
-        [2, 4, 8, 6],
-    ] {
+    for [a, b, c, d] in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
         text += &format!("f {a} {b} {c}\nf {a} {c} {d}\n");
     }
     std::fs::write(dir.join("plate.obj"), text).expect("a file");
-    let shape = ShapeSpec::Mesh(MeshShape {
-        file: "plate.obj".into(),
-        scale: Positive::new(1.0),
-    });
+    let shape = ShapeSpec::Mesh(MeshShape { file: "plate.obj".into(), scale: Positive::new(1.0) });
     let built = solid(shape, &dir);
     std::fs::remove_dir_all(&dir).expect("cleaned up");
     built
 }
 
 fn post(radius_m: f64) -> Obstacle {
-    let shape = CylinderShape {
-        radius_m: Positive::new(radius_m),
-        height_m: Positive::new(39.0),
-    };
+    let shape = CylinderShape { radius_m: Positive::new(radius_m), height_m: Positive::new(39.0) };
     solid(ShapeSpec::Cylinder(shape), Path::new("."))
 }
 
 #[test]
 fn no_step_speed_or_thickness_lets_a_hull_through() {
-    let walls = [
-        (plate(0.001), 0.001),
-        (plate(0.01), 0.01),
-        (meshed(0.01), 0.01),
-        (meshed(0.3), 0.3),
-    ];
+    let walls = [(plate(0.001), 0.001), (plate(0.01), 0.01), (meshed(0.01), 0.01), (meshed(0.3), 0.3)];
     for (wall, thick_m) in &walls {
         for step_s in STEPS_S {
             for speed in [0.3, 1.5, 2.0, 2.5, 15.0] {
                 for n in 0..20 {
-                    let (heading_deg, half_m) =
-                        [(0.0, RADIUS_M), (90.0, 0.8), (50.0, HALF_M)][n % 3];
+                    let (heading_deg, half_m) = [(0.0, RADIUS_M), (90.0, 0.8), (50.0, HALF_M)][n % 3];
                     let away = speed * step_s * n as f64 / 20.0;
-                    let start = moving(
-                        -thick_m / 2.0 - 0.02 - half_m - away,
-                        heading_deg,
-                        Vector3::x() * speed,
-                    );
+                    let start = moving(-thick_m / 2.0 - 0.02 - half_m - away, heading_deg, Vector3::x() * speed);
                     let mut water = Water::new(step_s, Some(wall), &[start]);
                     let (mut touched, mut front) = (false, f64::NEG_INFINITY);
                     for _ in 0..(0.5 / speed / step_s).ceil() as u64 + 3 {
@@ -108,12 +80,7 @@ fn a_tip_that_sweeps_round_is_held_up() {
 
 #[test]
 fn a_fast_dive_does_not_pass_the_bed() {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 200.0,
-        width_m: 200.0,
-        axis: Heading::from_deg(0.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 200.0, width_m: 200.0, axis: Heading::from_deg(0.0) };
     for step_s in STEPS_S {
         for n in 0..6 {
             let mut start = moving(0.3, 30.0, Vector3::new(1.0, 0.5, -6.0));
@@ -177,16 +144,10 @@ fn two_hulls_do_not_pass_each_other() {
                         *sum += water.physics.contacts(id).impulse_N_s;
                     }
                     let [a, b] = ids.map(|i| water.physics.truth(i).pose.p_WB);
-                    assert!(
-                        b.x > a.x,
-                        "{speed} m/s, {step_s} s, start {n}: {a} passed {b}"
-                    );
+                    assert!(b.x > a.x, "{speed} m/s, {step_s} s, start {n}: {a} passed {b}");
                 }
                 let away = (sums[0] + sums[1]).norm();
-                assert!(
-                    sums[0].norm() > 10.0 * speed && away < 1e-9 * sums[0].norm(),
-                    "{sums:?}"
-                );
+                assert!(sums[0].norm() > 10.0 * speed && away < 1e-9 * sums[0].norm(), "{sums:?}");
             }
         }
     }
@@ -210,10 +171,7 @@ fn a_hull_that_pushes_on_stays() {
         let thrust = 0.9 * 0.4566 * 1026.0 * 0.14f64.powi(4) * 400.0;
         let force = water.impulse().norm() / step_s;
         // In the step that it would make if it were free, the propeller's inflow takes 20 N per m/s from it.
-        assert!(
-            (force / thrust - 1.0).abs() < 0.4 * step_s,
-            "{step_s} s: {force} N, not {thrust} N"
-        );
+        assert!((force / thrust - 1.0).abs() < 0.4 * step_s, "{step_s} s: {force} N, not {thrust} N");
     }
 }
 

@@ -51,11 +51,7 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::begin`]; also for such a file. Nothing has been removed then.
-    pub fn begin_with(
-        dir: &Path,
-        command: &str,
-        own: Option<&dyn Fn(&str) -> bool>,
-    ) -> Result<Self, OutputError> {
+    pub fn begin_with(dir: &Path, command: &str, own: Option<&dyn Fn(&str) -> bool>) -> Result<Self, OutputError> {
         let lock = Lock::take(dir).map_err(|e| OutputError::new(dir, e))?;
         let path = list_path(dir, command);
         let listed = untaken(dir, &path, own)?;
@@ -63,16 +59,11 @@ impl Folder {
         clear_abandoned(dir, |name| names.contains(name));
         let removed = remove(dir, listed)?;
         let mut file = Output::create(&path)?;
-        let head = format!(
-            "{HEAD}{command}` left in this folder; the next time it writes here it removes these first.\n"
-        );
+        let head =
+            format!("{HEAD}{command}` left in this folder; the next time it writes here it removes these first.\n");
         (file.write_all(head.as_bytes())).map_err(|e| file.failed(e))?;
         file.place()?;
-        let list = List {
-            file,
-            names: BTreeSet::new(),
-            lock: Some(lock),
-        };
+        let list = List { file, names: BTreeSet::new(), lock: Some(lock) };
         Ok(Self {
             dir: dir.to_owned(),
             removed: removed.into(),
@@ -85,20 +76,13 @@ impl Folder {
     ///
     /// # Errors
     /// As [`Folder::begin_with`]; also if a file has the name of the folder, or of one that it is to lie in.
-    pub fn could_begin(
-        dir: &Path,
-        command: &str,
-        own: Option<&dyn Fn(&str) -> bool>,
-    ) -> Result<(), OutputError> {
+    pub fn could_begin(dir: &Path, command: &str, own: Option<&dyn Fn(&str) -> bool>) -> Result<(), OutputError> {
         // Without a slash at the end, with which a file would not be found.
         let plain: PathBuf = dir.components().collect();
         let there = plain.ancestors().find(|a| fs::metadata(a).is_ok());
         if let Some(file) = there.filter(|there| !there.is_dir()) {
             let problem = "it is a file, not a folder";
-            return Err(OutputError::new(
-                file,
-                io::Error::new(ErrorKind::NotADirectory, problem),
-            ));
+            return Err(OutputError::new(file, io::Error::new(ErrorKind::NotADirectory, problem)));
         }
         if !dir.is_dir() {
             return Ok(());
@@ -169,11 +153,7 @@ fn is_file(path: &Path) -> bool {
 }
 
 /// The names on the list, if the folder holds no file of others among those that are `own`.
-fn untaken(
-    dir: &Path,
-    list: &Path,
-    own: Option<&dyn Fn(&str) -> bool>,
-) -> Result<Vec<String>, OutputError> {
+fn untaken(dir: &Path, list: &Path, own: Option<&dyn Fn(&str) -> bool>) -> Result<Vec<String>, OutputError> {
     let listed = listed(list)?;
     let Some(own) = own else {
         return Ok(listed);

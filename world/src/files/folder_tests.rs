@@ -45,11 +45,7 @@ fn a_list_from_elsewhere_removes_only_plain_files_of_our_kinds_in_the_folder() {
     let out = dir.path().join("out");
     fs::create_dir_all(out.join("folder.csv")).unwrap();
     let outside = dir.path().join("outside.csv");
-    for path in [
-        &outside,
-        &out.join("thesis.tex"),
-        &out.join("run-files.txt"),
-    ] {
+    for path in [&outside, &out.join("thesis.tex"), &out.join("run-files.txt")] {
         fs::write(path, "not ours").unwrap();
     }
     let lines = format!(
@@ -72,10 +68,7 @@ fn two_runs_at_once_do_not_share_a_folder() {
     let clone = folder.clone();
     drop(folder);
     for command in ["run", "report"] {
-        let refused = [
-            Folder::begin(dir.path(), command).map(drop),
-            Folder::could_begin(dir.path(), command, None),
-        ];
+        let refused = [Folder::begin(dir.path(), command).map(drop), Folder::could_begin(dir.path(), command, None)];
         for said in refused.map(|r| r.unwrap_err().to_string()) {
             assert!(said.contains("another run is writing"), "{said}");
         }
@@ -103,10 +96,7 @@ fn files_that_no_list_names_are_not_replaced_unless_it_is_said() {
         Folder::could_begin(dir.path(), "run", Some(&own)),
     ] {
         let said = refused.unwrap_err().to_string();
-        assert!(
-            said.contains("map.svg: it is there, and no earlier run"),
-            "{said}"
-        );
+        assert!(said.contains("map.svg: it is there, and no earlier run"), "{said}");
         assert!(at("track.csv").exists(), "nothing was removed");
     }
     // What was not foreseen is not replaced either.

@@ -24,11 +24,7 @@ pub(super) fn special(kind: FileType) -> Option<&'static str> {
             return Some("a device");
         }
     }
-    Some(if kind.is_dir() {
-        "a folder"
-    } else {
-        "no regular file"
-    })
+    Some(if kind.is_dir() { "a folder" } else { "no regular file" })
 }
 
 /// Whether a special file (no regular file) stands at this path. Such a file is not ours, so it must not be replaced.
@@ -56,9 +52,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// As [`open`]; also if the file is longer.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    open(path)?
-        .take(most.saturating_add(1))
-        .read_to_end(&mut bytes)?;
+    open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let problem = format!("it is longer than {} MiB", most.div_ceil(1 << 20));
         return Err(io::Error::new(ErrorKind::FileTooLarge, problem));
@@ -102,13 +96,7 @@ mod tests {
     fn what_is_no_file_is_named_and_not_waited_for() {
         let dir = tempfile::tempdir().unwrap();
         let pipe = dir.path().join("pipe");
-        assert!(
-            Command::new("mkfifo")
-                .arg(&pipe)
-                .status()
-                .unwrap()
-                .success()
-        );
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         let said = |path: &Path| read(path, 9).unwrap_err().to_string();
         assert_eq!(said(&pipe), "it is a pipe, not a file");
         assert_eq!(said(Path::new("/dev/zero")), "it is a device, not a file");

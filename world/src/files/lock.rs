@@ -68,8 +68,7 @@ pub(super) fn busy() -> io::Error {
 pub fn is_in_use(dir: &Path) -> bool {
     // Reading is enough for a look; as nothing is made, a folder without a run stays as it is.
     let path = dir.join(NAME);
-    fs::symlink_metadata(&path).is_ok_and(|m| m.is_file())
-        && File::open(path).is_ok_and(|file| is_held(&file))
+    fs::symlink_metadata(&path).is_ok_and(|m| m.is_file()) && File::open(path).is_ok_and(|file| is_held(&file))
 }
 
 /// Locks a file until it is closed, and tells whether somebody else has locked it before.

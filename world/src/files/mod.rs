@@ -16,7 +16,6 @@ pub use folder::Folder;
 pub use input::{is_special, open, read, read_text};
 pub use lock::is_in_use;
 pub use output::{
-    Output, OutputError, clear_abandoned, drop_unfinished, folder_of, make_folder, write,
-    write_new, write_on_disk,
+    Output, OutputError, clear_abandoned, drop_unfinished, folder_of, make_folder, write, write_new, write_on_disk,
 };
 pub use shelf::{Found, Shelf, ShelfError, Stock};

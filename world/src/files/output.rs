@@ -134,13 +134,7 @@ impl Output {
                 Ok(file) if is_held(&file) || is_removed(&file) => {}
                 Ok(file) => {
                     unfinished().insert(temporary.clone());
-                    return Ok(Self {
-                        file,
-                        path: path.to_owned(),
-                        temporary,
-                        placed: false,
-                        kept: false,
-                    });
+                    return Ok(Self { file, path: path.to_owned(), temporary, placed: false, kept: false });
                 }
                 Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
                 Err(e) => return Err(failed(e)),
@@ -273,9 +267,7 @@ fn replaceable(path: &Path) -> io::Result<()> {
     };
     match special(kind) {
         None => Ok(()),
-        Some(what) => refuse(format!(
-            "it is {link}{what}, and only a regular file is replaced"
-        )),
+        Some(what) => refuse(format!("it is {link}{what}, and only a regular file is replaced")),
     }
 }
 

@@ -16,25 +16,13 @@ fn a_file_has_its_name_when_it_is_whole_and_leaves_nothing_when_it_is_not() {
     fs::write(&path, "before").unwrap();
     let mut output = Output::create(&path).unwrap();
     output.write_all(b"half").unwrap();
-    assert_eq!(
-        (fs::read(&path).unwrap(), count(dir.path())),
-        (b"before".to_vec(), 2)
-    );
+    assert_eq!((fs::read(&path).unwrap(), count(dir.path())), (b"before".to_vec(), 2));
     drop(output);
-    assert_eq!(
-        (fs::read(&path).unwrap(), count(dir.path())),
-        (b"before".to_vec(), 1)
-    );
+    assert_eq!((fs::read(&path).unwrap(), count(dir.path())), (b"before".to_vec(), 1));
     assert_eq!(write(&path, b"{}").unwrap(), path);
-    assert_eq!(
-        (fs::read(&path).unwrap(), count(dir.path())),
-        (b"{}".to_vec(), 1)
-    );
+    assert_eq!((fs::read(&path).unwrap(), count(dir.path())), (b"{}".to_vec(), 1));
     assert_eq!(write_on_disk(&path, b"[]").unwrap(), path);
-    assert_eq!(
-        (fs::read(&path).unwrap(), count(dir.path())),
-        (b"[]".to_vec(), 1)
-    );
+    assert_eq!((fs::read(&path).unwrap(), count(dir.path())), (b"[]".to_vec(), 1));
 }
 
 #[test]
@@ -95,9 +83,7 @@ fn only_regular_files_are_replaced_and_no_link_is_followed() {
     use std::os::unix::net::UnixListener;
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
-    let made = std::process::Command::new("mkfifo")
-        .arg(at("pipe"))
-        .status();
+    let made = std::process::Command::new("mkfifo").arg(at("pipe")).status();
     assert!(made.unwrap().success());
     let _socket = UnixListener::bind(at("socket")).unwrap();
     fs::create_dir(at("folder")).unwrap();
@@ -171,13 +157,7 @@ fn what_killed_processes_left_is_cleared_and_nothing_else() {
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
     let half = Output::create(&at("a.csv")).unwrap();
-    let stay = [
-        "a.csv",
-        "a.csv.tmp",
-        "a.csv.1-x.tmp",
-        "b.csv.1-2.tmp",
-        "a.csv.1-2.old",
-    ];
+    let stay = ["a.csv", "a.csv.tmp", "a.csv.1-x.tmp", "b.csv.1-2.tmp", "a.csv.1-2.old"];
     for name in stay.iter().chain(&["a.csv.1-2.tmp", "a.csv.4711-0.tmp"]) {
         fs::write(at(name), "").unwrap();
     }

@@ -5,10 +5,7 @@
 //! a file appears whole, by renaming; a file that another process removes meanwhile is one that is not there; and each
 //! process brings the folder back below its bound after every file that it adds, the least recently used files first.
 //! Files with other names are never touched.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "times of use decide which file goes first, and nothing else"
-)]
+#![allow(clippy::disallowed_methods, reason = "times of use decide which file goes first, and nothing else")]
 
 use super::input::open;
 use super::output::{Output, make_folder};
@@ -138,10 +135,7 @@ impl Shelf {
         }
         make_folder(&self.dir).map_err(|e| self.failed(e))?;
         let path = self.path(key);
-        let failed = |source| ShelfError {
-            path: path.clone(),
-            source,
-        };
+        let failed = |source| ShelfError { path: path.clone(), source };
         let mut output = Output::create(&path).map_err(|e| failed(e.source))?;
         let head = head(key, content.len());
         let seal = seal(&head, content);
@@ -255,9 +249,7 @@ fn seal(head: &[u8], content: &[u8]) -> [u8; SEAL] {
 fn read(path: &Path, key: &[u8; 32]) -> io::Result<Option<Vec<u8>>> {
     let mut file = open(path)?;
     let whole = file.metadata()?.len();
-    let length = usize::try_from(whole)
-        .ok()
-        .and_then(|whole| whole.checked_sub(HEAD + SEAL));
+    let length = usize::try_from(whole).ok().and_then(|whole| whole.checked_sub(HEAD + SEAL));
     let Some(length) = length else {
         return Ok(None);
     };
@@ -271,8 +263,7 @@ fn read(path: &Path, key: &[u8; 32]) -> io::Result<Option<Vec<u8>>> {
     if content.try_reserve_exact(length + SEAL + 1).is_err() {
         return Ok(None);
     }
-    file.take((length + SEAL + 1) as u64)
-        .read_to_end(&mut content)?;
+    file.take((length + SEAL + 1) as u64).read_to_end(&mut content)?;
     if content.len() != length + SEAL {
         return Ok(None);
     }

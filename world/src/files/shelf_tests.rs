@@ -17,9 +17,7 @@ fn whole(content: &[u8]) -> Found {
 
 /// The files of a shelf, by name.
 fn files(shelf: &Shelf) -> Vec<PathBuf> {
-    let mut files: Vec<PathBuf> = (fs::read_dir(shelf.dir()).unwrap())
-        .map(|e| e.unwrap().path())
-        .collect();
+    let mut files: Vec<PathBuf> = (fs::read_dir(shelf.dir()).unwrap()).map(|e| e.unwrap().path()).collect();
     files.sort();
     files
 }

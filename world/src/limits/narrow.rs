@@ -83,10 +83,7 @@ mod tests {
             narrowed::<NonNegative>(schema::component_m_s),
             json!({"type": "number", "minimum": 0.0, "maximum": 15.0, "x-unit": "m/s"})
         );
-        assert_eq!(
-            narrowed::<Finite>(schema::peakedness),
-            json!({"type": "number", "minimum": 0.1, "maximum": 20.0})
-        );
+        assert_eq!(narrowed::<Finite>(schema::peakedness), json!({"type": "number", "minimum": 0.1, "maximum": 20.0}));
     }
 
     #[test]

@@ -23,12 +23,7 @@ impl Obstacle {
     /// `max_m`, m, and the outward unit normal there. A ray that starts inside returns zero and the direction
     /// backwards.
     #[must_use]
-    pub fn cast(
-        &self,
-        origin: &Vector3<f64>,
-        dir: &Vector3<f64>,
-        max_m: f64,
-    ) -> Option<(f64, Vector3<f64>)> {
+    pub fn cast(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<(f64, Vector3<f64>)> {
         if self.contains(origin) {
             return Some((0.0, -dir));
         }
@@ -54,12 +49,7 @@ impl Obstacles {
             .enumerate()
             .filter_map(|(obstacle, o)| {
                 let (way_m, normal) = o.cast(origin, dir, max_m)?;
-                Some(Hit {
-                    way_m,
-                    normal,
-                    obstacle,
-                    surface: &o.surface,
-                })
+                Some(Hit { way_m, normal, obstacle, surface: &o.surface })
             })
             .min_by(|a, b| a.way_m.total_cmp(&b.way_m))
     }
@@ -76,14 +66,9 @@ mod tests {
     fn block(id: &str, east_m: f64) -> Obstacle {
         let m = Positive::new;
         let spec = ObstacleSpec {
-            surface: Surface {
-                backscatter_db: Finite::new(-5.0),
-                ..Surface::default()
-            },
+            surface: Surface { backscatter_db: Finite::new(-5.0), ..Surface::default() },
             id: id.into(),
-            shape: ShapeSpec::Box(BoxShape {
-                size_m: (m(2.0), m(2.0), m(2.0)),
-            }),
+            shape: ShapeSpec::Box(BoxShape { size_m: (m(2.0), m(2.0), m(2.0)) }),
             east_m: Finite::new(east_m),
             north_m: Finite::new(0.0),
             base: Base::default(),
@@ -95,20 +80,13 @@ mod tests {
     #[test]
     fn the_nearer_face_is_met_with_its_normal() {
         let two = Obstacles(vec![block("far", 20.0), block("near", 10.0)]);
-        let hit = two
-            .cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 50.0)
-            .unwrap();
+        let hit = two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 50.0).unwrap();
         assert!((hit.way_m - 9.0).abs() < 1e-12 && hit.obstacle == 1);
         assert!((hit.normal + Vector3::x()).norm() < 1e-12);
         assert_eq!(hit.surface.backscatter_db.get(), -5.0);
-        let down = two
-            .cast(&Vector3::new(10.5, 0.0, -5.0), &-Vector3::z(), 50.0)
-            .unwrap();
+        let down = two.cast(&Vector3::new(10.5, 0.0, -5.0), &-Vector3::z(), 50.0).unwrap();
         assert!((down.way_m - 3.0).abs() < 1e-12 && (down.normal.z - 1.0).abs() < 1e-12);
-        assert!(
-            two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 8.9)
-                .is_none()
-        );
+        assert!(two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 8.9).is_none());
     }
 
     #[test]

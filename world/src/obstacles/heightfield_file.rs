@@ -36,11 +36,7 @@ pub(super) struct Heights {
 
 /// Reads a file; its ending determines the format.
 pub(super) fn read(path: &Path) -> Result<Heights, WorldError> {
-    let fail = |(place, problem)| WorldError::File {
-        path: path.display().to_string(),
-        place,
-        problem,
-    };
+    let fail = |(place, problem)| WorldError::File { path: path.display().to_string(), place, problem };
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     if ending.to_lowercase() != "asc" {
         let problem = format!("height fields end in .asc (Esri ASCII grid), not \".{ending}\"");
@@ -56,14 +52,10 @@ fn parse(text: &str) -> Result<Heights, Wrong> {
     for (n, line) in text.lines().enumerate() {
         let here = format!(":{}", n + 1);
         let mut words = line.split_whitespace().peekable();
-        let named = |w: &&str| {
-            w.starts_with(|c: char| c.is_ascii_alphabetic()) && w.parse::<f64>().is_err()
-        };
+        let named = |w: &&str| w.starts_with(|c: char| c.is_ascii_alphabetic()) && w.parse::<f64>().is_err();
         if let Some(name) = words.next_if(named) {
             let value = words.next().unwrap_or_default();
-            header
-                .set(&name.to_lowercase(), value, z.is_empty())
-                .map_err(|p| (here, p))?;
+            header.set(&name.to_lowercase(), value, z.is_empty()).map_err(|p| (here, p))?;
             continue;
         }
         for word in words {
@@ -72,12 +64,9 @@ fn parse(text: &str) -> Result<Heights, Wrong> {
                     let at = z.len().checked_rem(header.columns).unwrap_or(0) + 1;
                     let by = match header.missing {
                         Some(v) => format!("NODATA_value {v}"),
-                        None => format!(
-                            "{v}, which is the format's NODATA_value if no line says another"
-                        ),
+                        None => format!("{v}, which is the format's NODATA_value if no line says another"),
                     };
-                    let problem =
-                        format!("height {at} of the row is missing ({by}): fill the gap first");
+                    let problem = format!("height {at} of the row is missing ({by}): fill the gap first");
                     return Err((here, problem));
                 }
                 Ok(v) if v.is_finite() => z.push(v),
@@ -107,9 +96,7 @@ impl Header {
         };
         let count = || match value.parse::<usize>() {
             Ok(n) if n >= 2 => Ok(n),
-            _ => Err(format!(
-                "{name} must be a whole number from 2, got \"{value}\""
-            )),
+            _ => Err(format!("{name} must be a whole number from 2, got \"{value}\"")),
         };
         match name {
             "ncols" => self.columns = count()?,
@@ -126,34 +113,17 @@ impl Header {
 
     fn grid(self, z: Vec<f64>) -> Result<Heights, Wrong> {
         let whole = |problem: String| Err((String::new(), problem));
-        let Self {
-            columns,
-            rows,
-            cell,
-            ..
-        } = self;
+        let Self { columns, rows, cell, .. } = self;
         if columns == 0 || rows == 0 || cell <= 0.0 {
-            return whole(
-                "must say ncols, nrows (2 or more) and cellsize (> 0) before the heights".into(),
-            );
+            return whole("must say ncols, nrows (2 or more) and cellsize (> 0) before the heights".into());
         }
         let Some(count) = columns.checked_mul(rows).filter(|n| *n <= MOST) else {
-            return whole(format!(
-                "{columns} x {rows} heights are more than {MOST}: thin it out"
-            ));
+            return whole(format!("{columns} x {rows} heights are more than {MOST}: thin it out"));
         };
         if z.len() != count {
-            return whole(format!(
-                "{} heights, not the {columns} x {rows} = {count} announced",
-                z.len()
-            ));
+            return whole(format!("{} heights, not the {columns} x {rows} = {count} announced", z.len()));
         }
-        Ok(Heights {
-            columns,
-            rows,
-            cell,
-            z,
-        })
+        Ok(Heights { columns, rows, cell, z })
     }
 }
 
@@ -181,20 +151,11 @@ impl Heights {
         let east = (1..ny).rev().map(|j| (nx - 1, j));
         let north = (1..nx).rev().map(|i| (i, 0));
         let west = (0..ny - 1).map(|j| (0, j));
-        let rim: Vec<[f64; 3]> = south
-            .chain(east)
-            .chain(north)
-            .chain(west)
-            .map(|(i, j)| place(i, j))
-            .collect();
+        let rim: Vec<[f64; 3]> = south.chain(east).chain(north).chain(west).map(|(i, j)| place(i, j)).collect();
         let middle = [0.0, 0.0, -SKIRT_M];
         for (n, a) in rim.iter().enumerate() {
             let b = rim[(n + 1) % rim.len()];
-            all.extend([
-                [*a, foot(*a), foot(b)],
-                [*a, foot(b), b],
-                [middle, foot(b), foot(*a)],
-            ]);
+            all.extend([[*a, foot(*a), foot(b)], [*a, foot(b), b], [middle, foot(b), foot(*a)]]);
         }
         all
     }
@@ -204,22 +165,13 @@ impl Heights {
 mod tests {
     use super::*;
 
-    const HEAD: &str =
-        "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n";
+    const HEAD: &str = "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n";
 
     #[test]
     fn reads_rows_from_north_to_south() {
         let got = parse(&format!("{HEAD}1 2 3\n4 5 6e0\n")).unwrap();
         let z = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        assert_eq!(
-            got,
-            Heights {
-                columns: 3,
-                rows: 2,
-                cell: 2.0,
-                z
-            }
-        );
+        assert_eq!(got, Heights { columns: 3, rows: 2, cell: 2.0, z });
         let north_west = got.triangles()[0][0];
         assert_eq!(north_west, [-2.0, 1.0, 0.0]);
     }
@@ -230,14 +182,8 @@ mod tests {
             let (place, problem) = parse(&text).expect_err("a broken file");
             format!("{place}: {problem}")
         };
-        assert_eq!(
-            says(format!("{HEAD}1 2 3\n4 5\n")),
-            ": 5 heights, not the 3 x 2 = 6 announced"
-        );
-        assert_eq!(
-            says(format!("{HEAD}1 2 nan\n4 5 6\n")),
-            ":7: height \"nan\" is not a finite number"
-        );
+        assert_eq!(says(format!("{HEAD}1 2 3\n4 5\n")), ": 5 heights, not the 3 x 2 = 6 announced");
+        assert_eq!(says(format!("{HEAD}1 2 nan\n4 5 6\n")), ":7: height \"nan\" is not a finite number");
         assert_eq!(
             says(format!("{HEAD}1 2 3\n4 -9999 6\n")),
             ":8: height 2 of the row is missing (NODATA_value -9999): fill the gap first"
@@ -249,22 +195,10 @@ mod tests {
              fill the gap first"
         );
         let other = format!("{unsaid}NODATA_value 0\n1 2 3\n4 5 -9999\n");
-        assert!(
-            parse(&other).is_ok(),
-            "a height where another number stands for gaps"
-        );
-        assert_eq!(
-            says(HEAD.replace('3', "1")),
-            ":1: ncols must be a whole number from 2, got \"1\""
-        );
-        assert_eq!(
-            says(HEAD.replace("cellsize 2", "cellsize x")),
-            ":5: cellsize \"x\" is not a finite number"
-        );
-        assert_eq!(
-            says("hello\n".into()),
-            ":1: \"hello\" is no line of an Esri ASCII grid"
-        );
+        assert!(parse(&other).is_ok(), "a height where another number stands for gaps");
+        assert_eq!(says(HEAD.replace('3', "1")), ":1: ncols must be a whole number from 2, got \"1\"");
+        assert_eq!(says(HEAD.replace("cellsize 2", "cellsize x")), ":5: cellsize \"x\" is not a finite number");
+        assert_eq!(says("hello\n".into()), ":1: \"hello\" is no line of an Esri ASCII grid");
         assert!(says(String::new()).contains("must say ncols"));
         assert!(says(HEAD.replace('3', "900000")).contains("thin it out"));
     }

@@ -18,21 +18,9 @@ use std::path::Path;
 const FARTHEST_M: f64 = 1e5;
 
 /// Builds the surface, with vertices scaled to metres.
-pub(super) fn closed(
-    triangles: &[Triangle],
-    scale: f64,
-    path: &Path,
-) -> Result<TriMesh, WorldError> {
-    let fail = |place: String, problem: String| WorldError::File {
-        path: path.display().to_string(),
-        place,
-        problem,
-    };
-    let far = |t: &Triangle| {
-        t.as_flattened()
-            .iter()
-            .any(|v| v.abs() * scale > FARTHEST_M)
-    };
+pub(super) fn closed(triangles: &[Triangle], scale: f64, path: &Path) -> Result<TriMesh, WorldError> {
+    let fail = |place: String, problem: String| WorldError::File { path: path.display().to_string(), place, problem };
+    let far = |t: &Triangle| t.as_flattened().iter().any(|v| v.abs() * scale > FARTHEST_M);
     if let Some(n) = triangles.iter().position(far) {
         let problem = format!(
             "a corner is farther than {FARTHEST_M} m from the origin: give scale, metres in one unit of the file"
@@ -86,17 +74,10 @@ pub(super) fn closed(
 
 fn place(vertices: &[Vector], scale: f64, a: u32, b: u32) -> String {
     let [p, q] = [a, b].map(|i| vertices[i as usize] / scale);
-    format!(
-        ": edge ({} {} {}) - ({} {} {})",
-        p.x, p.y, p.z, q.x, q.y, q.z
-    )
+    format!(": edge ({} {} {}) - ({} {} {})", p.x, p.y, p.z, q.x, q.y, q.z)
 }
 
 fn volume_m3(vertices: &[Vector], faces: &[[u32; 3]]) -> f64 {
-    let six: f64 = faces
-        .iter()
-        .map(|f| f.map(|i| vertices[i as usize]))
-        .map(|[a, b, c]| a.dot(b.cross(c)))
-        .sum();
+    let six: f64 = faces.iter().map(|f| f.map(|i| vertices[i as usize])).map(|[a, b, c]| a.dot(b.cross(c))).sum();
     six / 6.0
 }

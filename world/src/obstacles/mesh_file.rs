@@ -21,11 +21,7 @@ pub(super) type Triangle = [[f64; 3]; 3];
 /// # Errors
 /// If the file is missing, broken, empty, or larger than can be used.
 pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, WorldError> {
-    let fail = |(place, problem)| WorldError::File {
-        path: path.display().to_string(),
-        place,
-        problem,
-    };
+    let fail = |(place, problem)| WorldError::File { path: path.display().to_string(), place, problem };
     let read = files::read(path, LONGEST_MESH_BYTES);
     let bytes = read.map_err(|e| fail((String::new(), e.to_string())))?;
     parse(&bytes, &ending(path)).map_err(fail)
@@ -89,10 +85,7 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
         return Err((String::new(), "holds no triangle".into()));
     }
     if triangles.len() > MOST {
-        let problem = format!(
-            "{} triangles are more than {MOST}: simplify the surface",
-            triangles.len()
-        );
+        let problem = format!("{} triangles are more than {MOST}: simplify the surface", triangles.len());
         return Err((String::new(), problem));
     }
     Ok(triangles)
@@ -120,29 +113,16 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
 }
 
 fn binary_stl(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
-    let whole = binary_length(bytes).ok_or((
-        String::new(),
-        format!(
-            "cut short: {} bytes, an STL header has {HEADER}",
-            bytes.len()
-        ),
-    ))?;
+    let whole = binary_length(bytes)
+        .ok_or((String::new(), format!("cut short: {} bytes, an STL header has {HEADER}", bytes.len())))?;
     if bytes.len() < whole {
-        let problem = format!(
-            "cut short: {} bytes, {whole} announced in the header",
-            bytes.len()
-        );
-        return Err((
-            format!(": triangle {}", (bytes.len() - HEADER) / RECORD + 1),
-            problem,
-        ));
+        let problem = format!("cut short: {} bytes, {whole} announced in the header", bytes.len());
+        return Err((format!(": triangle {}", (bytes.len() - HEADER) / RECORD + 1), problem));
     }
     let number = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     let corner = |r: &[u8], at: usize| [0, 4, 8].map(|k| number(&r[at + k..]));
     let records = bytes[HEADER..whole].chunks_exact(RECORD);
-    let triangles: Vec<Triangle> = records
-        .map(|r| [12, 24, 36].map(|at| corner(r, at)))
-        .collect();
+    let triangles: Vec<Triangle> = records.map(|r| [12, 24, 36].map(|at| corner(r, at))).collect();
     let broken = |t: &Triangle| !t.as_flattened().iter().all(|v| v.is_finite());
     if let Some(n) = triangles.iter().position(broken) {
         let problem = "a coordinate is not a finite number".to_owned();
@@ -205,9 +185,7 @@ fn obj(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
 /// The vertex that `7`, `7/1/2` or `-1` (the latest) means.
 fn corner_of(word: &str, points: &[[f64; 3]]) -> Result<[f64; 3], String> {
     let first = word.split('/').next().unwrap_or_default();
-    let index: i64 = first
-        .parse()
-        .map_err(|_| format!("\"{word}\" is not a vertex number"))?;
+    let index: i64 = first.parse().map_err(|_| format!("\"{word}\" is not a vertex number"))?;
     let count = points.len() as i64;
     let at = if index < 0 { count + index } else { index - 1 };
     usize::try_from(at)
@@ -290,10 +268,7 @@ endfacet
         let o = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         assert_eq!(corners(o.as_bytes(), "obj").unwrap().len(), 3);
         let ascii = format!("{FACET}endsolid t\n");
-        assert_eq!(
-            corners(ascii.as_bytes(), "stl").unwrap()[2],
-            [0.0, 1.0, 0.5]
-        );
+        assert_eq!(corners(ascii.as_bytes(), "stl").unwrap()[2], [0.0, 1.0, 0.5]);
         let says = corners(b"", "obj").expect_err("an empty file").1;
         assert_eq!(says, "holds no vertex");
     }
@@ -301,62 +276,29 @@ endfacet
     #[test]
     fn broken_files_say_where() {
         let at = |text: &str, ending| wrong(text.as_bytes(), ending);
-        assert_eq!(
-            at(FACET, "stl"),
-            ":8: cut short: no \"endsolid\" at the end"
-        );
-        assert_eq!(
-            at(&FACET.replace("1e0", "nan"), "stl"),
-            ":6: coordinate \"nan\" is not a finite number"
-        );
-        assert_eq!(
-            at(&FACET.replace("vertex 0 0 0\n", ""), "stl"),
-            ":7: a facet has 3 vertices, not 2"
-        );
+        assert_eq!(at(FACET, "stl"), ":8: cut short: no \"endsolid\" at the end");
+        assert_eq!(at(&FACET.replace("1e0", "nan"), "stl"), ":6: coordinate \"nan\" is not a finite number");
+        assert_eq!(at(&FACET.replace("vertex 0 0 0\n", ""), "stl"), ":7: a facet has 3 vertices, not 2");
         assert_eq!(at("solid t\nendsolid t\n", "stl"), ": holds no triangle");
         assert_eq!(at("", "obj"), ": holds no triangle");
-        assert_eq!(
-            at("v 0 0\n", "obj"),
-            ":1: a vertex has 3 coordinates; the line is cut short"
-        );
-        assert_eq!(
-            at("v 0 0 0\nf 1 2 3\n", "obj"),
-            ":2: vertex 2 of 1 does not exist (yet)"
-        );
-        assert_eq!(
-            at("", "ply"),
-            ": mesh files end in .stl or .obj, not \".ply\""
-        );
+        assert_eq!(at("v 0 0\n", "obj"), ":1: a vertex has 3 coordinates; the line is cut short");
+        assert_eq!(at("v 0 0 0\nf 1 2 3\n", "obj"), ":2: vertex 2 of 1 does not exist (yet)");
+        assert_eq!(at("", "ply"), ": mesh files end in .stl or .obj, not \".ply\"");
     }
 
     #[test]
     fn too_many_triangles_are_refused() {
         let faces = "f 1 2 3\n".repeat(MOST + 1);
-        let got = wrong(
-            format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}").as_bytes(),
-            "obj",
-        );
-        assert_eq!(
-            got,
-            ": 2000001 triangles are more than 2000000: simplify the surface"
-        );
+        let got = wrong(format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}").as_bytes(), "obj");
+        assert_eq!(got, ": 2000001 triangles are more than 2000000: simplify the surface");
     }
 
     #[test]
     fn broken_binary_files_say_which_triangle() {
-        assert_eq!(
-            wrong(b"", "stl"),
-            ": cut short: 0 bytes, an STL header has 84"
-        );
+        assert_eq!(wrong(b"", "stl"), ": cut short: 0 bytes, an STL header has 84");
         let good = binary(&[[0.0; 3]; 3]);
-        assert_eq!(
-            wrong(&good[..100], "stl"),
-            ": triangle 1: cut short: 100 bytes, 134 announced in the header"
-        );
+        assert_eq!(wrong(&good[..100], "stl"), ": triangle 1: cut short: 100 bytes, 134 announced in the header");
         let nan = binary(&[[0.0; 3], [0.0, f32::NAN, 0.0], [0.0; 3]]);
-        assert_eq!(
-            wrong(&nan, "stl"),
-            ": triangle 1: a coordinate is not a finite number"
-        );
+        assert_eq!(wrong(&nan, "stl"), ": triangle 1: a coordinate is not a finite number");
     }
 }

@@ -14,16 +14,10 @@ impl Obstacle {
     pub fn outline(&self) -> Vec<[f64; 2]> {
         let points: Vec<Vector3<f64>> = if let Some(block) = self.shape.as_cuboid() {
             let h = block.half_extents;
-            let signs =
-                (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2 & 1].map(|b| f64::from(2 * b - 1)));
-            signs
-                .map(|[x, y, z]| Vector3::new(x * h.x, y * h.y, z * h.z))
-                .collect()
+            let signs = (0..8).map(|k| [k & 1, k >> 1 & 1, k >> 2 & 1].map(|b| f64::from(2 * b - 1)));
+            signs.map(|[x, y, z]| Vector3::new(x * h.x, y * h.y, z * h.z)).collect()
         } else if let Some(mesh) = self.shape.as_trimesh() {
-            mesh.vertices()
-                .iter()
-                .map(|v| Vector3::new(v.x, v.y, v.z))
-                .collect()
+            mesh.vertices().iter().map(|v| Vector3::new(v.x, v.y, v.z)).collect()
         } else {
             let local = self.shape.compute_local_aabb();
             let r = local.maxs.x;

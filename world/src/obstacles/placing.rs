@@ -34,11 +34,7 @@ pub struct Remark {
 const TOO_HIGH: f64 = 5.0;
 
 fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
-    Remark {
-        wrong,
-        problem,
-        hint: hint.into(),
-    }
+    Remark { wrong, problem, hint: hint.into() }
 }
 
 impl Obstacle {
@@ -83,30 +79,25 @@ impl Obstacle {
         } else if low.z >= 0.0 {
             found.push(remark(
                 false,
-                format!(
-                    "obstacle \"{id}\" stands wholly above the surface, from {:.2} m on",
-                    low.z
-                ),
+                format!("obstacle \"{id}\" stands wholly above the surface, from {:.2} m on", low.z),
                 "give base: Depth(m below the surface)",
             ));
         } else {
-            let beds = [
-                (low.x, low.y),
-                (low.x, high.y),
-                (high.x, low.y),
-                (high.x, high.y),
-            ];
-            let deepest = beds
-                .map(|(x, y)| terrain.bed_z(x, y))
-                .into_iter()
-                .fold(f64::INFINITY, f64::min);
+            let beds = [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)];
+            let deepest = beds.map(|(x, y)| terrain.bed_z(x, y)).into_iter().fold(f64::INFINITY, f64::min);
             if high.z <= deepest {
-                found.push(remark(false, format!("obstacle \"{id}\" lies wholly under the bed: its top is {:.2} m below the surface", -high.z), "give a smaller depth in base"));
+                found.push(remark(
+                    false,
+                    format!(
+                        "obstacle \"{id}\" lies wholly under the bed: its top is {:.2} m below the surface",
+                        -high.z
+                    ),
+                    "give a smaller depth in base",
+                ));
             }
             let (high_m, depth_m) = (high.z - low.z, -deepest);
             if high_m > TOO_HIGH * depth_m {
-                let problem =
-                    format!("obstacle \"{id}\" is {high_m:.0} m high in water of {depth_m:.1} m");
+                let problem = format!("obstacle \"{id}\" is {high_m:.0} m high in water of {depth_m:.1} m");
                 let hint = "look at its scale, and at heights in a file that stand for gaps";
                 found.push(remark(false, problem, hint));
             }
@@ -119,10 +110,7 @@ impl ObstacleSpec {
     /// Whether it differs from another obstacle only in its name.
     #[must_use]
     pub fn is_copy_of(&self, other: &Self) -> bool {
-        let renamed = Self {
-            id: other.id.clone(),
-            ..self.clone()
-        };
+        let renamed = Self { id: other.id.clone(), ..self.clone() };
         renamed == *other
     }
 
@@ -151,16 +139,10 @@ impl Obstacles {
         let part = |n: usize, d: usize| (n as f64 + 0.5) / LOOKS[d] as f64;
         (0..LOOKS[0]).any(|i| {
             (0..LOOKS[1]).any(|j| {
-                let local = Vector2::new(
-                    (part(i, 0) - 0.5) * area.length_m,
-                    (part(j, 1) - 0.5) * area.width_m,
-                );
+                let local = Vector2::new((part(i, 0) - 0.5) * area.length_m, (part(j, 1) - 0.5) * area.width_m);
                 let p = area.world(local);
                 let bed = terrain.bed_z(p.x, p.y);
-                (0..LOOKS[2]).any(|k| {
-                    self.containing(&Vector3::new(p.x, p.y, bed * part(k, 2)))
-                        .is_none()
-                })
+                (0..LOOKS[2]).any(|k| self.containing(&Vector3::new(p.x, p.y, bed * part(k, 2))).is_none())
             })
         })
     }

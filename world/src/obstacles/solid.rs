@@ -33,10 +33,7 @@ pub struct Obstacle {
 
 impl std::fmt::Debug for Obstacle {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Obstacle")
-            .field("id", &self.id)
-            .field("pose", &self.pose)
-            .finish_non_exhaustive()
+        f.debug_struct("Obstacle").field("id", &self.id).field("pose", &self.pose).finish_non_exhaustive()
     }
 }
 
@@ -45,11 +42,7 @@ impl Obstacle {
     ///
     /// # Errors
     /// If a mesh file is missing, corrupt or does not enclose a volume.
-    pub fn build(
-        spec: &ObstacleSpec,
-        terrain: &Terrain,
-        base_dir: &Path,
-    ) -> Result<Self, WorldError> {
+    pub fn build(spec: &ObstacleSpec, terrain: &Terrain, base_dir: &Path) -> Result<Self, WorldError> {
         let yaw = UnitQuaternion::from_euler_angles(0.0, 0.0, spec.heading_deg.heading().yaw());
         let mut foot_m = 0.0;
         let (shape, R_WB) = match &spec.shape {
@@ -60,52 +53,34 @@ impl Obstacle {
             }
             ShapeSpec::Cylinder(c) => {
                 let upright = UnitQuaternion::from_euler_angles(FRAC_PI_2, 0.0, 0.0);
-                (
-                    SharedShape::cylinder(c.height_m.get() / 2.0, c.radius_m.get()),
-                    yaw * upright,
-                )
+                (SharedShape::cylinder(c.height_m.get() / 2.0, c.radius_m.get()), yaw * upright)
             }
             ShapeSpec::Mesh(m) => {
                 let path = base_dir.join(&m.file);
                 let triangles = mesh_file::read(&path)?;
-                (
-                    SharedShape::new(mesh::closed(&triangles, m.scale.get(), &path)?),
-                    yaw,
-                )
+                (SharedShape::new(mesh::closed(&triangles, m.scale.get(), &path)?), yaw)
             }
             ShapeSpec::Heightfield(h) => {
                 let path = base_dir.join(&h.file);
                 let triangles = heightfield_file::read(&path)?.triangles();
                 // Its rim is no part of what stands on the bed.
                 foot_m = heightfield_file::SKIRT_M * h.scale.get();
-                (
-                    SharedShape::new(mesh::closed(&triangles, h.scale.get(), &path)?),
-                    yaw,
-                )
+                (SharedShape::new(mesh::closed(&triangles, h.scale.get(), &path)?), yaw)
             }
         };
         let (east, north) = (spec.east_m.get(), spec.north_m.get());
         let mut built = Self {
             id: spec.id.clone(),
-            pose: Pose {
-                p_WB: Vector3::new(east, north, 0.0),
-                R_WB,
-            },
+            pose: Pose { p_WB: Vector3::new(east, north, 0.0), R_WB },
             shape,
             surface: spec.surface.clone(),
         };
         let (min, max) = built.bounds();
         let base_z = match spec.base {
-            Base::OnBed => [
-                (east, north),
-                (min.x, min.y),
-                (min.x, max.y),
-                (max.x, min.y),
-                (max.x, max.y),
-            ]
-            .map(|(x, y)| terrain.bed_z(x, y))
-            .into_iter()
-            .fold(f64::INFINITY, f64::min),
+            Base::OnBed => [(east, north), (min.x, min.y), (min.x, max.y), (max.x, min.y), (max.x, max.y)]
+                .map(|(x, y)| terrain.bed_z(x, y))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min),
             Base::Depth(d) => -d.get(),
             Base::Z(z) => z.get(),
         };
@@ -140,12 +115,8 @@ impl Obstacle {
     pub fn plan_m(&self) -> [f64; 2] {
         let half = from_parry(self.shape.compute_local_aabb().half_extents());
         let upright = |axis: usize| (self.pose.R_WB * Vector3::ith(axis, 1.0)).z.abs() > 0.5;
-        let flat = (0..3)
-            .filter(|axis| !upright(*axis))
-            .map(|axis| 2.0 * half[axis]);
-        flat.fold([f64::INFINITY, 0.0], |[least, most], m| {
-            [least.min(m), most.max(m)]
-        })
+        let flat = (0..3).filter(|axis| !upright(*axis)).map(|axis| 2.0 * half[axis]);
+        flat.fold([f64::INFINITY, 0.0], |[least, most], m| [least.min(m), most.max(m)])
     }
 
     /// Distance along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first hit within
@@ -178,10 +149,7 @@ impl Obstacle {
 
 fn to_parry_pose(pose: &Pose) -> ParryPose {
     let q = pose.R_WB.coords;
-    ParryPose::from_parts(
-        to_parry(&pose.p_WB),
-        Rotation::from_xyzw(q.x, q.y, q.z, q.w),
-    )
+    ParryPose::from_parts(to_parry(&pose.p_WB), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
 }
 
 pub(super) fn to_parry(v: &Vector3<f64>) -> Vector {
@@ -206,18 +174,12 @@ impl Obstacles {
     /// Distance to the nearest surface, m (negative inside); infinite without obstacles.
     #[must_use]
     pub fn distance(&self, p: &Vector3<f64>) -> f64 {
-        self.0
-            .iter()
-            .map(|o| o.distance(p))
-            .fold(f64::INFINITY, f64::min)
+        self.0.iter().map(|o| o.distance(p)).fold(f64::INFINITY, f64::min)
     }
 
     /// Distance along a ray to the first hit on any obstacle, m; see [`Obstacle::ray`].
     #[must_use]
     pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
-        self.0
-            .iter()
-            .filter_map(|o| o.ray(origin, dir, max_m))
-            .min_by(f64::total_cmp)
+        self.0.iter().filter_map(|o| o.ray(origin, dir, max_m)).min_by(f64::total_cmp)
     }
 }

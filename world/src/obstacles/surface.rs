@@ -21,9 +21,6 @@ impl Default for Surface {
     /// 1994, section IV: rough rock at tens of kHz and above has -7 to -13 dB at steep angles).
     fn default() -> Self {
         let fifth = || Fraction::new(0.2);
-        Self {
-            albedo: (fifth(), fifth(), fifth()),
-            backscatter_db: Finite::new(-10.0),
-        }
+        Self { albedo: (fifth(), fifth(), fifth()), backscatter_db: Finite::new(-10.0) }
     }
 }

@@ -1,8 +1,6 @@
 //! Obstacles of all shapes, compared with geometry.
 
-use super::{
-    Base, BoxShape, CylinderShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
-};
+use super::{Base, BoxShape, CylinderShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use crate::error::WorldError;
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use crate::seeds::Stream;
@@ -41,14 +39,7 @@ fn corner_points() -> (String, [[usize; 4]; 6]) {
         let c = |bit: usize| if i & bit == 0 { "-1" } else { "1" };
         points += &format!("v {} {} {}\n", c(1), c(2), c(4));
     }
-    let faces = [
-        [1, 3, 4, 2],
-        [5, 6, 8, 7],
-        [1, 2, 6, 5],
-        [3, 7, 8, 4],
-        [1, 5, 7, 3],
-        [2, 4, 8, 6],
-    ];
+    let faces = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
     (points, faces)
 }
 
@@ -67,10 +58,7 @@ fn cube(faces_shown: usize, outward: bool) -> String {
 fn mesh(text: &str) -> Result<Obstacle, WorldError> {
     let dir = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(dir.path().join("cube.obj"), text).expect("a written file");
-    let shape = ShapeSpec::Mesh(MeshShape {
-        file: "cube.obj".into(),
-        scale: Positive::new(0.5),
-    });
+    let shape = ShapeSpec::Mesh(MeshShape { file: "cube.obj".into(), scale: Positive::new(0.5) });
     Obstacle::build(&spec(shape, Base::OnBed, 30.0), &LEVEL, dir.path())
 }
 
@@ -117,10 +105,7 @@ fn distance_is_signed_and_rays_stop_at_the_surface() {
 #[test]
 fn a_cylinder_stands_upright() {
     let o = built(&spec(
-        ShapeSpec::Cylinder(CylinderShape {
-            radius_m: Positive::new(0.5),
-            height_m: Positive::new(6.0),
-        }),
+        ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(0.5), height_m: Positive::new(6.0) }),
         Base::OnBed,
         0.0,
     ));
@@ -135,9 +120,7 @@ fn a_cylinder_stands_upright() {
 #[test]
 fn a_mesh_answers_as_the_box_it_shows() {
     let one = Positive::new(1.0);
-    let shape = ShapeSpec::Box(BoxShape {
-        size_m: (one, one, one),
-    });
+    let shape = ShapeSpec::Box(BoxShape { size_m: (one, one, one) });
     let solid = built(&spec(shape, Base::OnBed, 30.0));
     let mut rng = Stream::new(3, "test", "points");
     for outward in [true, false] {
@@ -157,13 +140,8 @@ fn a_mesh_answers_as_the_box_it_shows() {
 
 #[test]
 fn broken_meshes_are_refused_with_file_and_place() {
-    let hole = mesh(&cube(5, true))
-        .expect_err("a cube without its lid")
-        .to_string();
-    assert!(
-        hole.contains("cube.obj: edge (") && hole.contains("not closed"),
-        "{hole}"
-    );
+    let hole = mesh(&cube(5, true)).expect_err("a cube without its lid").to_string();
+    assert!(hole.contains("cube.obj: edge (") && hole.contains("not closed"), "{hole}");
     let (points, faces) = corner_points();
     let mut text = points;
     for (i, mut f) in faces.into_iter().enumerate() {
@@ -174,19 +152,13 @@ fn broken_meshes_are_refused_with_file_and_place() {
     }
     let mixed = mesh(&text).expect_err("one face turned").to_string();
     assert!(mixed.contains("twice in the same direction"), "{mixed}");
-    let shape = ShapeSpec::Mesh(MeshShape {
-        file: "nowhere.stl".into(),
-        scale: Positive::new(1.0),
-    });
+    let shape = ShapeSpec::Mesh(MeshShape { file: "nowhere.stl".into(), scale: Positive::new(1.0) });
     let flat = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n").expect_err("two sides");
     assert!(flat.to_string().contains("encloses no volume"), "{flat}");
     let missing = Obstacle::build(&spec(shape, Base::OnBed, 0.0), &LEVEL, Path::new("/no"))
         .expect_err("no such file")
         .to_string();
-    assert!(
-        missing.starts_with("/no/nowhere.stl: No such file"),
-        "{missing}"
-    );
+    assert!(missing.starts_with("/no/nowhere.stl: No such file"), "{missing}");
 }
 
 #[test]

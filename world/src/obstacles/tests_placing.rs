@@ -1,8 +1,6 @@
 //! Height fields, and obstacles in places where they make no sense.
 
-use super::{
-    Base, BoxShape, HeightfieldShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
-};
+use super::{Base, BoxShape, HeightfieldShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use crate::area::Area;
 use crate::error::WorldError;
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
@@ -14,12 +12,7 @@ use nalgebra::{Vector2, Vector3};
 const LEVEL: Terrain = Terrain::Level { depth_m: 8.0 };
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::zeros(),
-        length_m: 80.0,
-        width_m: 60.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::zeros(), length_m: 80.0, width_m: 60.0, axis: Heading::from_deg(90.0) }
 }
 
 fn spec(shape: ShapeSpec, base: Base, heading_deg: f64) -> ObstacleSpec {
@@ -42,10 +35,7 @@ fn block(size: f64) -> ShapeSpec {
 fn field(text: &str, scale: f64, heading_deg: f64) -> (ObstacleSpec, Result<Obstacle, WorldError>) {
     let dir = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(dir.path().join("reef.asc"), text).expect("a written file");
-    let shape = ShapeSpec::Heightfield(HeightfieldShape {
-        file: "reef.asc".into(),
-        scale: Positive::new(scale),
-    });
+    let shape = ShapeSpec::Heightfield(HeightfieldShape { file: "reef.asc".into(), scale: Positive::new(scale) });
     let spec = spec(shape, Base::OnBed, heading_deg);
     let built = Obstacle::build(&spec, &LEVEL, dir.path());
     (spec, built)
@@ -67,10 +57,7 @@ fn a_height_field_is_solid_below_its_heights() {
     let (low, high) = reef.bounds();
     // Its lowest height stands on the bed, its skirt below it.
     assert!((low - Vector3::new(8.0, -6.5, -9.0)).norm() < 1e-9, "{low}");
-    assert!(
-        (high - Vector3::new(12.0, -3.5, -4.0)).norm() < 1e-9,
-        "{high}"
-    );
+    assert!((high - Vector3::new(12.0, -3.5, -4.0)).norm() < 1e-9, "{high}");
     let mut rng = Stream::new(2, "test", "points");
     for _ in 0..2000 {
         let p = low.zip_map(&high, |l, h| l + (h - l) * rng.uniform());
@@ -93,14 +80,8 @@ fn a_height_field_is_solid_below_its_heights() {
 
 #[test]
 fn broken_fields_are_refused_with_file_and_place() {
-    let e = field(&ramp().replace("22", "inf"), 1.0, 90.0)
-        .1
-        .unwrap_err()
-        .to_string();
-    assert!(
-        e.ends_with("reef.asc:6: height \"inf\" is not a finite number"),
-        "{e}"
-    );
+    let e = field(&ramp().replace("22", "inf"), 1.0, 90.0).1.unwrap_err().to_string();
+    assert!(e.ends_with("reef.asc:6: height \"inf\" is not a finite number"), "{e}");
 }
 
 #[test]
@@ -111,19 +92,10 @@ fn a_wrong_scale_is_noticed() {
     };
     assert!(says(1.0).is_empty());
     let large = &says(1000.0)[0];
-    assert!(
-        large.wrong && large.problem == "obstacle \"reef\" is 5000 m wide in an area of 80 x 60 m",
-        "{large:?}"
-    );
-    assert_eq!(
-        large.hint,
-        "if the file is in millimetres, give scale: 0.001"
-    );
+    assert!(large.wrong && large.problem == "obstacle \"reef\" is 5000 m wide in an area of 80 x 60 m", "{large:?}");
+    assert_eq!(large.hint, "if the file is in millimetres, give scale: 0.001");
     let small = &says(0.001)[0];
-    assert!(
-        small.wrong && small.problem.contains("only 5.00e-3 m wide"),
-        "{small:?}"
-    );
+    assert!(small.wrong && small.problem.contains("only 5.00e-3 m wide"), "{small:?}");
 }
 
 #[test]
@@ -134,10 +106,7 @@ fn a_body_far_higher_than_the_water_is_deep_is_noticed() {
     let [remark] = &remarks[..] else {
         panic!("one remark: {remarks:?}");
     };
-    assert!(
-        !remark.wrong && remark.problem.contains(" m high in water of "),
-        "{remark:?}"
-    );
+    assert!(!remark.wrong && remark.problem.contains(" m high in water of "), "{remark:?}");
 }
 
 #[test]
@@ -151,25 +120,9 @@ fn odd_places_are_noticed() {
     };
     assert_eq!(says(Base::OnBed, 10.0), None);
     let outside = says(Base::OnBed, 500.0).unwrap();
-    assert_eq!(
-        outside,
-        (
-            false,
-            "obstacle \"reef\" lies wholly outside the area".into()
-        )
-    );
-    assert!(
-        says(Base::Z(Finite::new(1.0)), 0.0)
-            .unwrap()
-            .1
-            .contains("wholly above the surface")
-    );
-    assert!(
-        says(Base::Depth(NonNegative::new(20.0)), 0.0)
-            .unwrap()
-            .1
-            .contains("wholly under the bed")
-    );
+    assert_eq!(outside, (false, "obstacle \"reef\" lies wholly outside the area".into()));
+    assert!(says(Base::Z(Finite::new(1.0)), 0.0).unwrap().1.contains("wholly above the surface"));
+    assert!(says(Base::Depth(NonNegative::new(20.0)), 0.0).unwrap().1.contains("wholly under the bed"));
 }
 
 #[test]
@@ -193,14 +146,8 @@ fn a_mesh_beyond_all_measure_is_refused() {
     let dir = tempfile::tempdir().expect("a temporary folder");
     let text = "v 0 0 0\nv 9e9 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     std::fs::write(dir.path().join("far.obj"), text).expect("a written file");
-    let shape = ShapeSpec::Mesh(MeshShape {
-        file: "far.obj".into(),
-        scale: Positive::new(1.0),
-    });
+    let shape = ShapeSpec::Mesh(MeshShape { file: "far.obj".into(), scale: Positive::new(1.0) });
     let e = Obstacle::build(&spec(shape, Base::OnBed, 90.0), &LEVEL, dir.path());
     let e = e.expect_err("too far").to_string();
-    assert!(
-        e.contains("far.obj") && e.contains("farther than 100000 m"),
-        "{e}"
-    );
+    assert!(e.contains("far.obj") && e.contains("farther than 100000 m"), "{e}");
 }

@@ -60,14 +60,9 @@ mod tests {
     #[test]
     fn surfaces_enclose_the_solid_and_look_outwards() {
         let m = Positive::new;
-        let block = triangles(ShapeSpec::Box(BoxShape {
-            size_m: (m(4.0), m(3.0), m(2.0)),
-        }));
+        let block = triangles(ShapeSpec::Box(BoxShape { size_m: (m(4.0), m(3.0), m(2.0)) }));
         assert!((volume_m3(&block) - 24.0).abs() < 1e-9);
-        let pillar = triangles(ShapeSpec::Cylinder(CylinderShape {
-            radius_m: m(1.0),
-            height_m: m(5.0),
-        }));
+        let pillar = triangles(ShapeSpec::Cylinder(CylinderShape { radius_m: m(1.0), height_m: m(5.0) }));
         // A prism of 32 sides has 0.64 % less.
         let (sin, _) = crate::math::sin_cos(std::f64::consts::TAU / 32.0);
         let prism = 0.5 * 32.0 * sin * 5.0;

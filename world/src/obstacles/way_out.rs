@@ -67,9 +67,7 @@ mod tests {
         let spec = ObstacleSpec {
             surface: Default::default(),
             id: id.into(),
-            shape: ShapeSpec::Box(BoxShape {
-                size_m: (m(4.0), m(6.0), m(3.0)),
-            }),
+            shape: ShapeSpec::Box(BoxShape { size_m: (m(4.0), m(6.0), m(3.0)) }),
             east_m: Finite::new(east_m),
             north_m: Finite::new(0.0),
             base: Base::default(),

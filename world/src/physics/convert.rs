@@ -25,10 +25,7 @@ pub(super) fn pose(p: &Pose) -> r::Pose {
 }
 
 pub(super) fn from_pose(p: &r::Pose) -> Pose {
-    Pose {
-        p_WB: from_vector(p.translation),
-        R_WB: from_rotation(p.rotation),
-    }
+    Pose { p_WB: from_vector(p.translation), R_WB: from_rotation(p.rotation) }
 }
 
 pub(super) fn matrix(m: &Matrix3<f64>) -> r::Matrix {
@@ -45,10 +42,7 @@ mod tests {
 
     #[test]
     fn a_pose_survives_the_way_there_and_back() {
-        let p = Pose {
-            p_WB: Vector3::new(1.0, -2.0, 3.0),
-            R_WB: UnitQuaternion::from_euler_angles(0.3, -0.4, 2.0),
-        };
+        let p = Pose { p_WB: Vector3::new(1.0, -2.0, 3.0), R_WB: UnitQuaternion::from_euler_angles(0.3, -0.4, 2.0) };
         let q = from_pose(&pose(&p));
         assert_eq!(p.p_WB, q.p_WB);
         assert!(p.R_WB.angle_to(&q.R_WB) < 1e-14);

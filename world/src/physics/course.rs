@@ -65,10 +65,7 @@ impl Physics {
             hardest: None,
         };
         let bodies = self.bodies.iter().enumerate().map(|(i, body)| {
-            let (start, free) = (
-                &body.truth,
-                body.free.as_ref().expect("step() filled it in"),
-            );
+            let (start, free) = (&body.truth, body.free.as_ref().expect("step() filled it in"));
             let p_WG = start.pose.point(body.p_BG);
             let v = (free.pose.point(body.p_BG) - p_WG) / dt_s;
             let w = (free.pose.R_WB * start.pose.R_WB.inverse()).scaled_axis() / dt_s;
@@ -125,11 +122,7 @@ impl Physics {
             }
             Who::Gantry(i) => {
                 let along = self.gantries[i].along_W();
-                let second = if slide == 1 {
-                    along[1].dot(axis_W)
-                } else {
-                    0.0
-                };
+                let second = if slide == 1 { along[1].dot(axis_W) } else { 0.0 };
                 Vector6::new(along[0].dot(axis_W), second, 0.0, 0.0, 0.0, 0.0)
             }
         }
@@ -150,10 +143,7 @@ impl Physics {
 impl Course {
     /// Pose of the body's origin.
     pub(super) fn pose(&self, p_BG: &Vector3<f64>) -> Pose {
-        Pose {
-            p_WB: self.p_WG - self.R_WB * p_BG,
-            R_WB: self.R_WB,
-        }
+        Pose { p_WB: self.p_WG - self.R_WB * p_BG, R_WB: self.R_WB }
     }
 
     /// Present velocities.
@@ -175,8 +165,7 @@ impl Course {
         match self.who {
             Who::Body(_) => {
                 self.p_WG += self.R_WB * Vector3::from(way.fixed_rows::<3>(0));
-                self.R_WB *=
-                    UnitQuaternion::from_scaled_axis(Vector3::from(way.fixed_rows::<3>(3)));
+                self.R_WB *= UnitQuaternion::from_scaled_axis(Vector3::from(way.fixed_rows::<3>(3)));
                 let alone = Vector3::from(self.mean.fixed_rows::<3>(3)) * h;
                 self.R_alone = UnitQuaternion::from_scaled_axis(alone) * self.R_alone;
             }
@@ -191,33 +180,19 @@ impl Course {
     pub(super) fn truth(&self, p_BG: &Vector3<f64>) -> Truth {
         let rate = self.end + self.gained;
         let w_WB_B = Vector3::from(rate.fixed_rows::<3>(3));
-        Truth {
-            pose: self.pose(p_BG),
-            v_WB_B: Vector3::from(rate.fixed_rows::<3>(0)) - w_WB_B.cross(p_BG),
-            w_WB_B,
-        }
+        Truth { pose: self.pose(p_BG), v_WB_B: Vector3::from(rate.fixed_rows::<3>(0)) - w_WB_B.cross(p_BG), w_WB_B }
     }
 }
 
 /// Records impulses with the movers on which they act.
-pub(super) fn note(
-    courses: &mut [Course],
-    rows: &[Row],
-    impulses: &[[f64; 3]],
-    inverse: &[Matrix6<f64>],
-) {
+pub(super) fn note(courses: &mut [Course], rows: &[Row], impulses: &[[f64; 3]], inverse: &[Matrix6<f64>]) {
     for (row, impulse) in rows.iter().zip(impulses) {
         let bodies = row.on.iter().all(|on| {
             let who = on.as_ref().map(|(m, _)| courses[*m].who);
             matches!(who, Some(Who::Body(_)))
         });
         let total: Vector3<f64> = (row.axes_W.iter().zip(impulse)).map(|(a, i)| a * *i).sum();
-        for (side, (m, by)) in row
-            .on
-            .iter()
-            .enumerate()
-            .filter_map(|(s, on)| Some((s, on.as_ref()?)))
-        {
+        for (side, (m, by)) in row.on.iter().enumerate().filter_map(|(s, on)| Some((s, on.as_ref()?))) {
             let course = &mut courses[*m];
             for (by, i) in by.iter().zip(impulse) {
                 course.gained += inverse[*m] * by * *i;

@@ -97,10 +97,7 @@ impl Gantry {
     pub(super) fn momentum(&self, v: [f64; 2]) -> [f64; 2] {
         let [first, second] = self.mass_kg;
         let shared = second * self.along_B[0].dot(&self.along_B[1]);
-        [
-            (first + second) * v[0] + shared * v[1],
-            shared * v[0] + second * v[1],
-        ]
+        [(first + second) * v[0] + shared * v[1], shared * v[0] + second * v[1]]
     }
 }
 
@@ -130,11 +127,7 @@ impl Physics {
                 spec.start_m[k]
             );
             // It never turns, so any inertia will do.
-            let props = r::MassProperties::new(
-                r::Vector::ZERO,
-                axis.mass_kg,
-                r::Vector::splat(axis.mass_kg),
-            );
+            let props = r::MassProperties::new(r::Vector::ZERO, axis.mass_kg, r::Vector::splat(axis.mass_kg));
             let slide = r::RigidBodyBuilder::dynamic()
                 .pose(pose(&spec.base))
                 .additional_mass_properties(props)
@@ -145,19 +138,14 @@ impl Physics {
                 .limits(axis.travel_m)
                 .motor_velocity(0.0, 1.0)
                 .motor_max_force(0.0);
-            let joint = self
-                .world
-                .insert_multibody_joint(parent, slide, joint)
-                .expect("a chain of new bodies has no loop");
+            let joint =
+                self.world.insert_multibody_joint(parent, slide, joint).expect("a chain of new bodies has no loop");
             joints.push(joint);
             slides[k] = slide;
             parent = slide;
         }
         let joints = [joints[0], joints[1]];
-        let start = |k: usize| JointState {
-            position_m: spec.start_m[k],
-            ..JointState::default()
-        };
+        let start = |k: usize| JointState { position_m: spec.start_m[k], ..JointState::default() };
         self.gantries.push(Gantry {
             id: spec.id,
             base: spec.base,
@@ -183,9 +171,8 @@ impl Physics {
 
     fn dress(&mut self, id: &str, on: r::RigidBodyHandle, shapes: &[(Pose, Shape)]) {
         for (at, shape) in shapes {
-            let shared = shape
-                .shared()
-                .unwrap_or_else(|| panic!("gantry {id}: a hull needs points that span a volume"));
+            let shared =
+                shape.shared().unwrap_or_else(|| panic!("gantry {id}: a hull needs points that span a volume"));
             let collider = r::ColliderBuilder::new(shared)
                 .position(pose(at))
                 .density(0.0)
@@ -240,9 +227,7 @@ impl Physics {
         let [a, b] = &g.states;
         Truth {
             pose: Pose {
-                p_WB: g
-                    .base
-                    .point(g.along_B[0] * a.position_m + g.along_B[1] * b.position_m),
+                p_WB: g.base.point(g.along_B[0] * a.position_m + g.along_B[1] * b.position_m),
                 R_WB: g.base.R_WB,
             },
             v_WB_B: g.along_B[0] * a.speed_m_s + g.along_B[1] * b.speed_m_s,
@@ -292,10 +277,7 @@ impl Physics {
             let before = gantry.momentum(gantry.states.map(|s| s.speed_m_s));
             let after = gantry.momentum(freed);
             let pushed = touched.map(|t| gantry.base.R_WB.inverse() * t.impulse_N_s);
-            let by_contact = [
-                (pushed[0] + pushed[1]).dot(&gantry.along_B[0]),
-                pushed[1].dot(&gantry.along_B[1]),
-            ];
+            let by_contact = [(pushed[0] + pushed[1]).dot(&gantry.along_B[0]), pushed[1].dot(&gantry.along_B[1])];
             for k in 0..2 {
                 let force_N = (after[k] - before[k] - by_contact[k]) / self.dt_s();
                 let most = gantry.drives[k].max_force_N;
@@ -304,11 +286,7 @@ impl Physics {
                 let way = 2.0 * self.dt_s() * gantry.drives[k].speed_m_s.abs();
                 let q = states[k].position_m;
                 let at_stop = q - low <= way || high - q <= way;
-                states[k].force_N = if at_stop {
-                    force_N.clamp(-most, most)
-                } else {
-                    force_N
-                };
+                states[k].force_N = if at_stop { force_N.clamp(-most, most) } else { force_N };
             }
             self.gantries[i].states = states;
             self.gantries[i].contact = contact;
@@ -332,10 +310,7 @@ impl Physics {
     pub(super) fn touch_point(&self, pair: &r::ContactPair) -> Option<Vector3<f64>> {
         let (manifold, deepest) = pair.find_deepest_contact()?;
         let first = self.world.colliders.get(pair.collider1)?;
-        let part = manifold
-            .subshape_pos1()
-            .copied()
-            .unwrap_or(r::Pose::IDENTITY);
+        let part = manifold.subshape_pos1().copied().unwrap_or(r::Pose::IDENTITY);
         let point = (*first.position() * part).transform_point(deepest.local_p1);
         Some(from_vector(point))
     }

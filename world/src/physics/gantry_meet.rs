@@ -21,9 +21,7 @@ impl Gantry {
         let [a, b] = [[1.0, 0.0], [0.0, 1.0]].map(|unit| self.momentum(unit));
         let mass = Matrix2::new(a[0], b[0], a[1], b[1]);
         let mut inverse = Matrix6::zeros();
-        let joints = mass
-            .try_inverse()
-            .expect("two axes along one line are refused");
+        let joints = mass.try_inverse().expect("two axes along one line are refused");
         inverse.fixed_view_mut::<2, 2>(0, 0).copy_from(&joints);
         inverse
     }
@@ -45,19 +43,13 @@ impl Physics {
     ) -> Vec<Placed> {
         let way = (gantry.along_B.iter().zip(joints_m)).take(slides);
         let way: Vector3<f64> = way.map(|(along, q)| along * q).sum();
-        let at = pose(&Pose {
-            p_WB: gantry.base.point(way),
-            R_WB: gantry.base.R_WB,
-        });
+        let at = pose(&Pose { p_WB: gantry.base.point(way), R_WB: gantry.base.R_WB });
         let colliders = self.world.bodies[part].colliders().iter();
         colliders
             .map(|&handle| {
                 let collider = &self.world.colliders[handle];
                 let local = collider.position_wrt_parent().copied();
-                Placed::new(
-                    at * local.unwrap_or(r::Pose::IDENTITY),
-                    collider.shared_shape(),
-                )
+                Placed::new(at * local.unwrap_or(r::Pose::IDENTITY), collider.shared_shape())
             })
             .collect()
     }
@@ -85,9 +77,7 @@ impl Physics {
         for (sum, by) in contact.impulse_N_s.iter_mut().zip(course.slides_N_s) {
             *sum += by;
         }
-        contact.max_penetration_m = contact
-            .max_penetration_m
-            .max(course.contact.max_penetration_m);
+        contact.max_penetration_m = contact.max_penetration_m.max(course.contact.max_penetration_m);
         if let Some((most_N_s, body, at_W)) = course.hardest
             && (contact.with.is_none() || most_N_s > by_rapier)
         {

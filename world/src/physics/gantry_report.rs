@@ -41,16 +41,10 @@ impl GantryContact {
 
 impl Physics {
     /// Combines the contacts of a gantry's two slides.
-    pub(super) fn gantry_touch(
-        &self,
-        gantry: usize,
-        touched: &[ContactReport; 2],
-    ) -> GantryContact {
+    pub(super) fn gantry_touch(&self, gantry: usize, touched: &[ContactReport; 2]) -> GantryContact {
         let mut contact = GantryContact {
             impulse_N_s: touched.map(|t| t.impulse_N_s),
-            max_penetration_m: touched[0]
-                .max_penetration_m
-                .max(touched[1].max_penetration_m),
+            max_penetration_m: touched[0].max_penetration_m.max(touched[1].max_penetration_m),
             ..GantryContact::default()
         };
         if !touched.iter().any(|t| t.touching) {
@@ -63,11 +57,7 @@ impl Physics {
                     let impulse = pair.total_impulse_magnitude();
                     if impulse > hardest {
                         hardest = impulse;
-                        let other = if pair.collider1 == collider {
-                            pair.collider2
-                        } else {
-                            pair.collider1
-                        };
+                        let other = if pair.collider1 == collider { pair.collider2 } else { pair.collider1 };
                         contact.with = self.solid(other);
                         contact.at_W = self.touch_point(pair);
                     }
@@ -82,10 +72,7 @@ impl Physics {
             let fixed = self.fixed.iter().position(|f| f.collider == collider);
             return fixed.map(Solid::Fixed);
         };
-        let gantry = self
-            .gantries
-            .iter()
-            .position(|g| g.base_handle == parent || g.slides.contains(&parent));
+        let gantry = self.gantries.iter().position(|g| g.base_handle == parent || g.slides.contains(&parent));
         gantry.map(|i| Solid::Gantry(GantryId(i)))
     }
 
@@ -98,11 +85,7 @@ impl Physics {
                     continue;
                 }
                 // rapier's normals point from the first collider of a pair to the second.
-                let sign = if pair.collider1 == collider {
-                    -1.0
-                } else {
-                    1.0
-                };
+                let sign = if pair.collider1 == collider { -1.0 } else { 1.0 };
                 report.touching = true;
                 report.impulse_N_s += from_vector(pair.total_impulse()) * sign;
                 if let Some((_, deepest)) = pair.find_deepest_contact() {

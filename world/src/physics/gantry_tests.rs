@@ -1,8 +1,6 @@
 //! Slides that are driven, stopped, blocked and pushed.
 
-use super::{
-    AxisDrive, AxisSpec, BodySpec, GantryBodySpec, GantryId, JointState, Physics, Shape, Solid,
-};
+use super::{AxisDrive, AxisSpec, BodySpec, GantryBodySpec, GantryId, JointState, Physics, Shape, Solid};
 use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
 use crate::units::Heading;
@@ -43,11 +41,7 @@ fn spec() -> GantryBodySpec {
 }
 
 fn at_speed(v: [f64; 2]) -> [AxisDrive; 2] {
-    [0, 1].map(|k| AxisDrive {
-        speed_m_s: v[k],
-        max_force_N: EFFORT_N[k],
-        response_s: 0.005,
-    })
+    [0, 1].map(|k| AxisDrive { speed_m_s: v[k], max_force_N: EFFORT_N[k], response_s: 0.005 })
 }
 
 fn new() -> (Physics, GantryId) {
@@ -108,10 +102,7 @@ fn limits_are_never_passed_whatever_is_asked() {
         for _ in 0..20 {
             run(&mut physics, id, 1);
             let [a, b] = physics.joints(id).map(|j| j.position_m);
-            assert!(
-                (0.0..=2.0).contains(&a) && (-0.5..=0.5).contains(&b),
-                "{a} {b}"
-            );
+            assert!((0.0..=2.0).contains(&a) && (-0.5..=0.5).contains(&b), "{a} {b}");
             let truth = physics.head(id).pose.p_WB;
             assert!((truth.y - 1.0 - a).abs() < 1e-12);
             at_ends += usize::from(a == 0.0 || a == 2.0);
@@ -183,10 +174,7 @@ fn a_body_that_runs_into_the_head_is_named_and_stopped() {
     let ball = physics.add_body(BodySpec {
         id: "ball".into(),
         truth,
-        shapes: vec![(
-            Pose::level(Vector3::zeros(), east),
-            Shape::Sphere { radius_m: 0.1 },
-        )],
+        shapes: vec![(Pose::level(Vector3::zeros(), east), Shape::Sphere { radius_m: 0.1 })],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(3.0, 3.0, 3.0, 0.01, 0.01, 0.01)),
         without_momentum: false,

@@ -11,9 +11,7 @@ use super::convert::from_vector;
 use nalgebra::Vector3;
 use rapier3d::math as r;
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
-use rapier3d::parry::query::{
-    self, ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher,
-};
+use rapier3d::parry::query::{self, ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher};
 use rapier3d::parry::shape::SharedShape;
 
 /// Thickness of the skin of a body with edges, m: distances near zero are unreliable.
@@ -38,11 +36,7 @@ impl Point {
         let unit = (normal_W.norm() - 1.0).abs() < 1e-3;
         let normal_W = if unit { normal_W } else { Vector3::z() };
         let known = at_W.iter().all(|x| x.is_finite()) && gap_m.is_finite();
-        known.then_some(Self {
-            at_W,
-            normal_W,
-            gap_m,
-        })
+        known.then_some(Self { at_W, normal_W, gap_m })
     }
 }
 
@@ -77,20 +71,11 @@ impl Placed {
         let plain = Self::new(pose, shape);
         if let Some(capsule) = shape.as_capsule() {
             let axis = capsule.segment;
-            Self {
-                core: SharedShape::segment(axis.a, axis.b),
-                margin_m: capsule.radius,
-                ..plain
-            }
+            Self { core: SharedShape::segment(axis.a, axis.b), margin_m: capsule.radius, ..plain }
         } else if shape.as_ball().is_some() {
             plain
         } else {
-            Self {
-                margin_m: SKIN_M,
-                skin_m: SKIN_M,
-                bounds: plain.bounds.loosened(SKIN_M),
-                ..plain
-            }
+            Self { margin_m: SKIN_M, skin_m: SKIN_M, bounds: plain.bounds.loosened(SKIN_M), ..plain }
         }
     }
 
@@ -108,10 +93,7 @@ impl Placed {
         let margin_m = self.margin_m + other.margin_m;
         let found = query::contact(&self.pose, a, &other.pose, b, reach_m + margin_m)
             .expect("parry knows the distance between any shapes that it can collide")?;
-        let on = [
-            found.point1 + found.normal1 * self.margin_m,
-            found.point2 - found.normal1 * other.margin_m,
-        ];
+        let on = [found.point1 + found.normal1 * self.margin_m, found.point2 - found.normal1 * other.margin_m];
         let gap_m = found.dist - margin_m;
         Point::new(on, from_vector(-found.normal1), gap_m)
     }
@@ -136,15 +118,8 @@ impl Placed {
             let first = self.pose * part(manifold.subshape_pos1());
             let second = other.pose * part(manifold.subshape_pos2());
             let normal_W = from_vector(-(first.rotation * manifold.local_n1));
-            for point in manifold
-                .points
-                .iter()
-                .filter(|p| p.dist <= reach_m + skin_m)
-            {
-                let on = [
-                    first.transform_point(point.local_p1),
-                    second.transform_point(point.local_p2),
-                ];
+            for point in manifold.points.iter().filter(|p| p.dist <= reach_m + skin_m) {
+                let on = [first.transform_point(point.local_p1), second.transform_point(point.local_p2)];
                 points.extend(Point::new(on, normal_W, point.dist - skin_m));
             }
         }

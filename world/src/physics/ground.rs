@@ -41,30 +41,16 @@ pub struct Bed {
 impl Fixed {
     pub(super) fn new(pose_W: r::Pose, shape: SharedShape) -> Self {
         let bounds = shape.compute_aabb(&pose_W);
-        Self {
-            pose: pose_W,
-            shape,
-            bounds,
-            heights: None,
-            name: String::new(),
-            collider: ColliderHandle::invalid(),
-        }
+        Self { pose: pose_W, shape, bounds, heights: None, name: String::new(), collider: ColliderHandle::invalid() }
     }
 
     pub(super) fn bed(bed: &Bed) -> Self {
-        Self {
-            heights: Some(bed.heights.clone()),
-            ..Self::new(bed.pose, bed.shape.clone())
-        }
+        Self { heights: Some(bed.heights.clone()), ..Self::new(bed.pose, bed.shape.clone()) }
     }
 
     /// Whether it can have a part in a box.
     pub(super) fn meets(&self, swept: &Aabb) -> bool {
-        let lies_below = |heights: &Arc<Heights>| {
-            heights
-                .highest_under(swept)
-                .is_some_and(|z| z < swept.mins.z)
-        };
+        let lies_below = |heights: &Arc<Heights>| heights.highest_under(swept).is_some_and(|z| z < swept.mins.z);
         self.bounds.intersects(swept) && !self.heights.as_ref().is_some_and(lies_below)
     }
 
@@ -77,20 +63,11 @@ impl Fixed {
             return from_bounds_m;
         }
         let nearest = self.shape.project_point(&self.pose, p, true);
-        if nearest.is_inside {
-            0.0
-        } else {
-            (nearest.point - p).length()
-        }
+        if nearest.is_inside { 0.0 } else { (nearest.point - p).length() }
     }
 
     /// Distance along a unit direction to the first hit, m.
-    pub(super) fn ray(
-        &self,
-        from_W: &Vector3<f64>,
-        along_W: &Vector3<f64>,
-        max_m: f64,
-    ) -> Option<f64> {
+    pub(super) fn ray(&self, from_W: &Vector3<f64>, along_W: &Vector3<f64>, max_m: f64) -> Option<f64> {
         let ray = Ray::new(vector(from_W), vector(along_W));
         self.shape.cast_ray(&self.pose, &ray, max_m, true)
     }
@@ -183,22 +160,15 @@ mod tests {
 
     #[test]
     fn the_bed_stands_where_the_terrain_says() {
-        let area = Area {
-            centre: Vector2::new(30.0, -20.0),
-            length_m: 400.0,
-            width_m: 200.0,
-            axis: Heading::from_deg(340.0),
-        };
+        let area =
+            Area { centre: Vector2::new(30.0, -20.0), length_m: 400.0, width_m: 200.0, axis: Heading::from_deg(340.0) };
         let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
         let bed = Fixed::bed(&Bed::new(&terrain, &area));
         for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
             let from = Vector3::new(x, y, -1.0);
             let hit = bed.ray(&from, &-Vector3::z(), 100.0).expect("bed below");
             let depth = -terrain.bed_z(x, y);
-            assert!(
-                (1.0 + hit - depth).abs() < 1e-3,
-                "{hit} at {x} {y}, depth {depth}"
-            );
+            assert!((1.0 + hit - depth).abs() < 1e-3, "{hit} at {x} {y}, depth {depth}");
             // A slope of 4 m over 200 m: the nearest place is hardly nearer than the one below.
             let away_m = bed.away_m(&from, 100.0);
             assert!((away_m - (depth - 1.0)).abs() < 0.01, "{away_m} at {x} {y}");
@@ -209,10 +179,7 @@ mod tests {
         // A box meets the bed if it reaches below the highest place under it.
         let above = |x: f64, y: f64, over_m: f64| {
             let z = terrain.bed_z(x, y) + over_m;
-            Aabb::new(
-                r::Vector::new(x - 1.0, y - 1.0, z),
-                r::Vector::new(x + 1.0, y + 1.0, z + 1.0),
-            )
+            Aabb::new(r::Vector::new(x - 1.0, y - 1.0, z), r::Vector::new(x + 1.0, y + 1.0, z + 1.0))
         };
         for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
             assert!(bed.meets(&above(x, y, -0.5)) && !bed.meets(&above(x, y, 0.5)));

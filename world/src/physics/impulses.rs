@@ -42,17 +42,10 @@ impl Row {
     /// Speed along one axis for a unit impulse along another, 1/kg.
     fn give(&self, axes: [usize; 2], inverse: &[Matrix6<f64>]) -> f64 {
         let on = self.on.iter().flatten();
-        on.map(|(m, by)| by[axes[0]].dot(&(inverse[*m] * by[axes[1]])))
-            .sum()
+        on.map(|(m, by)| by[axes[0]].dot(&(inverse[*m] * by[axes[1]]))).sum()
     }
 
-    fn strike(
-        &self,
-        axis: usize,
-        by_N_s: f64,
-        inverse: &[Matrix6<f64>],
-        rates: &mut [Vector6<f64>],
-    ) {
+    fn strike(&self, axis: usize, by_N_s: f64, inverse: &[Matrix6<f64>], rates: &mut [Vector6<f64>]) {
         for (m, by) in self.on.iter().flatten() {
             rates[*m] += inverse[*m] * by[axis] * by_N_s;
         }
@@ -72,9 +65,7 @@ pub(super) fn solve(
     let mut impulses = vec![[0.0; 3]; rows.len()];
     for _ in 0..ROUNDS {
         let mut change: f64 = 0.0;
-        for (((row, least), (normal, tangent)), impulse) in
-            rows.iter().zip(&least).zip(&gives).zip(&mut impulses)
-        {
+        for (((row, least), (normal, tangent)), impulse) in rows.iter().zip(&least).zip(&gives).zip(&mut impulses) {
             if *normal <= 0.0 {
                 continue;
             }
@@ -127,13 +118,7 @@ mod tests {
             let m = arm.cross(&a);
             Vector6::new(a.x, a.y, a.z, m.x, m.y, m.z)
         });
-        let row = Row {
-            on: [Some((0, by)), None],
-            axes_W,
-            at_W: arm,
-            gap_m: 0.0,
-            friction,
-        };
+        let row = Row { on: [Some((0, by)), None], axes_W, at_W: arm, gap_m: 0.0, friction };
         let mass = Matrix6::from_diagonal(&Vector6::new(32.0, 60.0, 60.0, 0.2, 8.0, 8.0));
         (row, mass.try_inverse().expect("a mass"))
     }
@@ -165,20 +150,11 @@ mod tests {
             let tangent = (impulse[1] * impulse[1] + impulse[2] * impulse[2]).sqrt();
             let slip = (a * a + b * b).sqrt();
             if sticks {
-                assert!(
-                    slip < 1e-9 && tangent < friction * impulse[0],
-                    "{slip} m/s, {impulse:?}"
-                );
+                assert!(slip < 1e-9 && tangent < friction * impulse[0], "{slip} m/s, {impulse:?}");
             } else {
-                assert!(
-                    (tangent - friction * impulse[0]).abs() < 1e-9,
-                    "{impulse:?}"
-                );
+                assert!((tangent - friction * impulse[0]).abs() < 1e-9, "{impulse:?}");
                 let against = (a * impulse[1] + b * impulse[2]) / (slip * tangent);
-                assert!(
-                    (against + 1.0).abs() < 1e-9,
-                    "friction acts against the slip"
-                );
+                assert!((against + 1.0).abs() < 1e-9, "friction acts against the slip");
             }
             let energy = |r: &Vector6<f64>| 0.5 * r.dot(&(mass * r));
             assert!(energy(&rates[0]) < energy(&before));

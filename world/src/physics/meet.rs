@@ -88,16 +88,8 @@ impl Physics {
         let rates: Vec<_> = courses.iter().map(Course::rate).collect();
         self.stop(courses, rows, &inverse, rates, |row| row.gap_m.max(0.0) / h);
         if rows.iter().any(|row| row.gap_m < -SLACK_M) {
-            let smooth: Vec<_> = rows
-                .iter()
-                .map(|r| Row {
-                    friction: 0.0,
-                    ..r.clone()
-                })
-                .collect();
-            let pushes = solve(&smooth, &inverse, &mut undo, |row| {
-                (row.gap_m / h).max(-UNDO_M_S)
-            });
+            let smooth: Vec<_> = rows.iter().map(|r| Row { friction: 0.0, ..r.clone() }).collect();
+            let pushes = solve(&smooth, &inverse, &mut undo, |row| (row.gap_m / h).max(-UNDO_M_S));
             for (row, push) in rows.iter().zip(pushes) {
                 for (m, _) in row.on.iter().flatten() {
                     courses[*m].moved |= push[0] > 0.0;
@@ -162,8 +154,7 @@ impl Physics {
     /// Fixed things.
     fn still(&self) -> Vec<Placed> {
         let fixed = self.fixed.iter().map(|f| Placed::new(f.pose, &f.shape));
-        let bases =
-            (self.gantries.iter()).flat_map(|g| self.shapes_of(g.base_handle, g, [0.0; 2], 0));
+        let bases = (self.gantries.iter()).flat_map(|g| self.shapes_of(g.base_handle, g, [0.0; 2], 0));
         fixed.chain(bases).collect()
     }
 
@@ -174,19 +165,18 @@ impl Physics {
             match course.who {
                 Who::Body(i) => {
                     let at = pose(&course.pose(&self.bodies[i].p_BG));
-                    things.extend(self.bodies[i].parts.iter().map(|(local, shape)| Thing {
-                        placed: Placed::body(at * *local, shape),
-                        on: Some((m, 0)),
-                    }));
+                    things.extend(
+                        self.bodies[i]
+                            .parts
+                            .iter()
+                            .map(|(local, shape)| Thing { placed: Placed::body(at * *local, shape), on: Some((m, 0)) }),
+                    );
                 }
                 Who::Gantry(i) => {
                     let g = &self.gantries[i];
                     for k in 0..2 {
                         let shapes = self.shapes_of(g.slides[k], g, course.joints_m, k + 1);
-                        things.extend(shapes.into_iter().map(|placed| Thing {
-                            placed,
-                            on: Some((m, k)),
-                        }));
+                        things.extend(shapes.into_iter().map(|placed| Thing { placed, on: Some((m, k)) }));
                     }
                 }
             }
@@ -196,20 +186,10 @@ impl Physics {
 
     /// Pairs that could meet within `left_s` and of which one is a body. The second index continues through the fixed
     /// things.
-    fn near(
-        &self,
-        courses: &[Course],
-        things: &[Thing],
-        still: &[Placed],
-        left_s: f64,
-    ) -> Vec<Near> {
+    fn near(&self, courses: &[Course], things: &[Thing], still: &[Placed], left_s: f64) -> Vec<Near> {
         let speeds: Vec<f64> = courses.iter().map(|c| self.fastest_m_s(c)).collect();
         let speed = |thing: &Thing| thing.on.map_or(0.0, |(m, _)| speeds[m]);
-        let body = |thing: &Thing| {
-            thing
-                .on
-                .is_some_and(|(m, _)| matches!(courses[m].who, Who::Body(_)))
-        };
+        let body = |thing: &Thing| thing.on.is_some_and(|(m, _)| matches!(courses[m].who, Who::Body(_)));
         let reach = |fastest_m_s: f64| fastest_m_s * left_s + 2.0 * CREEP_M;
         let mut near = Vec::new();
         let others = beside(things, |thing| reach(speed(thing)));
@@ -227,25 +207,14 @@ impl Physics {
                 }
                 let fastest_m_s = speed(first) + other_m_s;
                 if let Some(nearest) = first.placed.nearest(placed, reach(fastest_m_s)) {
-                    near.push(Near {
-                        things: [i, k],
-                        nearest,
-                        fastest_m_s,
-                    });
+                    near.push(Near { things: [i, k], nearest, fastest_m_s });
                 }
             }
         }
         near
     }
 
-    fn rows(
-        &self,
-        courses: &[Course],
-        things: &[Thing],
-        still: &[Placed],
-        near: &[Near],
-        reach_m: f64,
-    ) -> Vec<Row> {
+    fn rows(&self, courses: &[Course], things: &[Thing], still: &[Placed], near: &[Near], reach_m: f64) -> Vec<Row> {
         let mut rows = Vec::new();
         for n in near.iter().filter(|n| n.nearest.gap_m <= reach_m) {
             let [a, b] = n.things;
@@ -259,12 +228,7 @@ impl Physics {
             for point in first.placed.points(second, n.nearest, reach_m) {
                 let axes_W = axes(&point.normal_W);
                 let share = |on: Option<(usize, usize)>, sign: f64| {
-                    on.map(|(m, k)| {
-                        (
-                            m,
-                            axes_W.map(|a| self.share(&courses[m], k, &point.at_W, &(a * sign))),
-                        )
-                    })
+                    on.map(|(m, k)| (m, axes_W.map(|a| self.share(&courses[m], k, &point.at_W, &(a * sign)))))
                 };
                 rows.push(Row {
                     on: [share(first.on, 1.0), share(on, -1.0)],

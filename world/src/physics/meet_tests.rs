@@ -15,32 +15,14 @@ const STEP_S: f64 = 0.1;
 
 /// Pieces of 0.2 to 1.6 m, one of them 2 mm thin.
 fn shapes() -> Vec<Shape> {
-    let corners = [
-        [0.8, 0.0, 0.0],
-        [-0.7, 0.1, 0.1],
-        [-0.7, -0.15, 0.0],
-        [0.0, 0.0, -0.1],
-        [0.2, 0.1, 0.2],
-    ];
+    let corners = [[0.8, 0.0, 0.0], [-0.7, 0.1, 0.1], [-0.7, -0.15, 0.0], [0.0, 0.0, -0.1], [0.2, 0.1, 0.2]];
     vec![
         Shape::Sphere { radius_m: 0.2 },
-        Shape::Capsule {
-            radius_m: 0.095,
-            length_m: 1.41,
-        },
-        Shape::Cylinder {
-            radius_m: 0.1,
-            length_m: 1.2,
-        },
-        Shape::Box {
-            size_m: Vector3::new(1.0, 0.3, 0.2),
-        },
-        Shape::Box {
-            size_m: Vector3::new(0.002, 0.4, 0.3),
-        },
-        Shape::Hull {
-            points_m: corners.map(Vector3::from).to_vec(),
-        },
+        Shape::Capsule { radius_m: 0.095, length_m: 1.41 },
+        Shape::Cylinder { radius_m: 0.1, length_m: 1.2 },
+        Shape::Box { size_m: Vector3::new(1.0, 0.3, 0.2) },
+        Shape::Box { size_m: Vector3::new(0.002, 0.4, 0.3) },
+        Shape::Hull { points_m: corners.map(Vector3::from).to_vec() },
     ]
 }
 
@@ -54,10 +36,7 @@ fn thrown(rng: &mut Stream, shape: Shape, at: Vector3<f64>, v_W: Vector3<f64>) -
             v_WB_B: R_WB.inverse() * v_W,
             w_WB_B: Vector3::from_fn(|_, _| 3.0 * rng.normal()),
         },
-        shapes: vec![(
-            Pose::level(Vector3::zeros(), Heading::from_deg(90.0)),
-            shape,
-        )],
+        shapes: vec![(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)), shape)],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
         without_momentum: false,
@@ -66,10 +45,7 @@ fn thrown(rng: &mut Stream, shape: Shape, at: Vector3<f64>, v_W: Vector3<f64>) -
 
 /// Least and greatest coordinates of a thrown body.
 fn extent(spec: &BodySpec, t: &Truth) -> (Vector3<f64>, Vector3<f64>) {
-    let at = pose(&Pose {
-        p_WB: t.pose.p_WB,
-        R_WB: t.pose.R_WB * spec.shapes[0].0.R_WB,
-    });
+    let at = pose(&Pose { p_WB: t.pose.p_WB, R_WB: t.pose.R_WB * spec.shapes[0].0.R_WB });
     let shape = spec.shapes[0].1.shared().expect("a solid");
     // The bounds of a compound are those of its box as it is turned.
     let bounds = match shape.as_compound() {
@@ -89,10 +65,7 @@ fn walls() -> Vec<(Vector3<f64>, SharedShape)> {
     let corners = vec![side(1.0), side(-1.0), Vector::new(0.0, 0.0, 40.0)];
     let sheet = SharedShape::trimesh(corners, vec![[0, 1, 2]]).expect("a triangle");
     vec![
-        (
-            Vector3::x() * 0.0005,
-            SharedShape::cuboid(0.0005, 20.0, 20.0),
-        ),
+        (Vector3::x() * 0.0005, SharedShape::cuboid(0.0005, 20.0, 20.0)),
         (Vector3::x(), SharedShape::cuboid(1.0, 20.0, 20.0)),
         (Vector3::zeros(), sheet),
         (Vector3::x() * 0.5, SharedShape::cylinder(20.0, 0.5)),
@@ -110,12 +83,7 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
                 let speed = [0.5, 2.5, 15.0][n % 3];
                 let start = Vector3::new(-0.9 - 1.5 * rng.uniform(), 0.0, 0.0);
                 let across = Vector3::new(0.0, 0.1 * rng.normal(), 0.1 * rng.normal());
-                let spec = thrown(
-                    &mut rng,
-                    shape.clone(),
-                    start,
-                    (Vector3::x() + across) * speed,
-                );
+                let spec = thrown(&mut rng, shape.clone(), start, (Vector3::x() + across) * speed);
                 let mut physics = Physics::new(STEP_S);
                 physics.add_fixed(&Pose::level(at, level), wall.clone());
                 let id = physics.add_body(spec.clone());
@@ -131,22 +99,12 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
                         assert!(high.x < 2e-3, "{place}: came to x = {} m", high.x);
                     } else {
                         let inside = t.pose.p_WB - at;
-                        let radius = if w == 3 {
-                            inside.xz().norm()
-                        } else {
-                            inside.norm()
-                        };
+                        let radius = if w == 3 { inside.xz().norm() } else { inside.norm() };
                         let far = low.x.abs().max(high.x.abs()) < 3.0 && t.pose.p_WB.y.abs() < 2.0;
-                        assert!(
-                            !far || radius > [0.5, 20.0][w - 3] * 0.99,
-                            "{place}: {radius} m"
-                        );
+                        assert!(!far || radius > [0.5, 20.0][w - 3] * 0.99, "{place}: {radius} m");
                     }
                 }
-                assert!(
-                    touched || w > 2,
-                    "wall {w}, shape {k}, throw {n}: touched nothing"
-                );
+                assert!(touched || w > 2, "wall {w}, shape {k}, throw {n}: touched nothing");
             }
         }
     }
@@ -154,12 +112,7 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
 
 #[test]
 fn no_shape_passes_the_bed() {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(30.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(30.0) };
     let mut rng = Stream::new(8, "meet", "bed");
     for (k, shape) in shapes().into_iter().enumerate() {
         for n in 0..8 {
@@ -186,12 +139,7 @@ fn no_shape_passes_the_bed() {
 /// search: past bed and wall, in short steps and in long ones, and with a centre of mass that is not the origin.
 #[test]
 fn steps_without_a_search_are_those_with_one() {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(30.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(30.0) };
     let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 8.0, 9.0);
     let mut rng = Stream::new(10, "meet", "skipped");
     let (mut touched, mut free) = (0, 0);
@@ -217,19 +165,12 @@ fn steps_without_a_search_are_those_with_one() {
                 }
                 let [a, b] = [&skipping, &always].map(|(id, p)| (p.truth(*id), p.contacts(*id)));
                 assert_eq!(a, b, "{shape:?}, throw {n}, steps of {step_s} s");
-                let count = if a.1.touching {
-                    &mut touched
-                } else {
-                    &mut free
-                };
+                let count = if a.1.touching { &mut touched } else { &mut free };
                 *count += 1;
             }
         }
     }
-    assert!(
-        touched > 50 && free > 1000,
-        "{touched} touched, {free} free"
-    );
+    assert!(touched > 50 && free > 1000, "{touched} touched, {free} free");
 }
 
 /// Five bodies thrown together: momentum is exchanged, not made.
@@ -264,12 +205,7 @@ fn bodies_among_each_other_keep_their_impulses_in_balance() {
 /// A level body whose axis or centre lies in the bed, in a block or in another body, where no direction is the nearest.
 #[test]
 fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
-    let area = Area {
-        centre: Vector2::zeros(),
-        length_m: 300.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::zeros(), length_m: 300.0, width_m: 100.0, axis: Heading::from_deg(90.0) };
     for (k, shape) in shapes().into_iter().enumerate() {
         for below_m in [0.0, -0.0, 1e-9, 0.05, 0.3, 2.0] {
             for turn in [0.0, 0.25, 0.5] {
@@ -277,15 +213,8 @@ fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
                 let R_WB = UnitQuaternion::from_euler_angles(0.0, 0.0, turn * std::f64::consts::PI);
                 let rest = |p_WB| BodySpec {
                     id: "within".into(),
-                    truth: Truth {
-                        pose: Pose { p_WB, R_WB },
-                        v_WB_B: Vector3::zeros(),
-                        w_WB_B: Vector3::zeros(),
-                    },
-                    shapes: vec![(
-                        Pose::level(Vector3::zeros(), Heading::from_deg(90.0)),
-                        shape.clone(),
-                    )],
+                    truth: Truth { pose: Pose { p_WB, R_WB }, v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros() },
+                    shapes: vec![(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)), shape.clone())],
                     p_BG: Vector3::zeros(),
                     mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
                     without_momentum: false,
@@ -296,8 +225,7 @@ fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
                 physics.add_fixed(&level, SharedShape::cuboid(1.0, 1.0, 1.0));
                 // On the bed, in the block, and two in each other.
                 let starts = [at, at + Vector3::x() * 5.0, at - Vector3::x() * 5.0];
-                let ids = [starts[0], starts[1], starts[2], starts[2]]
-                    .map(|start| physics.add_body(rest(start)));
+                let ids = [starts[0], starts[1], starts[2], starts[2]].map(|start| physics.add_body(rest(start)));
                 for _ in 0..50 {
                     physics.step();
                     for (n, id) in ids.iter().enumerate() {

@@ -30,11 +30,7 @@ impl Physics {
         let mass = (body.inverse_mass_G.try_inverse()).expect("the inverse of a mass matrix");
         let mass_kg = mass.fixed_view::<3, 3>(0, 0).trace() / 3.0;
         let inertia_kg_m2: Matrix3<f64> = mass.fixed_view::<3, 3>(3, 3).into();
-        let props = r::MassProperties::with_inertia_matrix(
-            vector(&body.p_BG),
-            mass_kg,
-            matrix(&inertia_kg_m2),
-        );
+        let props = r::MassProperties::with_inertia_matrix(vector(&body.p_BG), mass_kg, matrix(&inertia_kg_m2));
         let rigid = r::RigidBodyBuilder::dynamic()
             .pose(pose(&body.truth.pose))
             .additional_mass_properties(props)
@@ -44,27 +40,17 @@ impl Physics {
             .ccd_enabled(true);
         let handle = self.world.insert_body(rigid);
         for (at, shape) in &body.parts {
-            let collider = r::ColliderBuilder::new(shape.clone())
-                .position(*at)
-                .density(0.0)
-                .friction(FRICTION);
+            let collider = r::ColliderBuilder::new(shape.clone()).position(*at).density(0.0).friction(FRICTION);
             self.world.insert_collider(collider, Some(handle));
         }
-        Twin {
-            handle,
-            mass_kg,
-            inertia_kg_m2,
-        }
+        Twin { handle, mass_kg, inertia_kg_m2 }
     }
 
     /// One step of every body by rapier alone, contacts included.
     pub(super) fn step_alone(&mut self) {
         let dt_s = self.dt_s();
         for body in &self.bodies {
-            let (free, twin) = (
-                body.free.expect("step() filled it in"),
-                body.twin.expect("made with the body"),
-            );
+            let (free, twin) = (body.free.expect("step() filled it in"), body.twin.expect("made with the body"));
             let rb = &mut self.world.bodies[twin.handle];
             let R_WB = body.truth.pose.R_WB;
             rb.set_position(pose(&body.truth.pose), false);
@@ -87,11 +73,7 @@ impl Physics {
             let w_WB_B = pose.R_WB.inverse() * from_vector(rb.angvel());
             let v_G = pose.R_WB.inverse() * from_vector(rb.linvel());
             let body = &mut self.bodies[i];
-            body.truth = Truth {
-                pose,
-                v_WB_B: v_G - w_WB_B.cross(&body.p_BG),
-                w_WB_B,
-            };
+            body.truth = Truth { pose, v_WB_B: v_G - w_WB_B.cross(&body.p_BG), w_WB_B };
             body.contact = contact;
             body.free = None;
         }

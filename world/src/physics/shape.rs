@@ -56,19 +56,11 @@ impl Shape {
                 // parry's cylinders stand along y.
                 let lying = Pose {
                     p_WB: Vector3::zeros(),
-                    R_WB: nalgebra::UnitQuaternion::from_axis_angle(
-                        &Vector3::x_axis(),
-                        std::f64::consts::FRAC_PI_2,
-                    ),
+                    R_WB: nalgebra::UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
                 };
-                SharedShape::compound(vec![(
-                    pose(&lying),
-                    SharedShape::cylinder(length_m / 2.0, *radius_m),
-                )])
+                SharedShape::compound(vec![(pose(&lying), SharedShape::cylinder(length_m / 2.0, *radius_m))])
             }
-            Shape::Box { size_m } => {
-                SharedShape::cuboid(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0)
-            }
+            Shape::Box { size_m } => SharedShape::cuboid(size_m.x / 2.0, size_m.y / 2.0, size_m.z / 2.0),
             Shape::Hull { points_m } => {
                 let points: Vec<Vector> = points_m.iter().map(vector).collect();
                 SharedShape::convex_hull(&points)?
@@ -80,19 +72,14 @@ impl Shape {
     #[must_use]
     pub fn is_solid(&self) -> bool {
         // One cubic millimetre, because a flat hull has some volume from rounding.
-        self.shared()
-            .is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
+        self.shared().is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
     }
 
     /// Tells of points, m in its own axes, whether they lie in it; of a flat hull none does.
     #[must_use]
     pub fn inside(&self) -> Inside {
         let shared = self.shared();
-        Box::new(move |p| {
-            shared
-                .as_ref()
-                .is_some_and(|s| s.contains_local_point(vector(p)))
-        })
+        Box::new(move |p| shared.as_ref().is_some_and(|s| s.contains_local_point(vector(p))))
     }
 
     /// Greatest distance of any of its points from its origin, m.
@@ -101,9 +88,7 @@ impl Shape {
         match self {
             Shape::Sphere { radius_m } => *radius_m,
             Shape::Capsule { radius_m, length_m } => length_m / 2.0 + radius_m,
-            Shape::Cylinder { radius_m, length_m } => {
-                (length_m * length_m / 4.0 + radius_m * radius_m).sqrt()
-            }
+            Shape::Cylinder { radius_m, length_m } => (length_m * length_m / 4.0 + radius_m * radius_m).sqrt(),
             Shape::Box { size_m } => size_m.norm() / 2.0,
             Shape::Hull { points_m } => points_m.iter().map(Vector3::norm).fold(0.0, f64::max),
         }
@@ -118,17 +103,9 @@ mod tests {
     fn shapes_lie_along_z_and_reach_covers_them() {
         for shape in [
             Shape::Sphere { radius_m: 0.3 },
-            Shape::Capsule {
-                radius_m: 0.1,
-                length_m: 1.0,
-            },
-            Shape::Cylinder {
-                radius_m: 0.1,
-                length_m: 1.0,
-            },
-            Shape::Box {
-                size_m: Vector3::new(0.1, 0.1, 1.0),
-            },
+            Shape::Capsule { radius_m: 0.1, length_m: 1.0 },
+            Shape::Cylinder { radius_m: 0.1, length_m: 1.0 },
+            Shape::Box { size_m: Vector3::new(0.1, 0.1, 1.0) },
         ] {
             let s = shape.shared().expect("a solid shape");
             let half = s.compute_local_aabb().half_extents();
@@ -145,9 +122,7 @@ mod tests {
     fn a_flat_hull_is_no_shape() {
         let p = |x, y, z| Vector3::new(x, y, z);
         let corners = [p(0.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, 1.0, 0.0)];
-        let hull = |top| Shape::Hull {
-            points_m: corners.iter().copied().chain([top]).collect(),
-        };
+        let hull = |top| Shape::Hull { points_m: corners.iter().copied().chain([top]).collect() };
         assert!(!hull(p(1.0, 1.0, 0.0)).is_solid());
         assert!(hull(p(1.0, 1.0, 1.0)).is_solid());
     }

@@ -111,10 +111,7 @@ impl Body {
         let R_WB = t.pose.R_WB * UnitQuaternion::from_scaled_axis(t.w_WB_B * dt_s);
         let p_WG = t.pose.point(self.p_BG) + v_G * dt_s;
         Truth {
-            pose: Pose {
-                p_WB: p_WG - R_WB * self.p_BG,
-                R_WB,
-            },
+            pose: Pose { p_WB: p_WG - R_WB * self.p_BG, R_WB },
             v_WB_B: R_WB.inverse() * v_G - t.w_WB_B.cross(&self.p_BG),
             w_WB_B: t.w_WB_B,
         }
@@ -122,9 +119,7 @@ impl Body {
 
     /// Distance from its origin within which anything can matter in two steps, m.
     fn near_m(&self, dt_s: f64) -> f64 {
-        let way_m = self
-            .free
-            .map_or(0.0, |free| (free.pose.p_WB - self.truth.pose.p_WB).norm());
+        let way_m = self.free.map_or(0.0, |free| (free.pose.p_WB - self.truth.pose.p_WB).norm());
         self.reach_m + NEAR_M + way_m.max(2.0 * dt_s * self.truth.v_WB_B.norm())
     }
 
@@ -132,8 +127,7 @@ impl Body {
     fn swept(&self) -> r::Aabb {
         let start = vector(&self.truth.pose.p_WB);
         let end = self.free.map_or(start, |free| vector(&free.pose.p_WB));
-        r::Aabb::new(start.min(end), start.max(end))
-            .loosened(self.reach_m + 2.0 * self.p_BG.norm() + NEAR_M)
+        r::Aabb::new(start.min(end), start.max(end)).loosened(self.reach_m + 2.0 * self.p_BG.norm() + NEAR_M)
     }
 
     /// Whether anything fixed can matter in this step. While the body stays in a sphere that is known to be clear,
@@ -141,8 +135,7 @@ impl Body {
     fn is_near(&mut self, fixed: &[Fixed], dt_s: f64) -> bool {
         let (p, near_m) = (self.truth.pose.p_WB, self.near_m(dt_s));
         let (middle, radius_m) = self.clear;
-        if (p - middle).norm() + near_m < radius_m || !fixed.iter().any(|f| f.meets(&self.swept()))
-        {
+        if (p - middle).norm() + near_m < radius_m || !fixed.iter().any(|f| f.meets(&self.swept())) {
             return false;
         }
         let away = fixed.iter().map(|f| f.away_m(&p, near_m));
@@ -172,14 +165,7 @@ impl Physics {
         world.gravity = r::Vector::ZERO;
         world.integration_parameters.dt = dt_s;
         world.integration_parameters.num_solver_iterations = 4;
-        Self {
-            dt_s,
-            solver: Solver::default(),
-            world,
-            bodies: Vec::new(),
-            gantries: Vec::new(),
-            fixed: Vec::new(),
-        }
+        Self { dt_s, solver: Solver::default(), world, bodies: Vec::new(), gantries: Vec::new(), fixed: Vec::new() }
     }
 
     /// Chooses the steps in which contacts are searched.
@@ -217,9 +203,7 @@ impl Physics {
     }
 
     fn add_solid(&mut self, name: &str, mut fixed: Fixed) {
-        let collider = r::ColliderBuilder::new(fixed.shape.clone())
-            .position(fixed.pose)
-            .friction(FRICTION);
+        let collider = r::ColliderBuilder::new(fixed.shape.clone()).position(fixed.pose).friction(FRICTION);
         for body in &mut self.bodies {
             body.clear.1 = 0.0;
         }
@@ -237,18 +221,15 @@ impl Physics {
         let mut reach_m: f64 = 0.0;
         let mut parts = Vec::with_capacity(spec.shapes.len());
         for (at, shape) in &spec.shapes {
-            let shared = shape.shared().unwrap_or_else(|| {
-                panic!("body {}: a hull needs points that span a volume", spec.id)
-            });
+            let shared =
+                shape.shared().unwrap_or_else(|| panic!("body {}: a hull needs points that span a volume", spec.id));
             parts.push((pose(at), shared));
             reach_m = reach_m.max(at.p_WB.norm() + shape.reach_m());
         }
-        let inverse = spec.mass.try_inverse().unwrap_or_else(|| {
-            panic!(
-                "body {}: a mass matrix needs to be positive definite",
-                spec.id
-            )
-        });
+        let inverse = spec
+            .mass
+            .try_inverse()
+            .unwrap_or_else(|| panic!("body {}: a mass matrix needs to be positive definite", spec.id));
         // v_G = v_O + ω × p.
         let mut to_G = Matrix6::identity();
         let lever = -spec.p_BG.cross_matrix();
@@ -299,9 +280,7 @@ impl Physics {
         self.fixed
             .iter()
             .filter_map(|f| f.ray(from_W, &along, max_m))
-            .fold(None, |best: Option<f64>, d| {
-                Some(best.map_or(d, |b| b.min(d)))
-            })
+            .fold(None, |best: Option<f64>, d| Some(best.map_or(d, |b| b.min(d))))
     }
 
     /// Says where a body's own equation of motion takes it in this step if it touches nothing. Without this call a body
@@ -372,9 +351,7 @@ impl Physics {
         near_fixed
             || self.bodies.iter().enumerate().any(|(i, body)| {
                 let (p, near_m) = (body.truth.pose.p_WB, body.near_m(dt_s));
-                self.bodies[..i]
-                    .iter()
-                    .any(|other| (other.truth.pose.p_WB - p).norm() < near_m + other.near_m(dt_s))
+                self.bodies[..i].iter().any(|other| (other.truth.pose.p_WB - p).norm() < near_m + other.near_m(dt_s))
             })
     }
 

@@ -9,18 +9,12 @@ use rapier3d::geometry::SharedShape;
 const STEP_S: f64 = 0.02;
 
 fn ball(id: &str, x: f64, v: f64) -> BodySpec {
-    let mut truth = Truth::at_rest(Pose::level(
-        Vector3::new(x, 0.0, -5.0),
-        Heading::from_deg(90.0),
-    ));
+    let mut truth = Truth::at_rest(Pose::level(Vector3::new(x, 0.0, -5.0), Heading::from_deg(90.0)));
     truth.v_WB_B.x = v;
     BodySpec {
         id: id.into(),
         truth,
-        shapes: vec![(
-            Pose::level(Vector3::zeros(), Heading::from_deg(90.0)),
-            Shape::Sphere { radius_m: 0.2 },
-        )],
+        shapes: vec![(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)), Shape::Sphere { radius_m: 0.2 })],
         p_BG: Vector3::zeros(),
         mass: Matrix6::from_diagonal(&Vector6::new(10.0, 10.0, 10.0, 0.2, 0.2, 0.2)),
         without_momentum: false,
@@ -60,10 +54,7 @@ fn a_body_nobody_pushes_glides_about_its_centre_of_mass() {
     let t = physics.truth(id);
     // The origin moves at 1 m/s; the centre is 0.1 m below it and turns about it at 1 rad/s.
     let moved = centre(&t) - start;
-    assert!(
-        (moved - Vector3::new(0.9 * 2.0, 0.0, 0.0)).norm() < 1e-9,
-        "{moved}"
-    );
+    assert!((moved - Vector3::new(0.9 * 2.0, 0.0, 0.0)).norm() < 1e-9, "{moved}");
     let turned = t.pose.R_WB.angle_to(&UnitQuaternion::identity());
     assert!((turned - 2.0).abs() < 1e-9, "{turned}");
 }

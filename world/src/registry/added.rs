@@ -29,9 +29,7 @@ impl PartialEq for Registry {
     fn eq(&self, other: &Self) -> bool {
         let places = |r: &Self| -> Vec<*const ()> {
             let rows = r.added.iter().map(|a| &a.row);
-            rows.chain(&r.carried)
-                .map(|thing| Arc::as_ptr(thing).cast())
-                .collect()
+            rows.chain(&r.carried).map(|thing| Arc::as_ptr(thing).cast()).collect()
         };
         places(self) == places(other)
     }
@@ -59,10 +57,7 @@ impl Registry {
                 problem: format!("there is a `{name}` already; give yours another name"),
             });
         }
-        self.added.push(Added {
-            kind: TypeId::of::<K>(),
-            row: Arc::new(Row::<K>::of::<S>()),
-        });
+        self.added.push(Added { kind: TypeId::of::<K>(), row: Arc::new(Row::<K>::of::<S>()) });
         Ok(self)
     }
 

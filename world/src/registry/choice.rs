@@ -31,9 +31,7 @@ impl<K: Kind> Choice<K> {
     /// Whether it comes from another crate than the program's.
     #[must_use]
     pub fn is_own(&self) -> bool {
-        K::built_in()
-            .iter()
-            .all(|row| row.entry.name != self.name())
+        K::built_in().iter().all(|row| row.entry.name != self.name())
     }
 
     /// Its parameters without the name, to be written.
@@ -135,8 +133,6 @@ impl<'de, K: Kind> DeserializeSeed<'de> for Row<K> {
 
     fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Choice<K>, D::Error> {
         let mut from = <dyn erased_serde::Deserializer>::erase(from);
-        (self.read)(Source(&mut from))
-            .map(Choice)
-            .map_err(SourceError::into_other)
+        (self.read)(Source(&mut from)).map(Choice).map_err(SourceError::into_other)
     }
 }

@@ -2,8 +2,7 @@
 
 use super::source_error::SourceError;
 use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, Error as _, MapAccess, SeqAccess, Unexpected,
-    VariantAccess, Visitor,
+    DeserializeSeed, Deserializer, EnumAccess, Error as _, MapAccess, SeqAccess, Unexpected, VariantAccess, Visitor,
 };
 use std::fmt;
 
@@ -98,10 +97,7 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
         self.deserialize(from)
     }
 
-    fn visit_newtype_struct<D: Deserializer<'de>>(
-        self,
-        from: D,
-    ) -> std::result::Result<(), D::Error> {
+    fn visit_newtype_struct<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
         self.deserialize(from)
     }
 
@@ -114,33 +110,25 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, choice: A) -> std::result::Result<(), A::Error> {
-        let mut choice = OneOf {
-            choice: Some(choice),
-            variant: None,
-        };
+        let mut choice = OneOf { choice: Some(choice), variant: None };
         (self.0)(Given::Choice(&mut choice)).map_err(SourceError::into_other)
     }
 }
 
 impl<'de, A: MapAccess<'de>> Pairs<'de> for A {
     fn key(&mut self, take: Take<'_, 'de>) -> Result<bool> {
-        let next = self
-            .next_key_seed(Pass(take))
-            .map_err(SourceError::custom)?;
+        let next = self.next_key_seed(Pass(take)).map_err(SourceError::custom)?;
         Ok(next.is_some())
     }
 
     fn value(&mut self, take: Take<'_, 'de>) -> Result<()> {
-        self.next_value_seed(Pass(take))
-            .map_err(SourceError::custom)
+        self.next_value_seed(Pass(take)).map_err(SourceError::custom)
     }
 }
 
 impl<'de, A: SeqAccess<'de>> Elements<'de> for A {
     fn element(&mut self, take: Take<'_, 'de>) -> Result<bool> {
-        let next = self
-            .next_element_seed(Pass(take))
-            .map_err(SourceError::custom)?;
+        let next = self.next_element_seed(Pass(take)).map_err(SourceError::custom)?;
         Ok(next.is_some())
     }
 }
@@ -153,18 +141,14 @@ struct OneOf<A, V> {
 
 impl<A, V> OneOf<A, V> {
     fn held(&mut self) -> V {
-        self.variant
-            .take()
-            .expect("its name was read, and what it holds is read once")
+        self.variant.take().expect("its name was read, and what it holds is read once")
     }
 }
 
 impl<'de, A: EnumAccess<'de, Variant = V>, V: VariantAccess<'de>> Variants<'de> for OneOf<A, V> {
     fn name(&mut self, take: Take<'_, 'de>) -> Result<()> {
         let choice = self.choice.take().expect("its name is read once");
-        let ((), variant) = choice
-            .variant_seed(Pass(take))
-            .map_err(SourceError::custom)?;
+        let ((), variant) = choice.variant_seed(Pass(take)).map_err(SourceError::custom)?;
         self.variant = Some(variant);
         Ok(())
     }
@@ -174,21 +158,15 @@ impl<'de, A: EnumAccess<'de, Variant = V>, V: VariantAccess<'de>> Variants<'de> 
     }
 
     fn newtype(&mut self, take: Take<'_, 'de>) -> Result<()> {
-        self.held()
-            .newtype_variant_seed(Pass(take))
-            .map_err(SourceError::custom)
+        self.held().newtype_variant_seed(Pass(take)).map_err(SourceError::custom)
     }
 
     fn tuple(&mut self, len: usize, take: Take<'_, 'de>) -> Result<()> {
-        self.held()
-            .tuple_variant(len, Pass(take))
-            .map_err(SourceError::custom)
+        self.held().tuple_variant(len, Pass(take)).map_err(SourceError::custom)
     }
 
     fn fields(&mut self, fields: &'static [&'static str], take: Take<'_, 'de>) -> Result<()> {
-        self.held()
-            .struct_variant(fields, Pass(take))
-            .map_err(SourceError::custom)
+        self.held().struct_variant(fields, Pass(take)).map_err(SourceError::custom)
     }
 }
 
@@ -207,14 +185,12 @@ pub(super) fn word(from: &mut Format<'_, '_>) -> Result<String> {
             Ok(name.to_string())
         }
     }
-    from.deserialize_identifier(Word)
-        .map_err(SourceError::custom)
+    from.deserialize_identifier(Word).map_err(SourceError::custom)
 }
 
 pub(super) fn unit(from: &mut Format<'_, '_>, name: &'static str) -> Result<()> {
     let nothing = &mut |_: Given<'_, '_>| Ok(());
-    from.deserialize_unit_struct(name, Pass(nothing))
-        .map_err(SourceError::custom)
+    from.deserialize_unit_struct(name, Pass(nothing)).map_err(SourceError::custom)
 }
 
 /// What a type asks a format for.
@@ -229,11 +205,7 @@ pub(super) enum Request {
     Enum(&'static str, &'static [&'static str]),
 }
 
-pub(super) fn request<'de>(
-    from: &mut Format<'_, 'de>,
-    what: Request,
-    take: Take<'_, 'de>,
-) -> Result<()> {
+pub(super) fn request<'de>(from: &mut Format<'_, 'de>, what: Request, take: Take<'_, 'de>) -> Result<()> {
     let pass = Pass(take);
     let given = match what {
         Request::Option => from.deserialize_option(pass),

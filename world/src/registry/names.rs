@@ -31,10 +31,7 @@ impl<K: Kind> Known<K> {
     pub(super) fn now() -> Self {
         let rows = Registry::now().rows::<K>();
         let legal: Vec<&'static str> = rows.iter().map(|r| r.entry.name).collect();
-        Self {
-            legal: kept(&legal),
-            rows,
-        }
+        Self { legal: kept(&legal), rows }
     }
 
     /// The reader of a name that stands there.

@@ -5,23 +5,18 @@
 //! for each type and for the names of its fields, a quarter of all code of the robots. What a type asks for reaches the
 //! format, and its errors keep their kind.
 
-use super::given::{
-    Elements, Format, Given, Pairs, Request, Result, Variants, request, unit, word,
-};
+use super::given::{Elements, Format, Given, Pairs, Request, Result, Variants, request, unit, word};
 use super::source_error::SourceError;
 use serde::Deserialize;
 use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, Error as _, IgnoredAny, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    DeserializeSeed, Deserializer, EnumAccess, Error as _, IgnoredAny, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 
 /// Reads a value from any format.
 ///
 /// # Errors
 /// The format's, and those of the type.
-pub fn read_from<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
-    from: D,
-) -> std::result::Result<T, D::Error> {
+pub fn read_from<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> std::result::Result<T, D::Error> {
     let mut from = <dyn erased_serde::Deserializer>::erase(from);
     T::deserialize(Source(&mut from)).map_err(SourceError::into_other)
 }
@@ -37,10 +32,7 @@ struct Taker<F, T> {
 
 impl<F, T> Taker<F, T> {
     fn new(take: F) -> Self {
-        Self {
-            take: Some(take),
-            value: None,
-        }
+        Self { take: Some(take), value: None }
     }
 
     fn give<'de>(&mut self, given: Given<'_, 'de>) -> Result<()>
@@ -143,20 +135,12 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         visitor.visit_unit()
     }
 
-    fn deserialize_unit_struct<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        visitor: V,
-    ) -> Result<V::Value> {
+    fn deserialize_unit_struct<V: Visitor<'de>>(self, name: &'static str, visitor: V) -> Result<V::Value> {
         unit(self.0, name)?;
         visitor.visit_unit()
     }
 
-    fn deserialize_newtype_struct<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        visitor: V,
-    ) -> Result<V::Value> {
+    fn deserialize_newtype_struct<V: Visitor<'de>>(self, name: &'static str, visitor: V) -> Result<V::Value> {
         value_of(self.0, Request::Newtype(name), |given| match given {
             Given::Text(text) => visitor.visit_str(text),
             Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
@@ -169,20 +153,11 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
-        value_of(self.0, Request::Tuple(len), |given| {
-            in_sequence(visitor, given)
-        })
+        value_of(self.0, Request::Tuple(len), |given| in_sequence(visitor, given))
     }
 
-    fn deserialize_tuple_struct<V: Visitor<'de>>(
-        self,
-        name: &'static str,
-        len: usize,
-        visitor: V,
-    ) -> Result<V::Value> {
-        value_of(self.0, Request::TupleStruct(name, len), |given| {
-            in_sequence(visitor, given)
-        })
+    fn deserialize_tuple_struct<V: Visitor<'de>>(self, name: &'static str, len: usize, visitor: V) -> Result<V::Value> {
+        value_of(self.0, Request::TupleStruct(name, len), |given| in_sequence(visitor, given))
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -195,9 +170,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        value_of(self.0, Request::Struct(name, legal), |given| {
-            in_map(visitor, given)
-        })
+        value_of(self.0, Request::Struct(name, legal), |given| in_map(visitor, given))
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -281,11 +254,7 @@ impl<'de> VariantAccess<'de> for Access<&mut dyn Variants<'de>> {
         taker.value()
     }
 
-    fn struct_variant<V: Visitor<'de>>(
-        self,
-        legal: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value> {
+    fn struct_variant<V: Visitor<'de>>(self, legal: &'static [&'static str], visitor: V) -> Result<V::Value> {
         let mut taker = Taker::new(|given: Given<'_, 'de>| in_map(visitor, given));
         self.0.fields(legal, &mut |given| taker.give(given))?;
         taker.value()

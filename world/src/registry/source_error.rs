@@ -10,14 +10,8 @@ pub(super) struct SourceError(Box<Fault>);
 #[derive(Debug)]
 enum Fault {
     Custom(String),
-    InvalidType {
-        unexpected: String,
-        expected: String,
-    },
-    InvalidValue {
-        unexpected: String,
-        expected: String,
-    },
+    InvalidType { unexpected: String, expected: String },
+    InvalidValue { unexpected: String, expected: String },
     UnknownVariant(String, &'static [&'static str]),
     UnknownField(String, &'static [&'static str]),
     MissingField(&'static str),
@@ -35,14 +29,12 @@ impl SourceError {
     pub(super) fn into_other<E: Error>(self) -> E {
         match *self.0 {
             Fault::Custom(said) => E::custom(said),
-            Fault::InvalidType {
-                unexpected,
-                expected,
-            } => E::invalid_type(Unexpected::Other(&unexpected), &expected.as_str()),
-            Fault::InvalidValue {
-                unexpected,
-                expected,
-            } => E::invalid_value(Unexpected::Other(&unexpected), &expected.as_str()),
+            Fault::InvalidType { unexpected, expected } => {
+                E::invalid_type(Unexpected::Other(&unexpected), &expected.as_str())
+            }
+            Fault::InvalidValue { unexpected, expected } => {
+                E::invalid_value(Unexpected::Other(&unexpected), &expected.as_str())
+            }
             Fault::UnknownVariant(name, legal) => E::unknown_variant(&name, legal),
             Fault::UnknownField(name, legal) => E::unknown_field(&name, legal),
             Fault::MissingField(name) => E::missing_field(name),
@@ -63,19 +55,11 @@ impl Error for SourceError {
     }
 
     fn invalid_type(unexpected: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Fault::InvalidType {
-            unexpected: unexpected.to_string(),
-            expected: expected.to_string(),
-        }
-        .into()
+        Fault::InvalidType { unexpected: unexpected.to_string(), expected: expected.to_string() }.into()
     }
 
     fn invalid_value(unexpected: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Fault::InvalidValue {
-            unexpected: unexpected.to_string(),
-            expected: expected.to_string(),
-        }
-        .into()
+        Fault::InvalidValue { unexpected: unexpected.to_string(), expected: expected.to_string() }.into()
     }
 
     fn unknown_variant(variant: &str, legal: &'static [&'static str]) -> Self {
@@ -99,14 +83,8 @@ impl Display for SourceError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &*self.0 {
             Fault::Custom(said) => f.write_str(said),
-            Fault::InvalidType {
-                unexpected,
-                expected,
-            } => write!(f, "invalid type: {unexpected}, expected {expected}"),
-            Fault::InvalidValue {
-                unexpected,
-                expected,
-            } => {
+            Fault::InvalidType { unexpected, expected } => write!(f, "invalid type: {unexpected}, expected {expected}"),
+            Fault::InvalidValue { unexpected, expected } => {
                 write!(f, "invalid value: {unexpected}, expected {expected}")
             }
             Fault::UnknownVariant(name, _) => write!(f, "unknown variant `{name}`"),

@@ -23,11 +23,7 @@ macro_rules! shape {
             }
         }
         impl Listed for $name {
-            const ENTRY: Entry = Entry {
-                name: stringify!($name),
-                what: "a shape",
-                source: "Euclid",
-            };
+            const ENTRY: Entry = Entry { name: stringify!($name), what: "a shape", source: "Euclid" };
         }
         impl Shape for $name {
             fn area(&self) -> f64 {
@@ -91,10 +87,7 @@ fn another_crates_row_is_known_within_its_scope_only() {
 
 #[test]
 fn things_of_any_type_are_carried_in_their_order() {
-    let registry = Registry::default()
-        .carrying(1_u8)
-        .carrying("a")
-        .carrying(2_u8);
+    let registry = Registry::default().carrying(1_u8).carrying("a").carrying(2_u8);
     assert_eq!(registry.carried::<u8>().collect::<Vec<_>>(), [&1, &2]);
     assert_eq!(registry.carried::<&str>().count(), 1);
     assert_eq!(registry, registry.clone());

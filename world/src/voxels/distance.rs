@@ -57,10 +57,7 @@ fn line(f: &[f64], h: f64, hull: &mut Vec<(usize, usize)>, out: &mut [f64]) {
 
 /// Distances, m, for cells numbered (i·n[1] + j)·n[2] + k: 0 in solid cells, infinite if none is solid.
 pub(super) fn distances(solid: &[bool], n: [usize; 3], h: [f64; 3]) -> Vec<f32> {
-    let mut square: Vec<f64> = solid
-        .iter()
-        .map(|s| if *s { 0.0 } else { f64::INFINITY })
-        .collect();
+    let mut square: Vec<f64> = solid.iter().map(|s| if *s { 0.0 } else { f64::INFINITY }).collect();
     let strides = [n[1] * n[2], n[2], 1];
     let mut hull = Vec::new();
     for axis in [2, 1, 0] {
@@ -88,12 +85,7 @@ mod tests {
     #[test]
     fn same_as_all_pairs() {
         let mut rng = Stream::new(5, "test", "cells");
-        for (n, part) in [
-            ([7, 9, 5], 0.02),
-            ([1, 30, 4], 0.1),
-            ([6, 6, 6], 0.5),
-            ([40, 1, 1], 0.1),
-        ] {
+        for (n, part) in [([7, 9, 5], 0.02), ([1, 30, 4], 0.1), ([6, 6, 6], 0.5), ([40, 1, 1], 0.1)] {
             let h = [2.5, 4.0, 0.5];
             let count = n[0] * n[1] * n[2];
             let solid: Vec<bool> = (0..count).map(|_| rng.uniform() < part).collect();
@@ -105,27 +97,18 @@ mod tests {
                     .filter(|s| solid[*s])
                     .map(|s| {
                         let q = place(s);
-                        (0..3)
-                            .map(|d| reach2(p[d].abs_diff(q[d]), h[d]))
-                            .sum::<f64>()
+                        (0..3).map(|d| reach2(p[d].abs_diff(q[d]), h[d])).sum::<f64>()
                     })
                     .fold(f64::INFINITY, f64::min)
                     .sqrt();
                 let got = f64::from(got[c]);
-                assert!(
-                    got == want || (got - want).abs() < 1e-6 * want,
-                    "{n:?} {p:?}: {got} for {want}"
-                );
+                assert!(got == want || (got - want).abs() < 1e-6 * want, "{n:?} {p:?}: {got} for {want}");
             }
         }
     }
 
     #[test]
     fn nothing_solid_is_infinitely_far() {
-        assert!(
-            distances(&[false; 8], [2, 2, 2], [1.0; 3])
-                .iter()
-                .all(|d| d.is_infinite())
-        );
+        assert!(distances(&[false; 8], [2, 2, 2], [1.0; 3]).iter().all(|d| d.is_infinite()));
     }
 }

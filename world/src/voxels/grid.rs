@@ -38,22 +38,12 @@ impl Voxels {
     ///
     /// # Errors
     /// If the cells are not positive or too many, or if none is left open.
-    pub fn new(
-        area: &Area,
-        cell_m: [f64; 3],
-        terrain: &Terrain,
-        obstacles: &Obstacles,
-    ) -> Result<Self, WorldError> {
+    pub fn new(area: &Area, cell_m: [f64; 3], terrain: &Terrain, obstacles: &Obstacles) -> Result<Self, WorldError> {
         let deep = terrain.deepest_m();
         let extent = [area.length_m, area.width_m, deep];
-        let wrong = |problem| WorldError::Invalid {
-            field: "cell_m".into(),
-            problem,
-        };
+        let wrong = |problem| WorldError::Invalid { field: "cell_m".into(), problem };
         if !cell_m.iter().all(|c| *c > 0.0 && c.is_finite()) {
-            return Err(wrong(format!(
-                "must be > 0 in each direction, got {cell_m:?}"
-            )));
+            return Err(wrong(format!("must be > 0 in each direction, got {cell_m:?}")));
         }
         // Slightly less, so that rounding does not add a cell where the size divides the extent.
         let count = [0, 1, 2].map(|d| (extent[d] / cell_m[d] - 1e-9).ceil().max(1.0));
@@ -114,12 +104,7 @@ impl Voxels {
     fn fill(&mut self, obstacle: &Obstacle) {
         let (low, high) = obstacle.bounds();
         let mut range = [(f64::INFINITY, f64::NEG_INFINITY); 3];
-        for (x, y) in [
-            (low.x, low.y),
-            (low.x, high.y),
-            (high.x, low.y),
-            (high.x, high.y),
-        ] {
+        for (x, y) in [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)] {
             for z in [low.z, high.z] {
                 let c = self.in_cells(&Vector3::new(x, y, z));
                 for d in 0..3 {
@@ -147,8 +132,7 @@ impl Voxels {
                     }
                     let p_WB = self.centre([i, j, k]);
                     let d = obstacle.distance(&p_WB);
-                    self.solid[at] = d <= 0.0
-                        || d < across && obstacle.meets_box(&Pose { p_WB, R_WB: turn }, tight);
+                    self.solid[at] = d <= 0.0 || d < across && obstacle.meets_box(&Pose { p_WB, R_WB: turn }, tight);
                 }
             }
         }
@@ -236,18 +220,13 @@ impl Voxels {
     /// Centre of a cell (ENU), m.
     #[must_use]
     pub fn centre(&self, [i, j, k]: [usize; 3]) -> Vector3<f64> {
-        let p = self
-            .area
-            .world(self.local_of([i as f64 + 0.5, j as f64 + 0.5]));
+        let p = self.area.world(self.local_of([i as f64 + 0.5, j as f64 + 0.5]));
         Vector3::new(p.x, p.y, self.low_z + (k as f64 + 0.5) * self.cell_m[2])
     }
 
     /// Position (along, across), m, for coordinates in cells.
     fn local_of(&self, c: [f64; 2]) -> Vector2<f64> {
-        Vector2::new(
-            c[0] * self.cell_m[0] - self.area.length_m / 2.0,
-            c[1] * self.cell_m[1] - self.area.width_m / 2.0,
-        )
+        Vector2::new(c[0] * self.cell_m[0] - self.area.length_m / 2.0, c[1] * self.cell_m[1] - self.area.width_m / 2.0)
     }
 
     /// Coordinates of a point (ENU, m) in cells from the lowest corner.

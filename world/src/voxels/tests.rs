@@ -2,9 +2,7 @@
 
 use super::Voxels;
 use crate::area::Area;
-use crate::obstacles::{
-    Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
-};
+use crate::obstacles::{Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use crate::ranges::{Finite, HeadingDeg, Positive};
 use crate::seeds::Stream;
 use crate::terrain::Terrain;
@@ -13,12 +11,7 @@ use nalgebra::{Vector2, Vector3};
 use std::path::Path;
 
 fn area(axis_deg: f64) -> Area {
-    Area {
-        centre: Vector2::new(3.0, -8.0),
-        length_m: 40.0,
-        width_m: 30.0,
-        axis: Heading::from_deg(axis_deg),
-    }
+    Area { centre: Vector2::new(3.0, -8.0), length_m: 40.0, width_m: 30.0, axis: Heading::from_deg(axis_deg) }
 }
 
 fn bed() -> Terrain {
@@ -60,10 +53,7 @@ fn a_block_on_the_cells_lines_fills_just_its_cells() {
 /// areas and turned obstacles.
 #[test]
 fn open_cells_are_free_of_solids() {
-    let thin = ShapeSpec::Cylinder(CylinderShape {
-        radius_m: Positive::new(0.2),
-        height_m: Positive::new(4.3),
-    });
+    let thin = ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(0.2), height_m: Positive::new(4.3) });
     let slope = Terrain::sloping_over(&area(20.0), Heading::from_deg(290.0), 3.0, 6.0);
     for (shape, turned) in [(block([9.0, 3.0, 2.2]), 33.0), (thin, 0.0)] {
         let o = solid(shape, turned, &slope);
@@ -111,11 +101,7 @@ fn a_cell_that_is_set_counts_after_measuring() {
 fn what_cannot_be_is_refused() {
     let full = Obstacles(vec![solid(block([200.0, 200.0, 9.0]), 90.0, &bed())]);
     let e = Voxels::new(&area(90.0), [2.0, 2.0, 1.0], &bed(), &full).unwrap_err();
-    assert!(
-        e.to_string()
-            .starts_with("obstacles: no open water is left"),
-        "{e}"
-    );
+    assert!(e.to_string().starts_with("obstacles: no open water is left"), "{e}");
     let e = Voxels::new(&area(90.0), [0.0, 2.0, 1.0], &bed(), &full).unwrap_err();
     assert!(e.to_string().starts_with("cell_m: must be > 0"), "{e}");
     let e = Voxels::new(&area(90.0), [0.01, 0.01, 0.01], &bed(), &full).unwrap_err();

@@ -109,12 +109,7 @@ fn keep(store: &Store, to: &mut Writer) {
     to.words(born_s);
     if let Some(rise) = rise {
         let numbers = |e: &Element| {
-            let Element {
-                shared_m3,
-                own_m3,
-                momentum_m4_s,
-                passed_m4_s2,
-            } = *e;
+            let Element { shared_m3, own_m3, momentum_m4_s, passed_m4_s2 } = *e;
             [shared_m3, own_m3, momentum_m4_s, passed_m4_s2]
         };
         to.words(&rise.elements.iter().flat_map(numbers).collect::<Vec<f64>>());
@@ -138,17 +133,8 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
     store.born_s = from.exactly(n)?;
     if let Some(rise) = &mut store.rise {
         let numbers: Vec<f64> = from.exactly(4 * n)?;
-        let element = |v: &[f64]| Element {
-            shared_m3: v[0],
-            own_m3: v[1],
-            momentum_m4_s: v[2],
-            passed_m4_s2: v[3],
-        };
-        rise.elements = numbers
-            .chunks_exact(4)
-            .map(element)
-            .collect::<Vec<_>>()
-            .into();
+        let element = |v: &[f64]| Element { shared_m3: v[0], own_m3: v[1], momentum_m4_s: v[2], passed_m4_s2: v[3] };
+        rise.elements = numbers.chunks_exact(4).map(element).collect::<Vec<_>>().into();
         rise.grown_m2 = from.exactly(n)?.into();
     }
     if let Some(labels) = &mut store.labels {

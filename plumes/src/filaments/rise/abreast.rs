@@ -114,12 +114,7 @@ impl<const N: usize> Rising<N> {
 impl<const N: usize> Arounds<N> {
     #[inline(always)]
     fn of(z: &[f64; N], at: impl Fn(f64) -> Around) -> Self {
-        let mut new = Self {
-            speed: [0.0; N],
-            dissipation: [0.0; N],
-            n2: [0.0; N],
-            largest: [0.0; N],
-        };
+        let mut new = Self { speed: [0.0; N], dissipation: [0.0; N], n2: [0.0; N], largest: [0.0; N] };
         for (l, z) in z.iter().enumerate() {
             let around = at(*z);
             new.speed[l] = around.speed_m_s;
@@ -178,13 +173,7 @@ impl Thread {
             radius: [0.0; N],
             growth: [0.0; N],
         };
-        let [
-            mut own_m_s,
-            mut own_r,
-            mut round,
-            mut stirring,
-            mut dilution,
-        ] = [[0.0; N]; 5];
+        let [mut own_m_s, mut own_r, mut round, mut stirring, mut dilution] = [[0.0; N]; 5];
         for l in 0..N {
             let (u, w) = (around.speed[l], e.momentum[l] / e.shared[l]);
             let drawn = self.drawn_m_s(u, w);

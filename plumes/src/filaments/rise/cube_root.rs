@@ -30,11 +30,7 @@ pub(super) fn cube_roots<const N: usize>(all: &mut [f64; N]) {
     for l in 0..N {
         // Also what is not a positive normal number.
         let normal = all[l] >= f64::MIN_POSITIVE && all[l] < f64::INFINITY;
-        all[l] = if normal && unsure[l] > UNSURE {
-            roots[l]
-        } else {
-            math::cbrt(all[l])
-        };
+        all[l] = if normal && unsure[l] > UNSURE { roots[l] } else { math::cbrt(all[l]) };
     }
 }
 
@@ -110,23 +106,9 @@ mod tests {
 
     #[test]
     fn cubes_and_what_is_no_normal_number_too() {
-        let some = [
-            0.0,
-            -0.0,
-            1.0,
-            8.0,
-            27.0,
-            1e-320,
-            -3.0,
-            f64::INFINITY,
-            f64::NAN,
-        ];
+        let some = [0.0, -0.0, 1.0, 8.0, 27.0, 1e-320, -3.0, f64::INFINITY, f64::NAN];
         let cubes = (1..2000).map(|n| f64::from(n).powi(3));
-        for x in some
-            .into_iter()
-            .chain(cubes)
-            .chain([f64::MIN_POSITIVE, f64::MAX])
-        {
+        for x in some.into_iter().chain(cubes).chain([f64::MIN_POSITIVE, f64::MAX]) {
             let mut all = [x];
             cube_roots(&mut all);
             assert_eq!(all[0].to_bits(), math::cbrt(x).to_bits(), "{x}");

@@ -65,19 +65,13 @@ pub(in crate::filaments) struct Element {
 impl Thread {
     /// An element at its release.
     pub(in crate::filaments) fn released(&self) -> Element {
-        Element {
-            shared_m3: self.volume_m3,
-            own_m3: self.volume_m3,
-            ..Element::default()
-        }
+        Element { shared_m3: self.volume_m3, own_m3: self.volume_m3, ..Element::default() }
     }
 
     /// Speed at which the thread is drawn out, m/s.
     #[inline(always)]
     pub(super) fn drawn_m_s(&self, speed_m_s: f64, rise_m_s: f64) -> f64 {
-        (speed_m_s * speed_m_s + rise_m_s * rise_m_s)
-            .sqrt()
-            .max(self.least_m_s)
+        (speed_m_s * speed_m_s + rise_m_s * rise_m_s).sqrt().max(self.least_m_s)
     }
 
     /// Variance by which the element's own entrainment has widened it, m² in each direction.
@@ -90,18 +84,8 @@ impl Thread {
     /// Lets an element rise for `dt_s` from a height, m, in the water that `at` tells at each height. Returns where it
     /// comes to.
     #[cfg(test)]
-    pub(super) fn rise(
-        &self,
-        e: &mut Element,
-        z_m: f64,
-        dt_s: f64,
-        at: impl Fn(f64) -> Around,
-    ) -> f64 {
-        let mut one = super::abreast::Rising {
-            elements: [*e],
-            z_m: [z_m],
-            dt_s: [dt_s],
-        };
+    pub(super) fn rise(&self, e: &mut Element, z_m: f64, dt_s: f64, at: impl Fn(f64) -> Around) -> f64 {
+        let mut one = super::abreast::Rising { elements: [*e], z_m: [z_m], dt_s: [dt_s] };
         one.rise(crate::path::Path::Portable, self, at);
         [*e] = one.elements;
         one.z_m[0]

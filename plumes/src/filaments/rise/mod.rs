@@ -44,12 +44,7 @@ pub(super) struct Rise {
 
 impl Rise {
     /// Of the n-th source over a bed (m, negative), in this water; `None` if its release is neutral.
-    pub(super) fn new(
-        flow: &dyn Flow,
-        n: usize,
-        source: &Source,
-        bed_m: f64,
-    ) -> Result<Option<Self>, PlumeError> {
+    pub(super) fn new(flow: &dyn Flow, n: usize, source: &Source, bed_m: f64) -> Result<Option<Self>, PlumeError> {
         let density = flow.density(&source.p_W, 0.0);
         let release = &source.release;
         let Some(curve) = release.curve(n, density)? else {
@@ -151,13 +146,7 @@ impl Store {
 
     /// The same for some filaments from a place on.
     fn rise_abreast<const N: usize>(&mut self, path: Path, from: usize, span: Span) {
-        let Some(Rise {
-            thread,
-            profile,
-            elements,
-            ..
-        }) = &mut self.rise
-        else {
+        let Some(Rise { thread, profile, elements, .. }) = &mut self.rise else {
             return;
         };
         let Some(some) = elements[from..].first_chunk_mut() else {

@@ -24,12 +24,7 @@ pub(in crate::filaments) struct Profile {
 
 impl Profile {
     /// The column over a place at a time, from the bed (m, negative) to the surface.
-    pub(in crate::filaments) fn over(
-        flow: &dyn Flow,
-        p_W: Vector3<f64>,
-        bed_m: f64,
-        t_s: f64,
-    ) -> Self {
+    pub(in crate::filaments) fn over(flow: &dyn Flow, p_W: Vector3<f64>, bed_m: f64, t_s: f64) -> Self {
         let cell = -bed_m / LEVELS as f64;
         let heights: Vec<f64> = (0..=LEVELS).map(|k| bed_m + k as f64 * cell).collect();
         let mut out = vec![(Vector3::zeros(), Mixing::default()); heights.len()];
@@ -46,18 +41,12 @@ impl Profile {
                 largest_m: -0.5 * bed_m,
             }
         });
-        Self {
-            bed_m,
-            levels: levels.collect(),
-        }
+        Self { bed_m, levels: levels.collect() }
     }
 
     /// Still, even water of a depth.
     pub(in crate::filaments) fn still(bed_m: f64) -> Self {
-        Self {
-            bed_m,
-            levels: vec![Around::default(); LEVELS + 1],
-        }
+        Self { bed_m, levels: vec![Around::default(); LEVELS + 1] }
     }
 
     /// At a height (m, negative).

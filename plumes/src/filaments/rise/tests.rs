@@ -17,19 +17,12 @@ fn thread(flux: f64, radius_m: f64, least_m_s: f64) -> Thread {
         volume_m3: volume_m3_s / RATE_HZ,
         rate_hz: RATE_HZ,
         least_m_s,
-        curve: (BuoyancySpec::Excess(Finite::new(excess)).curve(1000.0))
-            .unwrap()
-            .unwrap(),
+        curve: (BuoyancySpec::Excess(Finite::new(excess)).curve(1000.0)).unwrap().unwrap(),
     }
 }
 
 fn around(speed_m_s: f64, dissipation_m2_s3: f64, n2_per_s2: f64) -> Around {
-    Around {
-        speed_m_s,
-        dissipation_m2_s3,
-        n2_per_s2,
-        largest_m: 1e3,
-    }
+    Around { speed_m_s, dissipation_m2_s3, n2_per_s2, largest_m: 1e3 }
 }
 
 /// Height and element after a time.
@@ -76,9 +69,7 @@ fn plume_in_stratified_water() {
         }
     }
     assert!((top / scale - 5.32).abs() < 0.06, "{}", top / scale);
-    let (low, high) = late
-        .iter()
-        .fold((f64::MAX, 0.0_f64), |(l, h), z| (l.min(*z), h.max(*z)));
+    let (low, high) = late.iter().fold((f64::MAX, 0.0_f64), |(l, h), z| (l.min(*z), h.max(*z)));
     assert!(high - low < 0.1 * top, "{low} to {high}");
     assert!(low / scale > 3.5 && high < top, "{low} to {high} of {top}");
 }
@@ -93,10 +84,7 @@ fn thread_bent_over_by_the_stream() {
         let (z, e) = risen(&thread, around(speed, 0.0, 0.0), x / speed, 0.05);
         let briggs = 1.6 * math::cbrt(f) * math::powf(x, 2.0 / 3.0) / speed;
         // The nozzle's radius and the rise's own part of the speed shift it.
-        assert!(
-            (z / briggs - 1.0).abs() < if x < 2.0 { 0.15 } else { 0.05 },
-            "{x}: {z} {briggs}"
-        );
+        assert!((z / briggs - 1.0).abs() < if x < 2.0 { 0.15 } else { 0.05 }, "{x}: {z} {briggs}");
         assert!((e.momentum_m4_s / (flux / RATE_HZ * x / speed) - 1.0).abs() < 1e-9);
     }
 }
@@ -107,10 +95,7 @@ fn strong_turbulence_leaves_little_of_the_rise() {
     let (flux, speed, epsilon) = (4.8e-8, 0.05, 1e-3_f64);
     let thread = thread(flux, 0.0021, speed);
     let (z, e) = risen(&thread, around(speed, epsilon, 0.0), 20.0, 0.05);
-    let r = math::powf(
-        math::powf(0.0021, 2.0 / 3.0) + 2.0 / 3.0 * 1.0736 * math::cbrt(epsilon) * 20.0,
-        1.5,
-    );
+    let r = math::powf(math::powf(0.0021, 2.0 / 3.0) + 2.0 / 3.0 * 1.0736 * math::cbrt(epsilon) * 20.0, 1.5);
     let got = (e.shared_m3 * RATE_HZ / (std::f64::consts::PI * speed)).sqrt();
     assert!((got / r - 1.0).abs() < 0.01, "{got} {r}");
     let (free, _) = risen(&thread, around(speed, 0.0, 0.0), 20.0, 0.05);
@@ -138,24 +123,13 @@ fn steps_change_nothing_that_is_conserved() {
         passed -= n2 * 0.5 * (before.momentum_m4_s + e.momentum_m4_s) * 0.01;
         z = to;
     }
-    assert!(
-        (e.passed_m4_s2 / passed - 1.0).abs() < 1e-3,
-        "{} {passed}",
-        e.passed_m4_s2
-    );
+    assert!((e.passed_m4_s2 / passed - 1.0).abs() < 1e-3, "{} {passed}", e.passed_m4_s2);
 }
 
 #[test]
 fn heavy_releases_sink_as_light_ones_rise() {
-    let [light, heavy] = [4.8e-8, -4.8e-8].map(|flux| {
-        risen(
-            &thread(flux, 0.0021, 0.05),
-            around(0.05, 1e-6, 0.0),
-            10.0,
-            0.1,
-        )
-        .0
-    });
+    let [light, heavy] =
+        [4.8e-8, -4.8e-8].map(|flux| risen(&thread(flux, 0.0021, 0.05), around(0.05, 1e-6, 0.0), 10.0, 0.1).0);
     assert_eq!(light, -heavy);
     assert!(light > 0.01);
 }
@@ -188,11 +162,7 @@ fn elements_rise_side_by_side_as_each_alone() {
         assert_eq!(alone[1], (z[1], some[1]));
         assert_ne!(alone[0], (z[0], some[0]));
         for path in Path::all() {
-            let mut beside = Rising {
-                elements: some,
-                z_m: z,
-                dt_s,
-            };
+            let mut beside = Rising { elements: some, z_m: z, dt_s };
             beside.rise(path, &thread, at);
             for (l, alone) in alone.iter().enumerate() {
                 let risen = (beside.z_m[l], beside.elements[l]);

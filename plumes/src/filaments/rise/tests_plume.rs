@@ -24,10 +24,7 @@ fn outfall(excess_kg_m3: f64, height_m: f64) -> SourceSpec {
 
 fn plume(spec: SourceSpec, flow: &dyn Flow, depth_m: f64) -> Plume {
     let bed = Terrain::Level { depth_m };
-    let settings = PlumeSettings {
-        refresh_s: 0.0,
-        grid: GridShape::default(),
-    };
+    let settings = PlumeSettings { refresh_s: 0.0, grid: GridShape::default() };
     let plume = Plume::new(&[spec], &basin(), &bed, 1, settings).unwrap();
     plume.with_buoyancy(flow).unwrap()
 }
@@ -88,9 +85,7 @@ fn it_settles_at_its_level_and_stays_below_the_surface() {
     drifted(&mut p, &Stratified, 1000, 1.0);
     let old: Vec<f32> = p.stores[0].z[..2000].to_vec();
     // F^¼ N^(−¾) with F the flux over π: 0.36 m; the level of no buoyancy lies 4 times as high.
-    let (low, high) = old
-        .iter()
-        .fold((0.0_f32, -30.0_f32), |(l, h), z| (l.min(*z), h.max(*z)));
+    let (low, high) = old.iter().fold((0.0_f32, -30.0_f32), |(l, h), z| (l.min(*z), h.max(*z)));
     assert!(low > -28.3 && high < -26.9, "{low} to {high}");
     // In even water it goes to the surface and stays there.
     let still = Given(|_| 0.0, |_| (0.0, 0.0));
@@ -110,15 +105,8 @@ fn no_excess_is_neutral_to_the_bit() {
         let mut p = plume(spec, &stream, 30.0);
         drifted(&mut p, &stream, 100, 0.5);
         let s = &p.stores[0];
-        let beside = Vector3::new(
-            f64::from(s.x[400]),
-            f64::from(s.y[400]) + 0.1,
-            f64::from(s.z[400]),
-        );
-        (
-            format!("{:?} {:?} {:?}", s.x, s.y, s.z),
-            p.at(&beside).to_bits(),
-        )
+        let beside = Vector3::new(f64::from(s.x[400]), f64::from(s.y[400]) + 0.1, f64::from(s.z[400]));
+        (format!("{:?} {:?} {:?}", s.x, s.y, s.z), p.at(&beside).to_bits())
     };
     assert_eq!(places(outfall(0.0, 1.0)), places(neutral));
 }
@@ -128,20 +116,11 @@ fn no_excess_is_neutral_to_the_bit() {
 fn rising_filaments_are_the_same_on_every_way() {
     let water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
     let fresh = |path, threads| {
-        let settings = PlumeSettings {
-            refresh_s: 10.0,
-            grid: GridShape::fitting(&duck_area()),
-        };
-        let mut p = Plume::new(
-            &[outfall(-5.0, 1.0)],
-            &duck_area(),
-            &duck_bed(),
-            3,
-            settings,
-        )
-        .unwrap()
-        .with_buoyancy(&water)
-        .unwrap();
+        let settings = PlumeSettings { refresh_s: 10.0, grid: GridShape::fitting(&duck_area()) };
+        let mut p = Plume::new(&[outfall(-5.0, 1.0)], &duck_area(), &duck_bed(), 3, settings)
+            .unwrap()
+            .with_buoyancy(&water)
+            .unwrap();
         p.path = path;
         p.use_threads(super::super::threads(threads));
         p
@@ -159,10 +138,7 @@ fn rising_filaments_are_the_same_on_every_way() {
     let state = |p: &Plume| {
         let s = &p.stores[0];
         let beside = |n: usize| Vector3::new(s.x[n] + 0.2, s.y[n], s.z[n]).map(f64::from);
-        let felt: Vec<u64> = (0..s.x.len())
-            .step_by(97)
-            .map(|n| p.at(&beside(n)).to_bits())
-            .collect();
+        let felt: Vec<u64> = (0..s.x.len()).step_by(97).map(|n| p.at(&beside(n)).to_bits()).collect();
         format!("{:?} {:?} {felt:?}", s.z, elements(p))
     };
     let mut first = fresh(Path::Portable, 1);
@@ -170,9 +146,7 @@ fn rising_filaments_are_the_same_on_every_way() {
     let mut bytes = Writer::default();
     first.keep(&mut bytes);
     let mut recalled = fresh(Path::Portable, 1);
-    recalled
-        .recall(&water, &mut Reader::new(&bytes.into_bytes()))
-        .unwrap();
+    recalled.recall(&water, &mut Reader::new(&bytes.into_bytes())).unwrap();
     assert_eq!(state(&recalled), state(&first));
     develop(&mut first, 400.0, 600.0);
     develop(&mut recalled, 400.0, 600.0);
@@ -191,20 +165,11 @@ fn a_buoyant_release_says_its_volume() {
     let still = Given(|_| 0.0, |_| (0.0, 0.0));
     let mut spec = outfall(-5.0, 1.0);
     spec.release.volume_l_s = None;
-    let settings = PlumeSettings {
-        refresh_s: 0.0,
-        grid: GridShape::default(),
-    };
+    let settings = PlumeSettings { refresh_s: 0.0, grid: GridShape::default() };
     let bed = Terrain::Level { depth_m: 30.0 };
     let plume = Plume::new(&[spec], &basin(), &bed, 1, settings).unwrap();
-    let refused = plume
-        .with_buoyancy(&still)
-        .expect_err("no volume")
-        .to_string();
-    assert!(
-        refused.starts_with("sources[0].release.volume_l_s: a buoyant release needs"),
-        "{refused}"
-    );
+    let refused = plume.with_buoyancy(&still).expect_err("no volume").to_string();
+    assert!(refused.starts_with("sources[0].release.volume_l_s: a buoyant release needs"), "{refused}");
 }
 
 /// So many filaments that each step is shared out among threads, and a stream that carries them out of the basin while

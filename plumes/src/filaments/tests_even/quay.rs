@@ -43,23 +43,10 @@ fn under_a_quay() {
             waves: Vec::new(),
         }],
     })];
-    spec.bed = Some(BedSpec {
-        roughness_m: Positive::new(0.002),
-        thickness_m: Positive::new(4.0),
-    });
+    spec.bed = Some(BedSpec { roughness_m: Positive::new(0.002), thickness_m: Positive::new(4.0) });
     mixing(&mut spec, 0.03, 3e-4);
     let scene = Scene::new(&spec, &area, &bed, &solids, 100.0, 2);
     let open = scene.cells().open.iter().filter(|o| **o).count();
     assert!(open < scene.cells().open.len() - 500, "{open}");
-    stays_even(
-        scene,
-        2.0,
-        Shots {
-            first: 25,
-            then: 10,
-            count: 4,
-        },
-        blocks_of(2, 2),
-        300,
-    );
+    stays_even(scene, 2.0, Shots { first: 25, then: 10, count: 4 }, blocks_of(2, 2), 300);
 }

@@ -65,21 +65,14 @@ impl Blocked {
         let projector = Projector::new(&cells, ground);
         let [nx, ny, _] = cells.n;
         let corner = |i: usize, j: usize| -ground.floor(cells.place(i as f64, j as f64)).z;
-        let mean = |i, j| {
-            0.25 * (corner(i, j) + corner(i + 1, j) + corner(i, j + 1) + corner(i + 1, j + 1))
-        };
+        let mean = |i, j| 0.25 * (corner(i, j) + corner(i + 1, j) + corner(i, j + 1) + corner(i + 1, j + 1));
         let depth = (0..nx * ny).map(|c| mean(c / ny, c % ny)).collect();
         let mut this = Self {
             phi: Vec::new(),
             fields: [(); 3].map(|()| Arc::new(Faces::default())),
             first: 0,
             period_s: spec.period_s.get(),
-            solved: Solved {
-                open_cells: 0,
-                cells: 0,
-                steps: 0,
-                divergence: 0.0,
-            },
+            solved: Solved { open_cells: 0, cells: 0, steps: 0, divergence: 0.0 },
             projector: Some(Arc::new(projector)),
             cells: Arc::new(cells),
             drift: None,
@@ -107,10 +100,7 @@ impl Blocked {
 
     /// The field at a moment not earlier than the one solved last.
     fn worked_out(&mut self, t_s: f64) -> Arc<Faces<f32>> {
-        let projector = self
-            .projector
-            .clone()
-            .expect("unsteady water keeps its projector");
+        let projector = self.projector.clone().expect("unsteady water keeps its projector");
         self.free.advance(t_s);
         let mut flux = self.incoming(t_s, |column, z| column.velocity(z));
         self.solved = projector.project(&self.cells, &mut flux, &mut self.phi);
@@ -143,11 +133,7 @@ impl Blocked {
     }
 
     /// Fluxes of the unblocked water at the centre of every face, m³/s.
-    fn incoming(
-        &self,
-        t_s: f64,
-        velocity: impl Fn(&Column<'_>, f64) -> Vector3<f64>,
-    ) -> Faces<f64> {
+    fn incoming(&self, t_s: f64, velocity: impl Fn(&Column<'_>, f64) -> Vector3<f64>) -> Faces<f64> {
         let cells = &*self.cells;
         let [nx, ny, nz] = cells.n;
         let mut flux = Faces::default();
@@ -178,8 +164,7 @@ impl Blocked {
                 flux.s.push(0.0);
                 for s in &cells.s[1..nz] {
                     let v = velocity(&column, floor.z * (1.0 - s));
-                    flux.s
-                        .push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
+                    flux.s.push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
                 }
                 flux.s.push(0.0);
             }
@@ -194,12 +179,7 @@ impl Blocked {
     }
 
     /// Velocity, m/s; `None` outside the cells.
-    pub(crate) fn velocity(
-        &self,
-        p: &Vector3<f64>,
-        floor: &Floor,
-        t_s: f64,
-    ) -> Option<Vector3<f64>> {
+    pub(crate) fn velocity(&self, p: &Vector3<f64>, floor: &Floor, t_s: f64) -> Option<Vector3<f64>> {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
@@ -226,8 +206,7 @@ impl Blocked {
                         for (side, face) in [[i, j, k], high].into_iter().enumerate() {
                             let at = cells.face(d, face);
                             let of = |f: &Faces<f32>| f.across(d)[at];
-                            let v =
-                                field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));
+                            let v = field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));
                             rates[2 * d + side] = (v * per[d] / depth) as f32;
                         }
                     }

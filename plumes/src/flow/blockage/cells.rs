@@ -163,13 +163,8 @@ impl Cells {
     /// The columns over which an obstacle stands, plus `beside` columns on each side.
     fn under(&self, obstacle: &Obstacle, beside: f64) -> [std::ops::Range<usize>; 2] {
         let (low, high) = obstacle.bounds();
-        let corners = [
-            (low.x, low.y),
-            (low.x, high.y),
-            (high.x, low.y),
-            (high.x, high.y),
-        ]
-        .map(|(x, y)| self.in_cells(Vector2::new(x, y)));
+        let corners = [(low.x, low.y), (low.x, high.y), (high.x, low.y), (high.x, high.y)]
+            .map(|(x, y)| self.in_cells(Vector2::new(x, y)));
         [0, 1].map(|d| {
             let least = corners.iter().fold(f64::INFINITY, |a, c| a.min(c[d])) - beside;
             let most = corners.iter().fold(0.0_f64, |a, c| a.max(c[d])) + beside;
@@ -220,9 +215,7 @@ impl Cells {
                     for d in 0..3 {
                         let mut next = [i, j, k];
                         next[d] += 1;
-                        let both = next[d] < self.n[d]
-                            && self.open[self.cell([i, j, k])]
-                            && self.open[self.cell(next)];
+                        let both = next[d] < self.n[d] && self.open[self.cell([i, j, k])] && self.open[self.cell(next)];
                         if !both {
                             continue;
                         }
@@ -282,8 +275,7 @@ impl Cells {
             (0..2).any(|d| {
                 let mut beyond = *c;
                 beyond[d] += 1;
-                (c[d] == 0 && self.passes(d, *c))
-                    || (beyond[d] == self.n[d] && self.passes(d, beyond))
+                (c[d] == 0 && self.passes(d, *c)) || (beyond[d] == self.n[d] && self.passes(d, beyond))
             })
         });
         while let Some(here) = todo.pop() {

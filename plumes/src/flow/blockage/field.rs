@@ -67,8 +67,7 @@ fn physical(cells: &Cells, [a, b, up]: [f64; 3], z: f64, floor: &Floor) -> Vecto
 
 /// Whether the cell of a place is solid; false outside the cells.
 pub(super) fn solid(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> bool {
-    locate(cells, p, z, floor)
-        .is_some_and(|([i, j, k], _)| !cells.open[(i * cells.n[1] + j) * cells.n[2] + k])
+    locate(cells, p, z, floor).is_some_and(|([i, j, k], _)| !cells.open[(i * cells.n[1] + j) * cells.n[2] + k])
 }
 
 /// Height of the cell that contains a height, m.

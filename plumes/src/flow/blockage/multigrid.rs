@@ -40,20 +40,10 @@ impl Level {
         }
         let mut pivot = vec![0.0; diag.len()];
         for c in 0..diag.len() {
-            let below = if c % nz == 0 {
-                0.0
-            } else {
-                next[2][c - 1] * next[2][c - 1] * pivot[c - 1]
-            };
+            let below = if c % nz == 0 { 0.0 } else { next[2][c - 1] * next[2][c - 1] * pivot[c - 1] };
             pivot[c] = 1.0 / (diag[c] - below);
         }
-        Self {
-            n,
-            next,
-            edge,
-            diag,
-            pivot,
-        }
+        Self { n, next, edge, diag, pivot }
     }
 
     /// Merges columns in pairs in the directions with more than 3.
@@ -185,10 +175,7 @@ impl Multigrid {
     pub(super) fn scratch(&self) -> Scratch {
         let empty = |l: &Level| vec![0.0; l.diag.len()];
         Scratch {
-            sides: self.levels[1..]
-                .iter()
-                .map(|l| (empty(l), empty(l)))
-                .collect(),
+            sides: self.levels[1..].iter().map(|l| (empty(l), empty(l))).collect(),
             line: vec![0.0; self.levels[0].n[2]],
         }
     }
@@ -200,13 +187,7 @@ impl Multigrid {
     }
 }
 
-fn descend(
-    levels: &[Level],
-    b: &[f64],
-    x: &mut [f64],
-    sides: &mut [(Vec<f64>, Vec<f64>)],
-    line: &mut [f64],
-) {
+fn descend(levels: &[Level], b: &[f64], x: &mut [f64], sides: &mut [(Vec<f64>, Vec<f64>)], line: &mut [f64]) {
     let level = &levels[0];
     x.fill(0.0);
     let Some(((coarse_b, coarse_x), rest)) = sides.split_first_mut() else {

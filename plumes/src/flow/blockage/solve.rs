@@ -92,16 +92,8 @@ impl Projector {
             });
             all
         };
-        let through = Faces {
-            x: conductances(0),
-            y: conductances(1),
-            s: conductances(2),
-        };
-        Self {
-            grid: Multigrid::new(Level::new(n, next, edge)),
-            through,
-            depth,
-        }
+        let through = Faces { x: conductances(0), y: conductances(1), s: conductances(2) };
+        Self { grid: Multigrid::new(Level::new(n, next, edge)), through, depth }
     }
 
     /// Turns fluxes (m³/s) into fluxes that pass nothing solid and are free of divergence, with the smallest change.
@@ -109,17 +101,10 @@ impl Projector {
     ///
     /// # Panics
     /// If the fluxes are not finite or the equation cannot be solved.
-    pub(super) fn project(
-        &self,
-        cells: &Cells,
-        flux: &mut Faces<f64>,
-        phi: &mut Vec<f64>,
-    ) -> Solved {
-        for (flux, through) in [
-            (&mut flux.x, &self.through.x),
-            (&mut flux.y, &self.through.y),
-            (&mut flux.s, &self.through.s),
-        ] {
+    pub(super) fn project(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &mut Vec<f64>) -> Solved {
+        for (flux, through) in
+            [(&mut flux.x, &self.through.x), (&mut flux.y, &self.through.y), (&mut flux.s, &self.through.s)]
+        {
             for (f, t) in flux.iter_mut().zip(through) {
                 if *t == 0.0 {
                     *f = 0.0;
@@ -127,10 +112,7 @@ impl Projector {
             }
         }
         let fastest = self.fastest(cells, flux);
-        assert!(
-            fastest.is_finite(),
-            "the currents to be led round obstacles are not finite: check water.currents"
-        );
+        assert!(fastest.is_finite(), "the currents to be led round obstacles are not finite: check water.currents");
         let level = self.grid.finest();
         let b: Vec<f64> = self.outflow(cells, flux).iter().map(|d| -d).collect();
         phi.resize(b.len(), 0.0);
@@ -172,12 +154,7 @@ impl Projector {
             steps += 1;
         }
         self.correct(cells, flux, phi);
-        Solved {
-            open_cells: cells.open_count(),
-            cells: cells.open.len(),
-            steps,
-            divergence: left,
-        }
+        Solved { open_cells: cells.open_count(), cells: cells.open.len(), steps, divergence: left }
     }
 
     /// Fastest current through any face, m/s.
@@ -226,11 +203,7 @@ impl Projector {
     }
 
     fn correct(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &[f64]) {
-        let sets = [
-            (&mut flux.x, &self.through.x),
-            (&mut flux.y, &self.through.y),
-            (&mut flux.s, &self.through.s),
-        ];
+        let sets = [(&mut flux.x, &self.through.x), (&mut flux.y, &self.through.y), (&mut flux.s, &self.through.s)];
         for (d, (flux, through)) in sets.into_iter().enumerate() {
             cells.each_face(d, |f| {
                 let at = cells.face(d, f);

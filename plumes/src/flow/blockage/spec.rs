@@ -90,11 +90,7 @@ impl BlockageSpec {
         let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * self.margin_m.get());
         let count = extent.map(|e| (e / self.cell_m.get()).ceil().max(1.0));
         let cells = count[0] * count[1] * f64::from(self.levels);
-        let times_solved = if steady {
-            1.0
-        } else {
-            3.0 + times.whole_s() / self.period_s.get()
-        };
+        let times_solved = if steady { 1.0 } else { 3.0 + times.whole_s() / self.period_s.get() };
         let part = Part::new("cell_m", format!("{cells:.1e} cells round obstacles"))
             .holds(cells * CELL_BYTES)
             .takes(cells * CELL_S * times_solved)
@@ -103,39 +99,19 @@ impl BlockageSpec {
     }
 
     pub(super) fn check(&self) -> Result<(), PlumeError> {
-        let wrong = |field: &str, problem: String| PlumeError::Invalid {
-            field: format!("water.blockage.{field}"),
-            problem,
-        };
+        let wrong =
+            |field: &str, problem: String| PlumeError::Invalid { field: format!("water.blockage.{field}"), problem };
         if !(LEVELS.0..=LEVELS.1).contains(&self.levels) {
-            return Err(wrong(
-                "levels",
-                format!(
-                    "must be from {} to {}, got {}",
-                    LEVELS.0, LEVELS.1, self.levels
-                ),
-            ));
+            return Err(wrong("levels", format!("must be from {} to {}, got {}", LEVELS.0, LEVELS.1, self.levels)));
         }
         if self.stretch.get() >= 0.99 {
-            return Err(wrong(
-                "stretch",
-                format!("must be from 0 to 0.99, got {}", self.stretch.get()),
-            ));
+            return Err(wrong("stretch", format!("must be from 0 to 0.99, got {}", self.stretch.get())));
         }
         if self.period_s.get() < SHORTEST_S {
-            return Err(wrong(
-                "period_s",
-                format!(
-                    "must be at least {SHORTEST_S} s, got {}",
-                    self.period_s.get()
-                ),
-            ));
+            return Err(wrong("period_s", format!("must be at least {SHORTEST_S} s, got {}", self.period_s.get())));
         }
         if self.period_s.get() > LONGEST_S {
-            return Err(wrong(
-                "period_s",
-                format!("must be at most {LONGEST_S} s, got {}", self.period_s.get()),
-            ));
+            return Err(wrong("period_s", format!("must be at most {LONGEST_S} s, got {}", self.period_s.get())));
         }
         Ok(())
     }

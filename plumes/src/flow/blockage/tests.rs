@@ -18,12 +18,7 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 pub(crate) fn area(length_m: f64, width_m: f64, axis_deg: f64) -> Area {
-    Area {
-        centre: Vector2::new(4.0, -7.0),
-        length_m,
-        width_m,
-        axis: Heading::from_deg(axis_deg),
-    }
+    Area { centre: Vector2::new(4.0, -7.0), length_m, width_m, axis: Heading::from_deg(axis_deg) }
 }
 
 pub(crate) fn spec(cell_m: f64, levels: u32, margin_m: f64) -> BlockageSpec {
@@ -39,23 +34,13 @@ pub(crate) fn spec(cell_m: f64, levels: u32, margin_m: f64) -> BlockageSpec {
 impl BlockageSpec {
     /// As this water, but with evenly spaced levels.
     pub(crate) fn evenly(self) -> Self {
-        Self {
-            stretch: Fraction::new(0.0),
-            ..self
-        }
+        Self { stretch: Fraction::new(0.0), ..self }
     }
 }
 
 pub(crate) fn eastward(speed_m_s: f64, blockage: BlockageSpec) -> WaterSpec {
-    let uniform = UniformSpec {
-        speed_m_s: NonNegative::new(speed_m_s),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    WaterSpec {
-        currents: vec![CurrentSpec::new(uniform)],
-        blockage: Some(blockage),
-        ..WaterSpec::default()
-    }
+    let uniform = UniformSpec { speed_m_s: NonNegative::new(speed_m_s), heading_deg: HeadingDeg::new(90.0) };
+    WaterSpec { currents: vec![CurrentSpec::new(uniform)], blockage: Some(blockage), ..WaterSpec::default() }
 }
 
 pub(crate) fn block(size: [f64; 3]) -> ShapeSpec {
@@ -64,10 +49,7 @@ pub(crate) fn block(size: [f64; 3]) -> ShapeSpec {
 }
 
 pub(crate) fn pile(radius_m: f64, height_m: f64) -> ShapeSpec {
-    ShapeSpec::Cylinder(CylinderShape {
-        radius_m: Positive::new(radius_m),
-        height_m: Positive::new(height_m),
-    })
+    ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(radius_m), height_m: Positive::new(height_m) })
 }
 
 pub(crate) fn solids(of: &[(ShapeSpec, f64, f64, f64)], bed: &Terrain) -> Obstacles {
@@ -90,13 +72,7 @@ pub(crate) fn solids(of: &[(ShapeSpec, f64, f64, f64)], bed: &Terrain) -> Obstac
 fn everything() -> (Area, Terrain, Obstacles, WaterSpec) {
     let area = area(60.0, 40.0, 20.0);
     let bed = Terrain::sloping_over(&area, Heading::from_deg(290.0), 4.0, 8.0);
-    let solids = solids(
-        &[
-            (block([9.0, 5.0, 3.0]), 8.0, -4.0, 50.0),
-            (pile(2.5, 12.0), -4.0, -16.0, 0.0),
-        ],
-        &bed,
-    );
+    let solids = solids(&[(block([9.0, 5.0, 3.0]), 8.0, -4.0, 50.0), (pile(2.5, 12.0), -4.0, -16.0, 0.0)], &bed);
     let layer = |speed, heading, density| LayerSpec {
         speed_m_s: NonNegative::new(speed),
         heading_deg: HeadingDeg::new(heading),
@@ -126,10 +102,7 @@ fn everything() -> (Area, Terrain, Obstacles, WaterSpec) {
     };
     let water = WaterSpec {
         currents: vec![CurrentSpec::new(layers), CurrentSpec::new(meander)],
-        bed: Some(BedSpec {
-            roughness_m: Positive::new(0.001),
-            thickness_m: Positive::new(2.0),
-        }),
+        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) }),
         blockage: Some(spec(1.5, 13, 15.0)),
         ..WaterSpec::default()
     };
@@ -166,8 +139,7 @@ fn divergence_is_zero_at_every_point() {
         let slope = |d: usize| {
             let mut step = Vector3::zeros();
             step[d] = e;
-            (water.velocity(&(p + step), 47.5)[d] - water.velocity(&(p - step), 47.5)[d])
-                / (2.0 * e)
+            (water.velocity(&(p + step), 47.5)[d] - water.velocity(&(p - step), 47.5)[d]) / (2.0 * e)
         };
         let parts = [slope(0), slope(1), slope(2)];
         worst = worst.max(parts.iter().sum::<f64>().abs());
@@ -204,9 +176,7 @@ fn nothing_passes_walls_bed_and_surface() {
     }
     let bed = Terrain::Level { depth_m: 6.0 };
     let solids = solids(&[(block([8.0, 6.0, 6.0]), 4.0, -7.0, 90.0)], &bed);
-    let water = eastward(0.3, spec(1.0, 4, 10.0))
-        .build_round(&area(40.0, 30.0, 90.0), &bed, &solids, 1)
-        .unwrap();
+    let water = eastward(0.3, spec(1.0, 4, 10.0)).build_round(&area(40.0, 30.0, 90.0), &bed, &solids, 1).unwrap();
     for k in 0..60 {
         let along = -2.95 + 5.9 * f64::from(k) / 59.0;
         for z in [-5.9, -3.0, -0.1] {
@@ -215,10 +185,7 @@ fn nothing_passes_walls_bed_and_surface() {
             let north = Vector3::new(4.0 + along, -4.0 + 1e-9, z);
             let v = water.velocity(&north, 0.0);
             assert!(v.y.abs() < 1e-8 && v.x > 0.2, "{north:?} {v}");
-            assert_eq!(
-                water.velocity(&Vector3::new(4.0 + along, -7.0, z), 0.0),
-                Vector3::zeros()
-            );
+            assert_eq!(water.velocity(&Vector3::new(4.0 + along, -7.0, z), 0.0), Vector3::zeros());
         }
     }
 }
@@ -245,16 +212,10 @@ fn every_section_of_a_channel_carries_the_same() {
     let bed = Terrain::sloping_over(&area(60.0, 30.0, 90.0), Heading::from_deg(90.0), 5.0, 9.0);
     let wall = || block([200.0, 10.0, 20.0]);
     let solids = solids(
-        &[
-            (wall(), 4.0, 5.0, 90.0),
-            (wall(), 4.0, -19.0, 90.0),
-            (block([8.0, 6.0, 3.0]), 0.0, -8.0, 90.0),
-        ],
+        &[(wall(), 4.0, 5.0, 90.0), (wall(), 4.0, -19.0, 90.0), (block([8.0, 6.0, 3.0]), 0.0, -8.0, 90.0)],
         &bed,
     );
-    let water = eastward(0.3, spec(1.0, 9, 5.0))
-        .build_round(&area(60.0, 30.0, 90.0), &bed, &solids, 1)
-        .unwrap();
+    let water = eastward(0.3, spec(1.0, 9, 5.0)).build_round(&area(60.0, 30.0, 90.0), &bed, &solids, 1).unwrap();
     let blocked = water.blocked().unwrap();
     let (cells, x) = (blocked.cells(), &blocked.field(0).x);
     let through = |i: usize| -> f64 {
@@ -275,11 +236,7 @@ fn every_section_of_a_channel_carries_the_same() {
     assert!(first > 10.0);
     for i in 0..=cells.n[0] {
         // Single precision of some hundred faces.
-        assert!(
-            (through(i) / first - 1.0).abs() < 1e-6,
-            "{i}: {}",
-            through(i)
-        );
+        assert!((through(i) / first - 1.0).abs() < 1e-6, "{i}: {}", through(i));
     }
 }
 
@@ -288,15 +245,10 @@ fn every_section_of_a_channel_carries_the_same() {
 fn a_current_round_nothing_is_untouched() {
     let bed = Terrain::Level { depth_m: 6.0 };
     let mut water = eastward(0.3, spec(2.0, 11, 20.0));
-    water.bed = Some(BedSpec {
-        roughness_m: Positive::new(0.001),
-        thickness_m: Positive::new(2.0),
-    });
+    water.bed = Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) });
     let area = area(40.0, 30.0, 33.0);
     let free = water.build(&area, &bed, 1).unwrap();
-    let round = water
-        .build_round(&area, &bed, &Obstacles::default(), 1)
-        .unwrap();
+    let round = water.build_round(&area, &bed, &Obstacles::default(), 1).unwrap();
     assert_eq!(round.blocked().unwrap().solved().steps, 0);
     let cells = round.blocked().unwrap().cells();
     for (i, j) in [(0, 0), (17, 3), (39, 34)] {
@@ -315,21 +267,11 @@ fn a_current_round_nothing_is_untouched() {
 #[test]
 fn water_shut_in_stands_still() {
     let bed = Terrain::Level { depth_m: 6.0 };
-    let walls = [
-        (0.0, 10.0, 90.0),
-        (0.0, -10.0, 90.0),
-        (10.0, 0.0, 0.0),
-        (-10.0, 0.0, 0.0),
-    ]
-    .map(|(e, n, h)| (block([24.0, 3.0, 8.0]), 4.0 + e, n - 7.0, h));
+    let walls = [(0.0, 10.0, 90.0), (0.0, -10.0, 90.0), (10.0, 0.0, 0.0), (-10.0, 0.0, 0.0)]
+        .map(|(e, n, h)| (block([24.0, 3.0, 8.0]), 4.0 + e, n - 7.0, h));
     let solids = solids(&walls, &bed);
-    let water = eastward(0.3, spec(1.0, 4, 10.0))
-        .build_round(&area(40.0, 40.0, 90.0), &bed, &solids, 1)
-        .unwrap();
-    assert_eq!(
-        water.velocity(&Vector3::new(4.0, -7.0, -3.0), 0.0),
-        Vector3::zeros()
-    );
+    let water = eastward(0.3, spec(1.0, 4, 10.0)).build_round(&area(40.0, 40.0, 90.0), &bed, &solids, 1).unwrap();
+    assert_eq!(water.velocity(&Vector3::new(4.0, -7.0, -3.0), 0.0), Vector3::zeros());
     assert!(water.velocity(&Vector3::new(4.0, 8.0, -3.0), 0.0).x > 0.3);
 }
 
@@ -338,44 +280,23 @@ fn what_cannot_be_is_refused() {
     let bed = Terrain::Level { depth_m: 6.0 };
     let area = area(40.0, 30.0, 90.0);
     let says = |spec: BlockageSpec, solids: &Obstacles| {
-        let e = eastward(0.3, spec)
-            .build_round(&area, &bed, solids, 1)
-            .unwrap_err();
+        let e = eastward(0.3, spec).build_round(&area, &bed, solids, 1).unwrap_err();
         e.to_string()
     };
     let none = Obstacles::default();
     let full = solids(&[(block([200.0, 200.0, 8.0]), 0.0, 0.0, 90.0)], &bed);
-    assert!(
-        says(spec(1.0, 4, 10.0), &full)
-            .starts_with("water.blockage: no water that could flow is left")
-    );
-    assert!(
-        says(spec(0.01, 40, 10.0), &none)
-            .starts_with("water.blockage.cell_m: 0.01 m makes 6000 x 5000 x 39")
-    );
-    assert_eq!(
-        says(spec(1.0, 1, 10.0), &none),
-        "water.blockage.levels: must be from 2 to 201, got 1"
-    );
-    let quick = BlockageSpec {
-        period_s: Positive::new(0.5),
-        ..spec(1.0, 4, 10.0)
-    };
-    assert_eq!(
-        says(quick, &none),
-        "water.blockage.period_s: must be at least 2 s, got 0.5"
-    );
+    assert!(says(spec(1.0, 4, 10.0), &full).starts_with("water.blockage: no water that could flow is left"));
+    assert!(says(spec(0.01, 40, 10.0), &none).starts_with("water.blockage.cell_m: 0.01 m makes 6000 x 5000 x 39"));
+    assert_eq!(says(spec(1.0, 1, 10.0), &none), "water.blockage.levels: must be from 2 to 201, got 1");
+    let quick = BlockageSpec { period_s: Positive::new(0.5), ..spec(1.0, 4, 10.0) };
+    assert_eq!(says(quick, &none), "water.blockage.period_s: must be at least 2 s, got 0.5");
 }
 
 #[test]
 fn obstacles_between_the_cells_are_named() {
     let bed = Terrain::Level { depth_m: 6.0 };
-    let some = [
-        (pile(0.2, 5.0), 4.0, -7.0, 0.0),
-        (block([9.0; 3]), 4.0, -7.0, 90.0),
-        (block([6.0; 3]), 4.0, -7.0, 90.0),
-    ];
-    let unfelt =
-        spec(2.0, 4, 10.0).unfelt(&area(40.0, 30.0, 90.0), &bed, &solids(&some, &bed), false);
+    let some =
+        [(pile(0.2, 5.0), 4.0, -7.0, 0.0), (block([9.0; 3]), 4.0, -7.0, 90.0), (block([6.0; 3]), 4.0, -7.0, 90.0)];
+    let unfelt = spec(2.0, 4, 10.0).unfelt(&area(40.0, 30.0, 90.0), &bed, &solids(&some, &bed), false);
     assert_eq!(unfelt.unwrap(), [0]);
 }

@@ -23,14 +23,8 @@ fn past_a_cylinder(cell_m: f64) -> (f64, f64) {
     let bed = Terrain::Level { depth_m: 3.0 };
     let solids = solids(&[(pile(a, 5.0), 4.0, -7.0, 0.0)], &bed);
     // 20 radii wide: the fixed potential at the sides adds U/400 or less.
-    let water = eastward(speed, spec(cell_m, 2, 0.0))
-        .build_round(&area(80.0, 80.0, 90.0), &bed, &solids, 1)
-        .unwrap();
-    let at = |p: Vector2<f64>| {
-        water
-            .velocity(&(p + Vector2::new(4.0, -7.0)).push(-1.5), 0.0)
-            .xy()
-    };
+    let water = eastward(speed, spec(cell_m, 2, 0.0)).build_round(&area(80.0, 80.0, 90.0), &bed, &solids, 1).unwrap();
+    let at = |p: Vector2<f64>| water.velocity(&(p + Vector2::new(4.0, -7.0)).push(-1.5), 0.0).xy();
     let (mut sum, mut count) = (0.0, 0.0);
     for i in 0..160 {
         for j in 0..160 {
@@ -46,10 +40,7 @@ fn past_a_cylinder(cell_m: f64) -> (f64, f64) {
     for side in [90.0_f64, 270.0] {
         for k in -20..=20 {
             let (sin, cos) = world::math::sin_cos((side + f64::from(k)).to_radians());
-            let (p, round) = (
-                Vector2::new(cos, sin) * (1.15 * a),
-                Vector2::new(sin, -cos) * sin.signum(),
-            );
+            let (p, round) = (Vector2::new(cos, sin) * (1.15 * a), Vector2::new(sin, -cos) * sin.signum());
             shoulders.0 += at(p).dot(&round);
             shoulders.1 += potential(p, a, speed).dot(&round);
         }
@@ -66,10 +57,7 @@ fn a_cylinder_bends_the_current_as_potential_theory_says() {
     let (coarse, off_coarse) = past_a_cylinder(0.5);
     let (fine, off_fine) = past_a_cylinder(0.25);
     assert!(coarse < 0.06 && fine < 0.65 * coarse, "{coarse} {fine}");
-    assert!(
-        (off_coarse - 1.0).abs() < 0.10 && (off_fine - 1.0).abs() < 0.05,
-        "{off_coarse} {off_fine}"
-    );
+    assert!((off_coarse - 1.0).abs() < 0.10 && (off_fine - 1.0).abs() < 0.05, "{off_coarse} {off_fine}");
 }
 
 fn meandering() -> Water {
@@ -84,9 +72,7 @@ fn meandering() -> Water {
     };
     let mut water: WaterSpec = eastward(0.2, spec(2.0, 6, 10.0));
     water.currents.push(CurrentSpec::new(meander));
-    water
-        .build_round(&area(60.0, 40.0, 90.0), &bed, &solids, 9)
-        .unwrap()
+    water.build_round(&area(60.0, 40.0, 90.0), &bed, &solids, 9).unwrap()
 }
 
 /// The bits are the same however the time to a moment is divided, and there is no jump where one field follows another.
@@ -125,20 +111,14 @@ fn time_may_be_cut_as_one_likes() {
 fn follows_the_currents_of_the_moment() {
     let mut water = meandering();
     water.advance(200.0);
-    let mut free = WaterSpec {
-        blockage: None,
-        currents: Vec::new(),
-        ..WaterSpec::default()
-    };
+    let mut free = WaterSpec { blockage: None, currents: Vec::new(), ..WaterSpec::default() };
     free.currents = eastward(0.2, spec(2.0, 6, 10.0)).currents;
     let blocked = water.blocked().unwrap();
     assert!(blocked.solved().steps < 40 && blocked.solved().divergence <= 1e-7);
     let far = Vector3::new(-24.0, 8.0, -1.0);
     let unblocked = Water::column(&water, far.xy(), 200.0).velocity(far.z);
     let got = water.velocity(&far, 200.0);
-    let steady = free
-        .build(&area(60.0, 40.0, 90.0), &Terrain::Level { depth_m: 5.0 }, 9)
-        .unwrap();
+    let steady = free.build(&area(60.0, 40.0, 90.0), &Terrain::Level { depth_m: 5.0 }, 9).unwrap();
     let wander = (unblocked - steady.velocity(&far, 0.0)).norm();
     // The dipole of the block has U·10·6/(π·30²) = 2 % of U there; steps between cells have as much again.
     assert!(wander > 0.02, "{wander}");
@@ -151,15 +131,8 @@ fn a_thin_wall_is_felt() {
     let bed = Terrain::Level { depth_m: 6.0 };
     let solids = solids(&[(block([0.1, 14.0, 6.0]), 4.2, -7.0, 90.0)], &bed);
     let area = area(40.0, 32.0, 90.0);
-    assert!(
-        spec(2.0, 4, 10.0)
-            .unfelt(&area, &bed, &solids, false)
-            .unwrap()
-            .is_empty()
-    );
-    let water = eastward(0.3, spec(2.0, 4, 10.0))
-        .build_round(&area, &bed, &solids, 1)
-        .unwrap();
+    assert!(spec(2.0, 4, 10.0).unfelt(&area, &bed, &solids, false).unwrap().is_empty());
+    let water = eastward(0.3, spec(2.0, 4, 10.0)).build_round(&area, &bed, &solids, 1).unwrap();
     for north in [-6.0, -3.0, 0.0, 3.0, 5.0] {
         for east in [2.6, 3.9, 5.9] {
             let v = water.velocity(&Vector3::new(east, north - 7.0, -3.0), 0.0);

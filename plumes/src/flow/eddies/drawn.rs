@@ -30,21 +30,13 @@ pub(super) struct Drawn {
 /// What it is drawn from, all of which its velocities follow from; whether it is drawn yet makes no difference.
 impl fmt::Debug for Drawn {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Drawn")
-            .field("shape", &self.shape)
-            .field("seed", &self.seed)
-            .finish_non_exhaustive()
+        f.debug_struct("Drawn").field("shape", &self.shape).field("seed", &self.seed).finish_non_exhaustive()
     }
 }
 
 impl Drawn {
     pub(super) fn new(shape: Shape, seed: Option<Seed>) -> Self {
-        Self {
-            shape,
-            seed,
-            threads: AtomicUsize::new(1),
-            stretch: OnceLock::new(),
-        }
+        Self { shape, seed, threads: AtomicUsize::new(1), stretch: OnceLock::new() }
     }
 
     /// Draws it with so many threads.

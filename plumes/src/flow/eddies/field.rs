@@ -49,11 +49,7 @@ pub struct EddiesSpec {
 
 impl Default for EddiesSpec {
     fn default() -> Self {
-        Self {
-            cells_a_depth: 16,
-            own: false,
-            small: None,
-        }
+        Self { cells_a_depth: 16, own: false, small: None }
     }
 }
 
@@ -86,17 +82,8 @@ impl EddiesSpec {
     /// # Errors
     /// If the grid is too coarse or too fine, if the stream is not along the area's axis, or if the channel is narrower
     /// than deep.
-    pub fn build(
-        &self,
-        field: &str,
-        area: &Area,
-        channel: &Channel,
-        seed: Seed,
-    ) -> Result<Eddies, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid {
-            field: format!("{field}.{sub}"),
-            problem,
-        };
+    pub fn build(&self, field: &str, area: &Area, channel: &Channel, seed: Seed) -> Result<Eddies, PlumeError> {
+        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         if !(8..=32).contains(&self.cells_a_depth) {
             let problem = format!("must be from 8 to 32, got {}", self.cells_a_depth);
             return Err(bad("eddies.cells_a_depth", problem));
@@ -118,14 +105,7 @@ impl EddiesSpec {
             across: (area.width_m / cell).round() as usize,
         };
         let small = (self.small.as_ref())
-            .map(|s| {
-                s.build(
-                    &format!("{field}.eddies.small"),
-                    channel,
-                    shape.spectrum.k_c,
-                    seed,
-                )
-            })
+            .map(|s| s.build(&format!("{field}.eddies.small"), channel, shape.spectrum.k_c, seed))
             .transpose()?;
         let energy = channel.mean_of(|z| channel.energy(z));
         let dissipation = channel.mean_of(|z| channel.dissipation(z));
@@ -181,9 +161,7 @@ impl Eddies {
 
     /// Greatest wave number that carries filaments, 1/m.
     pub(crate) fn finest(&self) -> f64 {
-        self.small
-            .as_ref()
-            .map_or(self.shape.spectrum.k_c, |s| s.k_f)
+        self.small.as_ref().map_or(self.shape.spectrum.k_c, |s| s.k_f)
     }
 
     /// Draws them with so many threads; the eddies are the same with any number. With more than one, it begins at once
@@ -240,9 +218,7 @@ impl Eddies {
             let mut e = Vector3::zeros();
             e[d] = WIDE;
             let slope = (at(e, 0.0) - at(-e, 0.0)) / (2.0 * WIDE);
-            sample
-                .gradient
-                .set_column(d, &(sample.gradient.column(d) + slope));
+            sample.gradient.set_column(d, &(sample.gradient.column(d) + slope));
         }
         // The eddies move with the stream: in a tenth of a second, by some millimetres.
         const WHILE: f64 = 0.1;
@@ -263,10 +239,7 @@ impl Eddies {
 
     #[cfg(test)]
     pub(super) fn with_seed(&self, seed: impl Into<Seed>) -> Self {
-        Self {
-            seed: seed.into(),
-            ..self.clone()
-        }
+        Self { seed: seed.into(), ..self.clone() }
     }
 
     #[cfg(test)]

@@ -24,10 +24,7 @@ pub(super) struct Fourier {
 
 impl Fourier {
     pub(super) fn new(n: usize) -> Self {
-        assert!(
-            n.is_power_of_two(),
-            "a Fourier sum needs a power of two, got {n}"
-        );
+        assert!(n.is_power_of_two(), "a Fourier sum needs a power of two, got {n}");
         let turn = |k: usize| {
             let (s, c) = math::sin_cos(std::f64::consts::TAU * k as f64 / n as f64);
             [c, s]
@@ -35,17 +32,10 @@ impl Fourier {
         let stages = (0..n.trailing_zeros()).map(|stage| 1 << stage);
         let turns = stages.flat_map(|half: usize| (0..half).map(move |k| k * (n / (2 * half))));
         let bits = n.trailing_zeros();
-        let place = |i: usize| {
-            i.reverse_bits()
-                .checked_shr(usize::BITS - bits)
-                .unwrap_or(0)
-        };
+        let place = |i: usize| i.reverse_bits().checked_shr(usize::BITS - bits).unwrap_or(0);
         Self {
             turns: turns.map(turn).collect(),
-            swaps: (0..n)
-                .map(|i| [i, place(i)])
-                .filter(|[i, j]| i < j)
-                .collect(),
+            swaps: (0..n).map(|i| [i, place(i)]).filter(|[i, j]| i < j).collect(),
             path: Path::detect(),
         }
     }

@@ -200,11 +200,7 @@ impl<const N: usize> Cells<N> {
             near[n] = (sheet + (i & (LENGTH as u32 - 1))) * row + k;
             far[n] = (sheet + (i.wrapping_add(1) & (LENGTH as u32 - 1))) * row + k;
         }
-        Self {
-            near,
-            far,
-            part: [f, g, h],
-        }
+        Self { near, far, part: [f, g, h] }
     }
 
     /// Asks the processor for the nodes.
@@ -227,15 +223,8 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, cells: &[Cells<N>; 2]) 
     let sheet = now.sheet();
     let mut sum = [[0.0_f32; N]; 3];
     for (patch, cells) in now.patches.iter().zip(cells) {
-        let Cells {
-            near,
-            far,
-            part: [f, g, h],
-        } = cells;
-        let highest = near
-            .iter()
-            .zip(far)
-            .fold(0, |most, (a, b)| most.max(*a).max(*b));
+        let Cells { near, far, part: [f, g, h] } = cells;
+        let highest = near.iter().zip(far).fold(0, |most, (a, b)| most.max(*a).max(*b));
         assert!(
             highest as usize + sheet + 1 < now.nodes.len(),
             "a cell is not one of the eddies' grid: its nodes are not those of its shape"
@@ -276,19 +265,9 @@ const FARTHEST: f32 = 1e9;
 /// # Safety
 /// The cell's eight nodes must exist, and the machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn one<P: Pair>(
-    nodes: &[[f32; 4]],
-    [near, far]: [usize; 2],
-    sheet: usize,
-    [f, g, h]: [f32; 3],
-) -> Quad {
+unsafe fn one<P: Pair>(nodes: &[[f32; 4]], [near, far]: [usize; 2], sheet: usize, [f, g, h]: [f32; 3]) -> Quad {
     // SAFETY: as the caller promises.
-    let [right, left] = unsafe {
-        [
-            line::<P>(nodes, near, far, h),
-            line::<P>(nodes, near + sheet, far + sheet, h),
-        ]
-    };
+    let [right, left] = unsafe { [line::<P>(nodes, near, far, h), line::<P>(nodes, near + sheet, far + sheet, h)] };
     let [behind, ahead] = right.add(left.sub(right).times(g)).apart();
     behind.add(ahead.sub(behind).times(f))
 }
@@ -303,10 +282,7 @@ unsafe fn line<P: Pair>(nodes: &[[f32; 4]], near: usize, far: usize, part: f32) 
     // SAFETY: as the caller promises.
     let [low, high] = unsafe {
         let first = nodes.as_ptr();
-        [
-            P::of(&*first.add(near), &*first.add(far)),
-            P::of(&*first.add(near + 1), &*first.add(far + 1)),
-        ]
+        [P::of(&*first.add(near), &*first.add(far)), P::of(&*first.add(near + 1), &*first.add(far + 1))]
     };
     low.add(high.sub(low).times(part))
 }
@@ -337,14 +313,9 @@ mod tests {
         let (across, up) = (5, 4);
         let count = LENGTH * (across + 1) * (up + 1);
         let part = |n: usize, m: u32| (n as u32).wrapping_mul(m) as f32 / u32::MAX as f32 - 0.5;
-        let nodes: Vec<[f32; 4]> = (0..count)
-            .map(|n| [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35, 0].map(|m| part(n, m)))
-            .collect();
-        let patch = |begin: f32, mirrored: bool| Patch {
-            begin,
-            mirrored,
-            weight: 0.003,
-        };
+        let nodes: Vec<[f32; 4]> =
+            (0..count).map(|n| [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35, 0].map(|m| part(n, m))).collect();
+        let patch = |begin: f32, mirrored: bool| Patch { begin, mirrored, weight: 0.003 };
         let now = Now {
             nodes: &nodes,
             across,
@@ -354,19 +325,11 @@ mod tests {
             depth: 0.2,
             patches: [patch(3.7, false), patch(60.2, true)],
         };
-        let turned = Turned {
-            centre: Vector2::new(0.3, -0.1),
-            along: Vector2::new(0.6, 0.8),
-            left: Vector2::new(-0.8, 0.6),
-        };
-        let dt: Vec<f32> = (0..1000)
-            .map(|n| 0.2 + 0.1 * part(n, 0x27d4_eb2f))
-            .collect();
-        let start = [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35].map(|m| {
-            (0..1000)
-                .map(|n| 0.2 * part(n, m) - 0.1)
-                .collect::<Vec<f32>>()
-        });
+        let turned =
+            Turned { centre: Vector2::new(0.3, -0.1), along: Vector2::new(0.6, 0.8), left: Vector2::new(-0.8, 0.6) };
+        let dt: Vec<f32> = (0..1000).map(|n| 0.2 + 0.1 * part(n, 0x27d4_eb2f)).collect();
+        let start = [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35]
+            .map(|m| (0..1000).map(|n| 0.2 * part(n, m) - 0.1).collect::<Vec<f32>>());
         let bits = |p: &[Vec<f32>; 3]| {
             let of = |v: &Vec<f32>| v.iter().map(|v| v.to_bits()).collect::<Vec<u32>>();
             p.each_ref().map(of)

@@ -51,9 +51,7 @@ impl Spectrum {
     #[must_use]
     pub fn energy(&self, k: f64) -> f64 {
         let x2 = (k / self.k_e) * (k / self.k_e);
-        x2 * x2
-            * math::powf(1.0 + x2, -17.0 / 6.0)
-            * math::exp(-2.25 * math::powf(k * self.eta, 4.0 / 3.0))
+        x2 * x2 * math::powf(1.0 + x2, -17.0 / 6.0) * math::exp(-2.25 * math::powf(k * self.eta, 4.0 / 3.0))
     }
 
     /// Part of the energy at wave numbers up to k_c.

@@ -84,12 +84,7 @@ impl Shape {
                 // A wave number of zero stands for half a cell.
                 let part = |number: usize| if number == 0 { 0.5 } else { 1.0 };
                 let cells: f64 = part(n) * part(m);
-                waves.push(Wave {
-                    k: [kx, ky, kz],
-                    n,
-                    m,
-                    std: (density * cells).sqrt(),
-                });
+                waves.push(Wave { k: [kx, ky, kz], n, m, std: (density * cells).sqrt() });
             }
         }
         waves
@@ -151,10 +146,7 @@ impl Shape {
             }
         }
         let m = nalgebra::Matrix3::from_fn(|c, p| v[c][p]);
-        let solved = m
-            .lu()
-            .solve(&nalgebra::Vector3::from(want))
-            .unwrap_or_else(nalgebra::Vector3::zeros);
+        let solved = m.lu().solve(&nalgebra::Vector3::from(want)).unwrap_or_else(nalgebra::Vector3::zeros);
         [0, 1, 2].map(|p: usize| solved[p].max(0.0).sqrt())
     }
 
@@ -178,12 +170,7 @@ impl Stretch {
         let sheet = LENGTH * (shape.up + 1);
         let mut nodes = vec![[0.0_f32; 4]; sheet * (shape.across + 1)];
         let sheets = Mutex::new(nodes.chunks_exact_mut(sheet).enumerate());
-        let next = || {
-            sheets
-                .lock()
-                .expect("nobody panics while it is held")
-                .next()
-        };
+        let next = || sheets.lock().expect("nobody panics while it is held").next();
         let work = || {
             while let Some((y, sheet)) = next() {
                 drawn.sum(y, sheet);
@@ -218,19 +205,12 @@ impl Amplitudes {
         let (ny, nz) = (shape.across + 1, shape.up + 1);
         let h = shape.spacing();
         let mut rng = Stream::new(seed, "eddies", "waves");
-        let turn = |n: usize, cells: usize, at: usize| {
-            math::sin_cos(PI * ((n * at) % (2 * cells)) as f64 / cells as f64)
-        };
-        let across = (0..ny)
-            .map(|y| {
-                (0..=shape.most(shape.width_m))
-                    .map(|n| turn(n, shape.across, y))
-                    .collect()
-            })
-            .collect();
-        let up: Vec<Vec<(f64, f64)>> = (0..=shape.most(shape.depth_m))
-            .map(|m| (0..nz).map(|z| turn(m, shape.up, z)).collect())
-            .collect();
+        let turn =
+            |n: usize, cells: usize, at: usize| math::sin_cos(PI * ((n * at) % (2 * cells)) as f64 / cells as f64);
+        let across =
+            (0..ny).map(|y| (0..=shape.most(shape.width_m)).map(|n| turn(n, shape.across, y)).collect()).collect();
+        let up: Vec<Vec<(f64, f64)>> =
+            (0..=shape.most(shape.depth_m)).map(|m| (0..nz).map(|z| turn(m, shape.up, z)).collect()).collect();
         let falls: Vec<(f64, f64)> = (0..nz).map(|z| shape.fall(z as f64 * h[2])).collect();
         let mut along = Vec::with_capacity(all_waves.len());
         for (j, waves) in &all_waves {
@@ -255,12 +235,7 @@ impl Amplitudes {
             }
             along.push((*j, sums));
         }
-        Self {
-            fourier: Fourier::new(LENGTH),
-            levels: nz,
-            along,
-            across,
-        }
+        Self { fourier: Fourier::new(LENGTH), levels: nz, along, across }
     }
 
     /// The velocities of the sheet of nodes at a line across.

@@ -24,21 +24,13 @@ pub(crate) fn channel_spec(mean_m_s: f64, roughness_m: f64) -> OpenChannelSpec {
 }
 
 pub(crate) fn flume(length_m: f64) -> Area {
-    Area {
-        centre: Vector2::new(0.5 * length_m - 0.4, 0.0),
-        length_m,
-        width_m: 1.07,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::new(0.5 * length_m - 0.4, 0.0), length_m, width_m: 1.07, axis: Heading::from_deg(90.0) }
 }
 
 pub(crate) const BED: Terrain = Terrain::Level { depth_m: 0.2 };
 
 pub(crate) fn water(length_m: f64, seed: u64) -> Water {
-    let spec = WaterSpec {
-        currents: vec![CurrentSpec::new(channel_spec(0.05, 0.0))],
-        ..WaterSpec::default()
-    };
+    let spec = WaterSpec { currents: vec![CurrentSpec::new(channel_spec(0.05, 0.0))], ..WaterSpec::default() };
     spec.build(&flume(length_m), &BED, seed).unwrap()
 }
 
@@ -49,11 +41,7 @@ fn parts(seed: u64) -> (Channel, Eddies) {
 
 fn shape(cells: usize) -> Shape {
     let (_, eddies) = parts(1);
-    Shape {
-        up: cells,
-        across: (1.07 / 0.2 * cells as f64).round() as usize,
-        ..*eddies.shape()
-    }
+    Shape { up: cells, across: (1.07 / 0.2 * cells as f64).round() as usize, ..*eddies.shape() }
 }
 
 #[test]
@@ -91,9 +79,7 @@ fn divergence_is_only_that_of_the_grid() {
             for j in 1..shape.across {
                 for k in 1..shape.up {
                     let at = j * sheet + i * row + k;
-                    let d = |step: usize, c: usize| {
-                        f64::from(nodes[at + step][c] - nodes[at - step][c]) / (2.0 * h[c])
-                    };
+                    let d = |step: usize, c: usize| f64::from(nodes[at + step][c] - nodes[at - step][c]) / (2.0 * h[c]);
                     let (x, y, z) = (d(row, 0), d(sheet, 1), d(1, 2));
                     left += (x + y + z) * (x + y + z);
                     all += x * x + y * y + z * z;
@@ -128,11 +114,7 @@ fn what_a_check_asks_of_the_water_is_all_but_its_eddies() {
 fn any_number_of_threads_draws_the_same_stretch() {
     let bits = |threads: usize| {
         let nodes = Stretch::new(&shape(12), 3, threads).nodes;
-        nodes
-            .concat()
-            .into_iter()
-            .map(f32::to_bits)
-            .collect::<Vec<_>>()
+        nodes.concat().into_iter().map(f32::to_bits).collect::<Vec<_>>()
     };
     let one = bits(1);
     assert!(one.iter().any(|v| *v != 0));
@@ -158,11 +140,7 @@ fn intensities_are_those_stated() {
             for (n, v) in nodes.chunks_exact(shape.up + 1).enumerate() {
                 // The ends of the width count half.
                 let j = n / LENGTH;
-                let w = if j == 0 || j == shape.across {
-                    0.5
-                } else {
-                    1.0
-                };
+                let w = if j == 0 || j == shape.across { 0.5 } else { 1.0 };
                 count += w;
                 for c in 0..3 {
                     sum[c] += w * f64::from(v[*level][c]).powi(2);
@@ -178,9 +156,7 @@ fn intensities_are_those_stated() {
         let height = 0.2 * *level as f64 / 16.0;
         let expected = shape.expected(height);
         for c in 0..3 {
-            let of = |f: &dyn Fn(f64) -> f64| {
-                squares[l].iter().map(|s| f(s[c])).sum::<f64>() / SEEDS as f64
-            };
+            let of = |f: &dyn Fn(f64) -> f64| squares[l].iter().map(|s| f(s[c])).sum::<f64>() / SEEDS as f64;
             let mean = of(&|s| s);
             let error = (of(&|s| (s - mean) * (s - mean)) / (SEEDS - 1) as f64).sqrt();
             let want = expected[c] * expected[c];
@@ -194,16 +170,10 @@ fn intensities_are_those_stated() {
             let ratio = expected[c] * channel.u_star_m_s / (stated[c] * resolved.sqrt());
             mean_ratio[c] += ratio / levels.len() as f64;
             let whole = (4..=12).contains(level);
-            assert!(
-                !whole || (0.8..1.25).contains(&ratio),
-                "{height}: {c}: {ratio}"
-            );
+            assert!(!whole || (0.8..1.25).contains(&ratio), "{height}: {c}: {ratio}");
         }
     }
-    assert!(
-        mean_ratio.iter().all(|r| (0.85..1.15).contains(r)),
-        "{mean_ratio:?}"
-    );
+    assert!(mean_ratio.iter().all(|r| (0.85..1.15).contains(r)), "{mean_ratio:?}");
 }
 
 /// In the frame that moves with the stream, the strength is the same at any time. After one period T, the mean of
@@ -233,18 +203,9 @@ fn eddies_live_as_stated() {
     // Products of unit normals have standard errors of √2 and 1 over √n = 77. The one stretch from which all draw adds
     // about as much again to the squares (some 500 independent eddies at a height), as the test of intensities found.
     let error = 1.0 / (n as f64).sqrt();
-    assert!(
-        (square[0] / square[1] - 1.0).abs() < 4.0 * 2.0 * error,
-        "{square:?}"
-    );
-    assert!(
-        (square[0] - 1.0).abs() < 4.0 * (2.0_f64 / 500.0).sqrt(),
-        "{square:?}"
-    );
-    assert!(
-        (one / square[0] - std::f64::consts::FRAC_1_PI).abs() < 4.0 * error,
-        "{one}"
-    );
+    assert!((square[0] / square[1] - 1.0).abs() < 4.0 * 2.0 * error, "{square:?}");
+    assert!((square[0] - 1.0).abs() < 4.0 * (2.0_f64 / 500.0).sqrt(), "{square:?}");
+    assert!((one / square[0] - std::f64::consts::FRAC_1_PI).abs() < 4.0 * error, "{one}");
     assert!(two.abs() < 4.0 * error, "{two}");
 }
 
@@ -276,41 +237,23 @@ fn places_are_carried_with_the_velocity_there() {
 #[test]
 fn what_cannot_be_is_refused() {
     let said = |spec: OpenChannelSpec, area: Area, bed: Terrain| {
-        let spec = WaterSpec {
-            currents: vec![CurrentSpec::new(spec)],
-            ..WaterSpec::default()
-        };
+        let spec = WaterSpec { currents: vec![CurrentSpec::new(spec)], ..WaterSpec::default() };
         spec.build(&area, &bed, 1).unwrap_err().to_string()
     };
     let fine = channel_spec(0.05, 0.0);
-    let across = OpenChannelSpec {
-        heading_deg: HeadingDeg::new(30.0),
-        ..fine.clone()
-    };
+    let across = OpenChannelSpec { heading_deg: HeadingDeg::new(30.0), ..fine.clone() };
     let text = said(across, flume(2.5), BED);
-    assert!(text.contains("currents[0].heading_deg: an OpenChannel flows along the area's axis, 90 or 270 degrees, got 30"), "{text}");
+    assert!(
+        text.contains("currents[0].heading_deg: an OpenChannel flows along the area's axis, 90 or 270 degrees, got 30"),
+        "{text}"
+    );
     let text = said(channel_spec(0.005, 0.0), flume(2.5), BED);
-    assert!(
-        text.contains("currents[0].mean_m_s: gives a Reynolds number of 1000, must be >= 0.01"),
-        "{text}"
-    );
+    assert!(text.contains("currents[0].mean_m_s: gives a Reynolds number of 1000, must be >= 0.01"), "{text}");
     let text = said(channel_spec(0.05, 0.15), flume(2.5), BED);
-    assert!(
-        text.contains("roughness_m: must be >= 0 and at most 0.1"),
-        "{text}"
-    );
+    assert!(text.contains("roughness_m: must be >= 0 and at most 0.1"), "{text}");
     let text = said(fine.clone(), flume(2.5), Terrain::Level { depth_m: 0.6 });
     assert!(text.contains("2 to 20 times as wide as deep"), "{text}");
-    let coarse = OpenChannelSpec {
-        eddies: Some(EddiesSpec {
-            cells_a_depth: 4,
-            ..EddiesSpec::default()
-        }),
-        ..fine
-    };
+    let coarse = OpenChannelSpec { eddies: Some(EddiesSpec { cells_a_depth: 4, ..EddiesSpec::default() }), ..fine };
     let text = said(coarse, flume(2.5), BED);
-    assert!(
-        text.contains("eddies.cells_a_depth: must be from 8 to 32, got 4"),
-        "{text}"
-    );
+    assert!(text.contains("eddies.cells_a_depth: must be from 8 to 32, got 4"), "{text}");
 }

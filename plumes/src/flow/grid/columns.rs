@@ -45,10 +45,7 @@ impl FlowGrid {
             let k_h = self.column(flow, *column, work);
             (k_h, work.nodes.clone())
         };
-        let all: Vec<_> = columns
-            .par_iter()
-            .map_init(|| ColumnWork::new(nz), of)
-            .collect();
+        let all: Vec<_> = columns.par_iter().map_init(|| ColumnWork::new(nz), of).collect();
         for (&column, (k_h, nodes)) in columns.iter().zip(all) {
             self.k_h[column] = k_h;
             self.data[column * nz..(column + 1) * nz].copy_from_slice(&nodes);

@@ -20,11 +20,7 @@ pub(crate) struct LogLaw {
 
 impl LogLaw {
     pub(crate) fn new([roughness_m, top_m]: [f64; 2]) -> Self {
-        Self {
-            per_m: (1.0 / roughness_m) as f32,
-            top_m: top_m as f32,
-            least_top_m: (3.0 * roughness_m) as f32,
-        }
+        Self { per_m: (1.0 / roughness_m) as f32, top_m: top_m as f32, least_top_m: (3.0 * roughness_m) as f32 }
     }
 
     /// What a part of the lowest cell's height lacks to the part of the current above that flows there. The cell is

@@ -29,12 +29,7 @@ pub struct GridShape {
 
 impl Default for GridShape {
     fn default() -> Self {
-        Self {
-            cell_m: 20.0,
-            levels: 24,
-            stretch: 0.8,
-            margin_m: 50.0,
-        }
+        Self { cell_m: 20.0, levels: 24, stretch: 0.8, margin_m: 50.0 }
     }
 }
 
@@ -51,18 +46,14 @@ impl GridShape {
         if area.width_m >= 2.0 * usual.margin_m {
             return usual;
         }
-        Self {
-            cell_m: area.width_m / 6.0,
-            margin_m: area.width_m / 8.0,
-            ..usual
-        }
+        Self { cell_m: area.width_m / 6.0, margin_m: area.width_m / 8.0, ..usual }
     }
 
     /// Number of nodes along, across and upwards. These are `f64`, so that a number that is too large can be reported.
     #[must_use]
     pub fn nodes(&self, area: &Area) -> [f64; 3] {
-        let [along, across] = [area.length_m, area.width_m]
-            .map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
+        let [along, across] =
+            [area.length_m, area.width_m].map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
         [along, across, self.levels as f64]
     }
 
@@ -91,10 +82,7 @@ impl GridShape {
         }
         let wanted_m = scales.shortest_m / Self::CELLS_OF_WAVE;
         while self.cell_m > wanted_m {
-            let finer = Self {
-                cell_m: wanted_m.max(0.9 * self.cell_m),
-                ..self
-            };
+            let finer = Self { cell_m: wanted_m.max(0.9 * self.cell_m), ..self };
             if finer.nodes(area).iter().product::<f64>() > MOST_NODES {
                 break;
             }

@@ -30,18 +30,15 @@ impl<N: Number> LayeredColumn<'_, N> {
     #[must_use]
     pub fn velocity(&self, z: N) -> Vector2<N> {
         let n = self.of.u.len();
-        (0..n - 1).fold(self.u[n - 1], |u, i| {
-            u + (self.u[i] - self.u[i + 1]) * self.share(i, z)
-        })
+        (0..n - 1).fold(self.u[n - 1], |u, i| u + (self.u[i] - self.u[i + 1]) * self.share(i, z))
     }
 
     /// Density at a height, kg/m³: that of [`LayeredColumn::profile`], without the rest.
     #[must_use]
     pub fn density(&self, z: N) -> f64 {
         let rho = &self.of.density;
-        (0..rho.len() - 1).fold(rho[rho.len() - 1], |density, i| {
-            density + (rho[i] - rho[i + 1]) * self.share(i, z).value()
-        })
+        (0..rho.len() - 1)
+            .fold(rho[rho.len() - 1], |density, i| density + (rho[i] - rho[i + 1]) * self.share(i, z).value())
     }
 
     /// The layer-following surface through a height between floor and surface: linear between bed, interfaces and
@@ -55,11 +52,7 @@ impl<N: Number> LayeredColumn<'_, N> {
             }
             upper = *lower;
         }
-        let bed = Sheet {
-            z: floor.z,
-            slope: floor.slope,
-            rate: 0.0.into(),
-        };
+        let bed = Sheet { z: floor.z, slope: floor.slope, rate: 0.0.into() };
         between(&bed, &upper, z)
     }
 }
@@ -70,9 +63,7 @@ impl LayeredColumn<'_> {
     #[must_use]
     pub fn lid(&self) -> Option<f64> {
         let rho = &self.of.density;
-        let lowest = (0..self.of.faces.len())
-            .rev()
-            .find(|&i| rho[i] < rho[i + 1]);
+        let lowest = (0..self.of.faces.len()).rev().find(|&i| rho[i] < rho[i + 1]);
         lowest.map(|i| self.faces[i].z)
     }
 
@@ -80,21 +71,15 @@ impl LayeredColumn<'_> {
     pub(crate) fn stops(&self) -> impl Iterator<Item = (f64, f64)> {
         let rho = self.of.density.windows(2);
         let faces = self.faces().iter().zip(&self.of.faces).zip(rho);
-        faces
-            .filter(|(_, rho)| rho[0] < rho[1])
-            .map(|((sheet, face), _)| (sheet.z, face.thickness))
+        faces.filter(|(_, rho)| rho[0] < rho[1]).map(|((sheet, face), _)| (sheet.z, face.thickness))
     }
 
     /// Velocity, density and gradients at a height, m.
     #[must_use]
     pub fn profile(&self, z: f64) -> Profile {
         let n = self.of.u.len();
-        let mut p = Profile {
-            u: self.u[n - 1],
-            du_dz: Vector2::zeros(),
-            density: self.of.density[n - 1],
-            drho_dz: 0.0,
-        };
+        let mut p =
+            Profile { u: self.u[n - 1], du_dz: Vector2::zeros(), density: self.of.density[n - 1], drho_dz: 0.0 };
         for (i, face) in self.of.faces.iter().enumerate() {
             let share = self.share(i, z);
             let slope = 4.0 * share * (1.0 - share) / face.thickness;
@@ -111,9 +96,5 @@ impl LayeredColumn<'_> {
 
 fn between<N: Number>(lower: &Sheet<N>, upper: &Sheet<N>, z: N) -> Sheet<N> {
     let f = (z - lower.z) / (upper.z - lower.z);
-    Sheet {
-        z,
-        slope: lower.slope + (upper.slope - lower.slope) * f,
-        rate: lower.rate + (upper.rate - lower.rate) * f,
-    }
+    Sheet { z, slope: lower.slope + (upper.slope - lower.slope) * f, rate: lower.rate + (upper.rate - lower.rate) * f }
 }

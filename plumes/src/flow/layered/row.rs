@@ -42,24 +42,12 @@ impl CurrentParams for LayeredSpec {
     }
 
     fn scales(&self) -> CurrentScales {
-        let waves = || {
-            self.interfaces
-                .iter()
-                .flat_map(|i| &i.waves)
-                .filter(|w| w.amplitude_m.get() > 0.0)
-        };
+        let waves = || self.interfaces.iter().flat_map(|i| &i.waves).filter(|w| w.amplitude_m.get() > 0.0);
         CurrentScales {
-            shortest_m: waves()
-                .map(|w| w.length_m.get())
-                .fold(f64::INFINITY, f64::min),
-            shortest_s: waves()
-                .map(|w| w.period_s.get())
-                .fold(f64::INFINITY, f64::min),
+            shortest_m: waves().map(|w| w.length_m.get()).fold(f64::INFINITY, f64::min),
+            shortest_s: waves().map(|w| w.period_s.get()).fold(f64::INFINITY, f64::min),
             interfaces: (self.interfaces.iter())
-                .map(|i| InterfaceScale {
-                    depth_m: i.depth_m.get(),
-                    thickness_m: i.thickness_m.get(),
-                })
+                .map(|i| InterfaceScale { depth_m: i.depth_m.get(), thickness_m: i.thickness_m.get() })
                 .collect(),
         }
     }

@@ -4,12 +4,7 @@ use super::*;
 use world::units::Heading;
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::new(30.0, -20.0),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(35.0),
-    }
+    Area { centre: Vector2::new(30.0, -20.0), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(35.0) }
 }
 
 fn spec() -> MeanderSpec {
@@ -24,8 +19,7 @@ fn spec() -> MeanderSpec {
 
 fn build(spec: &MeanderSpec, seed: u64) -> Meander {
     let carrier = Vector2::new(0.2, 0.1);
-    spec.build("water.currents[0]", &area(), carrier, seed.into())
-        .unwrap()
+    spec.build("water.currents[0]", &area(), carrier, seed.into()).unwrap()
 }
 
 #[test]
@@ -47,10 +41,7 @@ fn does_not_depend_on_how_time_is_cut() {
 /// (1/24) and twist (1/36) in part; 4/9 in all.
 #[test]
 fn rms_is_that_of_the_corners_spread_inside() {
-    let stiff = MeanderSpec {
-        diffusivity_m2_s: Some(NonNegative::new(1e7)),
-        ..spec()
-    };
+    let stiff = MeanderSpec { diffusivity_m2_s: Some(NonNegative::new(1e7)), ..spec() };
     let (n, side, mut sum) = (400_u32, 5, 0.0);
     for seed in 0..n {
         let m = build(&stiff, u64::from(seed));
@@ -73,14 +64,8 @@ fn illegal_damping_and_grid_name_their_field() {
         let e = s.build("water.currents[2]", &area(), Vector2::zeros(), 1.into());
         e.unwrap_err().to_string()
     };
-    let over = MeanderSpec {
-        damping: Positive::new(1.5),
-        ..spec()
-    };
+    let over = MeanderSpec { damping: Positive::new(1.5), ..spec() };
     assert!(said(over).starts_with("water.currents[2].damping: must be > 0 and < 1"));
-    let fine = MeanderSpec {
-        cell_m: Positive::new(0.1),
-        ..spec()
-    };
+    let fine = MeanderSpec { cell_m: Positive::new(0.1), ..spec() };
     assert!(said(fine).starts_with("water.currents[2].cell_m: must be >= 1 "));
 }

@@ -78,13 +78,7 @@ impl Flow for Water {
         column.dissipation(p.z, column.friction_velocity())
     }
 
-    fn column(
-        &self,
-        place: Vector2<f64>,
-        heights_m: &[f64],
-        t_s: f64,
-        out: &mut [(Vector3<f64>, Mixing)],
-    ) {
+    fn column(&self, place: Vector2<f64>, heights_m: &[f64], t_s: f64, out: &mut [(Vector3<f64>, Mixing)]) {
         let column = Water::column(self, place, t_s);
         let u_star = column.friction_velocity();
         for (z, node) in heights_m.iter().zip(&mut *out) {
@@ -103,15 +97,9 @@ impl Flow for Water {
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         if let Some(blocked) = &self.blocked
-            && let Some((velocity, gradient, rate)) =
-                blocked.sample(p, &self.ground.floor(p.xy()), t_s)
+            && let Some((velocity, gradient, rate)) = blocked.sample(p, &self.ground.floor(p.xy()), t_s)
         {
-            let mut sample = WaterSample {
-                velocity,
-                gradient,
-                rate,
-                density_kg_m3: self.density(p, t_s),
-            };
+            let mut sample = WaterSample { velocity, gradient, rate, density_kg_m3: self.density(p, t_s) };
             if let Some(waves) = &self.waves {
                 waves.add_to(&mut sample, p, t_s);
             }

@@ -35,9 +35,7 @@ impl<N: Number> Column<'_, N> {
     /// Velocity at a height in the water, of which the layers are this part.
     fn velocity_in(&self, z: N, layered: Vector2<N>) -> Vector3<N> {
         let bed = self.water.bed;
-        let factor = bed.map_or(N::from(1.0), |bed| {
-            bed.factor(z - self.floor.z, -self.floor.z)
-        });
+        let factor = bed.map_or(N::from(1.0), |bed| bed.factor(z - self.floor.z, -self.floor.z));
         let mut u = (self.plane + layered) * factor;
         if let Some(flume) = &self.water.flume {
             u += times(flume.channel.along, flume.channel.speed(z - self.floor.z));
@@ -107,20 +105,12 @@ impl Column<'_> {
         let z = self.inside(z);
         let profile = self.profile(z);
         let profile = profile.as_ref();
-        (
-            self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u)),
-            self.mixing_in(z, u_star_m_s, profile),
-        )
+        (self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u)), self.mixing_in(z, u_star_m_s, profile))
     }
 
     /// Lets through interfaces that are thinner than the way between two heights no more than they do: between two heights
     /// with an interface between them, the diffusivity is that of both layers and the interface in series.
-    pub(super) fn keep_apart(
-        &self,
-        u_star_m_s: f64,
-        heights_m: &[f64],
-        out: &mut [(Vector3<f64>, Mixing)],
-    ) {
+    pub(super) fn keep_apart(&self, u_star_m_s: f64, heights_m: &[f64], out: &mut [(Vector3<f64>, Mixing)]) {
         for (z, thickness_m) in self.layers.iter().flat_map(LayeredColumn::stops) {
             let above = heights_m.partition_point(|h| *h < z);
             if above == 0 || above == heights_m.len() {
@@ -144,10 +134,8 @@ impl Column<'_> {
         let reach = self.layers.as_ref().and_then(LayeredColumn::lid);
         let reach = reach.map_or(depth, |lid| lid - self.floor.z);
         let flume = self.water.flume.as_ref();
-        let mut k_z = flume.map_or_else(
-            || mixing::parabolic(u_star_m_s, height, reach),
-            |flume| flume.vertical(height),
-        );
+        let mut k_z =
+            flume.map_or_else(|| mixing::parabolic(u_star_m_s, height, reach), |flume| flume.vertical(height));
         if let Some(waves) = &self.water.waves {
             k_z += waves.vertical(z);
         }

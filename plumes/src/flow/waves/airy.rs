@@ -59,13 +59,7 @@ pub(super) fn wave_number(omega: f64, depth_m: f64) -> f64 {
 }
 
 impl Airy {
-    pub(super) fn new(
-        amplitude_m: f64,
-        omega: f64,
-        along: Vector2<f64>,
-        phase: f64,
-        depth_m: f64,
-    ) -> Self {
+    pub(super) fn new(amplitude_m: f64, omega: f64, along: Vector2<f64>, phase: f64, depth_m: f64) -> Self {
         let k = wave_number(omega, depth_m);
         let e2 = math::exp(-2.0 * k * depth_m);
         Self {

@@ -99,9 +99,7 @@ impl Listed for WavesSpec {
 impl CurrentParams for WavesSpec {
     fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
         if water.waves.is_some() {
-            return place.wrong(
-                "only one Waves can move the surface; add the second one's trains to the first",
-            );
+            return place.wrong("only one Waves can move the surface; add the second one's trains to the first");
         }
         let depth_m = -water.ground.floor(place.area.centre).z;
         let waves = self.build(place.field, depth_m, place.seed)?;
@@ -143,28 +141,16 @@ impl WavesSpec {
     ///
     /// # Errors
     /// Names the field: no waves at all, too many, or so steep that they would break.
-    pub fn build(
-        &self,
-        field: &str,
-        depth_m: f64,
-        seed: impl Into<Seed>,
-    ) -> Result<Waves, PlumeError> {
+    pub fn build(&self, field: &str, depth_m: f64, seed: impl Into<Seed>) -> Result<Waves, PlumeError> {
         let seed = seed.into();
-        let bad = |sub: &str, problem: String| PlumeError::Invalid {
-            field: format!("{field}{sub}"),
-            problem,
-        };
+        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}{sub}"), problem };
         let steep = |sub: &str, height: f64, period: f64| {
             let k = wave_number(TAU / period, depth_m);
             let most = MICHE * TAU / k * math::tanh(k * depth_m);
             let problem = format!(
                 "must be > 0 and at most {most:.3} (waves of {period} s in {depth_m} m of water break beyond), got {height}"
             );
-            if height > most {
-                Err(bad(sub, problem))
-            } else {
-                Ok(k)
-            }
+            if height > most { Err(bad(sub, problem)) } else { Ok(k) }
         };
         let mut rng = Stream::new(seed, field, "wave phases");
         let mut waves = Vec::new();
@@ -201,20 +187,12 @@ impl WavesSpec {
         }
         let profile = (0..LEVELS).map(|n| {
             let z = depth_m * (n as f64 / (LEVELS - 1) as f64 - 1.0);
-            let drift = if self.stokes {
-                waves.iter().map(|w| w.drift(z)).sum()
-            } else {
-                Vector2::zeros()
-            };
+            let drift = if self.stokes { waves.iter().map(|w| w.drift(z)).sum() } else { Vector2::zeros() };
             let of = |(m0, t, k): &(f64, f64, f64)| 16.0 * m0 / t * math::exp(2.0 * k * z);
             let stirred = self.mixing.get() * systems.iter().map(of).sum::<f64>();
             (drift, stirred)
         });
-        Ok(Waves {
-            profile: profile.collect(),
-            depth: depth_m,
-            waves,
-        })
+        Ok(Waves { profile: profile.collect(), depth: depth_m, waves })
     }
 }
 

@@ -190,10 +190,7 @@ mod tests {
             for n in [1, 32] {
                 let mean = means(n, peakedness).iter().sum::<f64>() / n as f64;
                 // The published factors have three figures; the cut at four times the peak leaves out under 1 %.
-                assert!(
-                    (1.0 / mean / want - 1.0).abs() < 0.02,
-                    "{peakedness} {mean}"
-                );
+                assert!((1.0 / mean / want - 1.0).abs() < 0.02, "{peakedness} {mean}");
             }
         }
         let bins = means(32, 3.3);
@@ -205,10 +202,8 @@ mod tests {
     fn directions_spread_as_they_should() {
         let d = Directions::new(10.0);
         let n = 10_000;
-        let mean: f64 = (0..n)
-            .map(|i| math::cos(d.quantile((f64::from(i) + 0.5) / f64::from(n))))
-            .sum::<f64>()
-            / f64::from(n);
+        let mean: f64 =
+            (0..n).map(|i| math::cos(d.quantile((f64::from(i) + 0.5) / f64::from(n)))).sum::<f64>() / f64::from(n);
         assert!((mean - 10.0 / 11.0).abs() < 1e-4, "{mean}");
         assert!(d.quantile(0.5).abs() < 1e-9);
         // Thirty-two of them in golden steps are close to it, whatever the first.

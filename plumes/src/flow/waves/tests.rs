@@ -22,12 +22,7 @@ pub(crate) fn train(height: f64, period: f64, heading: f64) -> TrainSpec {
 }
 
 pub(crate) fn regular(trains: Vec<TrainSpec>) -> WavesSpec {
-    WavesSpec {
-        trains,
-        spectrum: None,
-        stokes: true,
-        mixing: NonNegative::new(0.028),
-    }
+    WavesSpec { trains, spectrum: None, stokes: true, mixing: NonNegative::new(0.028) }
 }
 
 fn wind_sea() -> WavesSpec {
@@ -88,10 +83,7 @@ fn gradient_and_rate_are_those_of_the_velocity() {
         let s = sample(&waves, &p, t);
         assert!((s.velocity - waves.velocity(&p, t)).norm() < 1e-15);
         let d = |e: Vector3<f64>, dt: f64| {
-            let (a, b) = (
-                waves.velocity(&(p + e), t + dt),
-                waves.velocity(&(p - e), t - dt),
-            );
+            let (a, b) = (waves.velocity(&(p + e), t + dt), waves.velocity(&(p - e), t - dt));
             (a - b) / (2.0 * H)
         };
         for j in 0..3 {
@@ -101,10 +93,7 @@ fn gradient_and_rate_are_those_of_the_velocity() {
         }
         assert!((d(Vector3::zeros(), H) - s.rate).norm() < 1e-6);
         let way = (waves.displacement(&p, t + H) - waves.displacement(&p, t - H)) / (2.0 * H);
-        assert!(
-            (way - s.velocity).norm() < 1e-6,
-            "the orbit's speed is not the water's"
-        );
+        assert!((way - s.velocity).norm() < 1e-6, "the orbit's speed is not the water's");
     }
 }
 
@@ -156,10 +145,7 @@ fn drift_carries_what_it_should() {
         // The profile's linear pieces add (k·depth/1023)²/3 of it.
         assert!((transport / want - 1.0).abs() < 1e-3, "{transport} {want}");
     }
-    let still = WavesSpec {
-        stokes: false,
-        ..wind_sea()
-    };
+    let still = WavesSpec { stokes: false, ..wind_sea() };
     let waves = still.build("w", DEPTH, 1).unwrap();
     assert_eq!(waves.drift(-0.1), Vector2::zeros());
 }
@@ -179,44 +165,27 @@ fn mixing_is_that_of_the_wave_height() {
 /// Over 3000 seas: the standard error of a variance is √(2/n) of it; four of these are 10 %.
 #[test]
 fn the_surface_has_the_variance_of_its_significant_height() {
-    let spec = WavesSpec {
-        trains: vec![],
-        ..wind_sea()
-    };
+    let spec = WavesSpec { trains: vec![], ..wind_sea() };
     let n = 3000;
     let mut sum = 0.0;
     for seed in 0..n {
         let waves = spec.build("w", DEPTH, seed).unwrap();
         assert!((waves.variance() / 0.01 - 1.0).abs() < 1e-12);
-        sum += waves
-            .displacement(&Vector3::new(3.0, 9.0, 0.0), 77.0)
-            .z
-            .powi(2);
+        sum += waves.displacement(&Vector3::new(3.0, 9.0, 0.0), 77.0).z.powi(2);
     }
     let ratio = sum / n as f64 / 0.01;
-    assert!(
-        (ratio - 1.0).abs() < 4.0 * (2.0 / n as f64).sqrt(),
-        "{ratio}"
-    );
+    assert!((ratio - 1.0).abs() < 4.0 * (2.0 / n as f64).sqrt(), "{ratio}");
 }
 
 #[test]
 fn a_sea_travels_where_it_should() {
     let waves = sea();
     assert_eq!(waves.waves().len(), 33);
-    let mean: Vector2<f64> = waves.waves()[1..]
-        .iter()
-        .map(Airy::along)
-        .sum::<Vector2<f64>>()
-        / 32.0;
+    let mean: Vector2<f64> = waves.waves()[1..].iter().map(Airy::along).sum::<Vector2<f64>>() / 32.0;
     // 60 degrees from north, reduced by the spread to 10/11; thirty-two directions leave a few per cent.
     let want = Vector2::new(math::sin(TAU / 6.0), math::cos(TAU / 6.0)) * (10.0 / 11.0);
     assert!((mean - want).norm() < 0.05, "{mean}");
-    assert!(
-        waves.waves()[1..]
-            .windows(2)
-            .all(|w| w[0].omega() < w[1].omega())
-    );
+    assert!(waves.waves()[1..].windows(2).all(|w| w[0].omega() < w[1].omega()));
 }
 
 #[test]
@@ -231,10 +200,7 @@ fn impossible_seas_are_refused() {
         "{steep}"
     );
     let none = said(regular(vec![]));
-    assert_eq!(
-        none,
-        "water.currents[2]: needs trains or a spectrum, got neither"
-    );
+    assert_eq!(none, "water.currents[2]: needs trains or a spectrum, got neither");
     let mut many = wind_sea();
     many.spectrum.as_mut().unwrap().components = 1000;
     assert!(said(many).contains(".spectrum.components: must be from 1 to 200, got 1000"));

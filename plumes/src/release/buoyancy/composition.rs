@@ -91,11 +91,7 @@ impl CompositionSpec {
         }
         // Of the equation of state, so that no difference remains when everything is mixed.
         let density_kg_m3 = seawater::density(salinity, around_c);
-        let around = Around {
-            density_kg_m3,
-            salinity,
-            temperature_c: around_c,
-        };
+        let around = Around { density_kg_m3, salinity, temperature_c: around_c };
         let mut litre = Litre {
             solutes: self.solutes.iter().map(|s| (s.what, s.g_l.get())).collect(),
             water_g: 0.0,
@@ -112,9 +108,7 @@ impl CompositionSpec {
                 );
                 return Err((format!("solutes[{n}].g_l"), problem));
             }
-            if self.solutes[..n].iter().any(|s| s.what == spec.what)
-                || self.neutral_with == Some(spec.what)
-            {
+            if self.solutes[..n].iter().any(|s| s.what == spec.what) || self.neutral_with == Some(spec.what) {
                 let problem = format!("{:?} is given twice; give it once", spec.what);
                 return Err((format!("solutes[{n}].what"), problem));
             }
@@ -124,8 +118,7 @@ impl CompositionSpec {
         }
         if !litre.fill() {
             let problem =
-                "the solutes alone fill more than a litre: their volumes must leave room for water"
-                    .to_owned();
+                "the solutes alone fill more than a litre: their volumes must leave room for water".to_owned();
             return Err(("solutes".into(), problem));
         }
         Ok((litre, around))
@@ -149,8 +142,7 @@ impl Litre {
 
     /// Volume of what is dissolved beside so much water, cm³; both are in `litres` of solution.
     fn dissolved_cm3(&self, water_g: f64, litres: f64) -> f64 {
-        let of =
-            |(solute, g): &(Solute, f64)| g * solute.volume_cm3_g(g / litres, water_g / litres);
+        let of = |(solute, g): &(Solute, f64)| g * solute.volume_cm3_g(g / litres, water_g / litres);
         self.solutes.iter().map(of).sum()
     }
 
@@ -165,11 +157,7 @@ impl Litre {
         let last = self.solutes.len() - 1;
         let mut excess = |g: f64| {
             self.solutes[last].1 = g;
-            if self.fill() {
-                self.mass_g() - density
-            } else {
-                f64::NAN
-            }
+            if self.fill() { self.mass_g() - density } else { f64::NAN }
         };
         let (mut low, mut high) = (0.0, solute.most_g_l());
         let (at_none, at_most) = (excess(1e-9), excess(high));
@@ -214,10 +202,7 @@ mod tests {
 
     fn brine(alcohol: Solute) -> (Litre, Around) {
         let spec = CompositionSpec {
-            solutes: vec![DissolvedSpec {
-                what: Solute::SodiumChloride,
-                g_l: Positive::new(47.0),
-            }],
+            solutes: vec![DissolvedSpec { what: Solute::SodiumChloride, g_l: Positive::new(47.0) }],
             neutral_with: Some(alcohol),
             ..CompositionSpec::default()
         };
@@ -229,16 +214,8 @@ mod tests {
     #[test]
     fn neutral_brine_is_light_once_it_is_mixed() {
         for (alcohol, g_l, want) in [
-            (
-                Solute::Propanol,
-                218.0,
-                [-0.97, -1.31, -0.71, -0.36, -0.14, -0.069],
-            ),
-            (
-                Solute::Ethanol,
-                213.0,
-                [-1.08, -1.01, -0.62, -0.34, -0.14, -0.072],
-            ),
+            (Solute::Propanol, 218.0, [-0.97, -1.31, -0.71, -0.36, -0.14, -0.069]),
+            (Solute::Ethanol, 213.0, [-1.08, -1.01, -0.62, -0.34, -0.14, -0.072]),
         ] {
             let (litre, around) = brine(alcohol);
             assert!((litre.solutes[1].1 / g_l - 1.0).abs() < 0.02, "{litre:?}");
@@ -274,46 +251,25 @@ mod tests {
         let (litre, around) = warm.litre(1026.95).expect("legal");
         // At 10 degrees and a salinity of 35, water expands by 1.67e-4 a degree.
         let last = litre.excess_g(&around, 1e4);
-        assert!(
-            (last / (-1.67e-4 * 20.0 * 1022.0) - 1.0).abs() < 0.03,
-            "{last}"
-        );
+        assert!((last / (-1.67e-4 * 20.0 * 1022.0) - 1.0).abs() < 0.03, "{last}");
     }
 
     #[test]
     fn what_cannot_be_made_is_refused() {
-        let of = |what, g_l| DissolvedSpec {
-            what,
-            g_l: Positive::new(g_l),
-        };
+        let of = |what, g_l| DissolvedSpec { what, g_l: Positive::new(g_l) };
         let refused = |spec: CompositionSpec, density: f64| {
             let (field, problem) = spec.litre(density).expect_err("impossible");
             format!("{field}: {problem}")
         };
-        let with = |solutes, neutral_with| CompositionSpec {
-            solutes,
-            neutral_with,
-            ..Default::default()
-        };
+        let with = |solutes, neutral_with| CompositionSpec { solutes, neutral_with, ..Default::default() };
         assert!(
             refused(with(vec![of(Solute::Propanol, 500.0)], None), 998.2)
                 .starts_with("solutes[0].g_l: must be at most 280")
         );
-        assert!(
-            refused(
-                with(vec![of(Solute::Dye, 1.0), of(Solute::Dye, 1.0)], None),
-                998.2
-            )
-            .contains("given twice")
-        );
-        assert!(
-            refused(with(vec![], Some(Solute::SodiumChloride)), 998.2).contains("no amount of")
-        );
+        assert!(refused(with(vec![of(Solute::Dye, 1.0), of(Solute::Dye, 1.0)], None), 998.2).contains("given twice"));
+        assert!(refused(with(vec![], Some(Solute::SodiumChloride)), 998.2).contains("no amount of"));
         assert!(refused(with(vec![], None), 1100.0).starts_with("around_c: "));
-        let full = with(
-            vec![of(Solute::Ethanol, 600.0), of(Solute::Propanol, 280.0)],
-            None,
-        );
+        let full = with(vec![of(Solute::Ethanol, 600.0), of(Solute::Propanol, 280.0)], None);
         assert!(refused(full, 998.2).contains("more than a litre"));
     }
 }

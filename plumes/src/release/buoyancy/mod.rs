@@ -69,18 +69,14 @@ impl BuoyancySpec {
     pub fn curve(&self, density_kg_m3: f64) -> Result<Option<Curve>, (String, String)> {
         match self {
             Self::Neutral => Ok(None),
-            Self::Excess(excess) => Ok(Some(Curve {
-                lifts: vec![-GRAVITY_M_S2 * excess.get() / density_kg_m3],
-            })),
+            Self::Excess(excess) => Ok(Some(Curve { lifts: vec![-GRAVITY_M_S2 * excess.get() / density_kg_m3] })),
             Self::Composition(spec) => {
                 let (litre, around) = spec.litre(density_kg_m3)?;
                 let lift = |n: usize| {
                     let dilution = math::exp(n as f64 * Curve::STEP);
                     -GRAVITY_M_S2 * litre.excess_g(&around, dilution) / around.density_kg_m3
                 };
-                Ok(Some(Curve {
-                    lifts: (0..Curve::COUNT).map(lift).collect(),
-                }))
+                Ok(Some(Curve { lifts: (0..Curve::COUNT).map(lift).collect() }))
             }
         }
     }

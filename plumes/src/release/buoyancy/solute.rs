@@ -43,12 +43,7 @@ const PROPANOL: [(f64, f64); 9] = [
 
 impl Solute {
     /// All of them.
-    pub const ALL: [Self; 4] = [
-        Self::SodiumChloride,
-        Self::Propanol,
-        Self::Ethanol,
-        Self::Dye,
-    ];
+    pub const ALL: [Self; 4] = [Self::SodiumChloride, Self::Propanol, Self::Ethanol, Self::Dye];
 
     /// Most of it in a litre of solution, g: the end of its table.
     pub(super) const fn most_g_l(self) -> f64 {

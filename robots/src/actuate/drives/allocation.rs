@@ -44,12 +44,7 @@ impl Allocation {
     pub fn new(arms: &[Vector6<f64>], limits: Vec<[f64; 2]>, weights: Vector6<f64>) -> Self {
         let weighted = DMatrix::from_fn(6, arms.len(), |i, j| weights[i] * arms[j][i]);
         let gamma = SMALL * weighted.norm_squared().max(1e-12);
-        Self {
-            weighted,
-            weights,
-            limits,
-            gamma,
-        }
+        Self { weighted, weights, limits, gamma }
     }
 
     /// The thrusts whose force and moment come nearest to what is wanted.
@@ -73,8 +68,7 @@ impl Allocation {
                 continue;
             }
             // Gradient of the sum of squares: at an upper limit it must fall, at a lower one rise.
-            let gradient = self.weighted.transpose() * (&self.weighted * &thrusts - &target)
-                + &thrusts * self.gamma;
+            let gradient = self.weighted.transpose() * (&self.weighted * &thrusts - &target) + &thrusts * self.gamma;
             let wrong = (0..n)
                 .map(|k| (k, gradient[k] * f64::from(held[k])))
                 .filter(|(_, g)| *g > 1e-9 * self.gamma.max(1.0))
@@ -85,14 +79,10 @@ impl Allocation {
             }
         }
         let limits = self.limits.iter();
-        let thrusts_n: Vec<f64> = (thrusts.iter().zip(limits))
-            .map(|(f, [least, most])| f.clamp(*least, *most))
-            .collect();
+        let thrusts_n: Vec<f64> =
+            (thrusts.iter().zip(limits)).map(|(f, [least, most])| f.clamp(*least, *most)).collect();
         let saturated = held.iter().any(|h| *h != 0);
-        Allotted {
-            thrusts_n,
-            saturated,
-        }
+        Allotted { thrusts_n, saturated }
     }
 
     /// Least squares of the free ones, with the others at their limits.
@@ -110,10 +100,7 @@ impl Allocation {
         let B = DMatrix::from_fn(6, free.len(), |i, j| self.weighted[(i, free[j])]);
         let normal = B.transpose() * &B + DMatrix::identity(free.len(), free.len()) * self.gamma;
         let right = B.transpose() * rest;
-        let solution = normal
-            .cholesky()
-            .expect("a sum of squares and a positive diagonal")
-            .solve(&right);
+        let solution = normal.cholesky().expect("a sum of squares and a positive diagonal").solve(&right);
         for (j, k) in free.into_iter().enumerate() {
             thrusts[k] = solution[j];
         }
@@ -129,14 +116,9 @@ mod tests {
     /// Four thrusters at the corners of a square, at 45 degrees: surge, sway and yaw.
     fn square() -> Vec<Vector6<f64>> {
         let s = 0.5f64.sqrt();
-        [
-            (0.15, -0.11, s, s),
-            (0.15, 0.11, s, -s),
-            (-0.15, -0.11, -s, s),
-            (-0.15, 0.11, -s, -s),
-        ]
-        .map(|(x, y, fx, fy)| Vector6::new(fx, fy, 0.0, 0.0, 0.0, x * fy - y * fx))
-        .to_vec()
+        [(0.15, -0.11, s, s), (0.15, 0.11, s, -s), (-0.15, -0.11, -s, s), (-0.15, 0.11, -s, -s)]
+            .map(|(x, y, fx, fy)| Vector6::new(fx, fy, 0.0, 0.0, 0.0, x * fy - y * fx))
+            .to_vec()
     }
 
     fn cost(a: &Allocation, wanted: &Vector6<f64>, f: &[f64]) -> f64 {

@@ -39,12 +39,7 @@ impl GliderPilot {
     /// From what is known of the vehicle; it begins downwards.
     #[must_use]
     pub fn new(plant: &Plant, spec: &GliderSpec) -> Self {
-        Self {
-            spec: spec.clone(),
-            plant: plant.clone(),
-            down: true,
-            sum: 0.0,
-        }
+        Self { spec: spec.clone(), plant: plant.clone(), down: true, sum: 0.0 }
     }
 
     /// Set-points of all drives for the coming `dt_s`.
@@ -68,8 +63,7 @@ impl GliderPilot {
         };
         let most = s.heading_rate_deg_s.get().to_radians();
         let helm = RUDDER_S * (turn.clamp(-most, most) - e.attitude.rates_rad_s.z);
-        let volume =
-            |k: usize| way * s.volume_share.get().min(1.0) * self.plant.drives[k].limits[1];
+        let volume = |k: usize| way * s.volume_share.get().min(1.0) * self.plant.drives[k].limits[1];
         let engine: Vector3<f64> = (self.plant.drives.iter().enumerate())
             .map(|(k, d)| match d.does {
                 Does::Swells(at) => at * volume(k),
@@ -86,13 +80,10 @@ impl GliderPilot {
                     let righting = self.plant.righting_n_m;
                     let lift = SEA_WATER_KG_M3 * GRAVITY_M_S2 * engine.x;
                     // A mass ahead puts the nose down.
-                    let x = (lift - righting * sin / cos) / weight
-                        - righting / weight / TRIM_S * self.sum;
+                    let x = (lift - righting * sin / cos) / weight - righting / weight / TRIM_S * self.sum;
                     (x * way.x.signum()).clamp(least, most)
                 }
-                Does::Lifts(arm) if arm[5].abs() > arm[4].abs() => {
-                    (helm * arm[5].signum()).clamp(least, most)
-                }
+                Does::Lifts(arm) if arm[5].abs() > arm[4].abs() => (helm * arm[5].signum()).clamp(least, most),
                 Does::Lifts(_) | Does::Pushes(..) => d.idle,
             }
         });

@@ -22,8 +22,7 @@
 
 use super::allocation::Allocation;
 use crate::handoff::{
-    Command, Does, DriveCommand, Estimate, MoveSetpoint, Plant, Setpoint, ThrustTable,
-    ThrustersSpec, Vertical,
+    Command, Does, DriveCommand, Estimate, MoveSetpoint, Plant, Setpoint, ThrustTable, ThrustersSpec, Vertical,
 };
 use nalgebra::{UnitQuaternion, Vector2, Vector3, Vector6};
 
@@ -64,11 +63,7 @@ impl ThrusterPilot {
         let longest = longest.fold(1e-3, f64::max);
         let weights = Vector6::from_fn(|k, _| {
             let unit = if k < 3 { 1.0 } else { longest };
-            if plant.pushes[k] {
-                IMPORTANCE[k] / unit
-            } else {
-                0.0
-            }
+            if plant.pushes[k] { IMPORTANCE[k] / unit } else { 0.0 }
         });
         Self {
             allocation: Allocation::new(&arms, limits, weights),
@@ -102,42 +97,19 @@ impl ThrusterPilot {
                 let share = |of: f64, full: f64| (of / full).clamp(-1.0, 1.0);
                 let ahead = share(table.rpm, FULL_RPM) * s.speed_m_s.get();
                 let rate = -share(table.rudder_rad, FULL_RAD) * s.turn_deg_s.get().to_radians();
-                (
-                    Vector2::new(ahead + water_ahead, water_left),
-                    Turn::Rate(rate),
-                    0.0,
-                )
+                (Vector2::new(ahead + water_ahead, water_left), Turn::Rate(rate), 0.0)
             }
-            Command::Steer(Setpoint {
-                heading,
-                water_speed_m_s,
-                vertical,
-            }) => (
+            Command::Steer(Setpoint { heading, water_speed_m_s, vertical }) => (
                 Vector2::new(water_speed_m_s + water_ahead, water_left),
                 Turn::To(-e.attitude.heading.turn_to(*heading)),
                 climb(*vertical),
             ),
-            Command::Move(MoveSetpoint {
-                heading,
-                over_ground_m_s,
-                vertical,
-            }) => {
+            Command::Move(MoveSetpoint { heading, over_ground_m_s, vertical }) => {
                 let (ahead, left) = in_body(e, over_ground_m_s);
-                (
-                    Vector2::new(ahead, left),
-                    Turn::To(-e.attitude.heading.turn_to(*heading)),
-                    climb(*vertical),
-                )
+                (Vector2::new(ahead, left), Turn::To(-e.attitude.heading.turn_to(*heading)), climb(*vertical))
             }
         };
-        let tau = self.force(
-            e,
-            wanted,
-            Vector2::new(water_ahead, water_left),
-            turn,
-            up,
-            dt_s,
-        );
+        let tau = self.force(e, wanted, Vector2::new(water_ahead, water_left), turn, up, dt_s);
         let allotted = self.allocation.share(&tau);
         self.saturated = allotted.saturated;
         let mut set: Vec<f64> = self.plant.drives.iter().map(|d| d.idle).collect();
@@ -171,23 +143,12 @@ impl ThrusterPilot {
             Turn::Rate(rate) => rate,
         };
         let rates = e.attitude.rates_rad_s;
-        let tilt =
-            UnitQuaternion::from_euler_angles(e.attitude.roll_rad, -e.attitude.pitch_rad, 0.0);
+        let tilt = UnitQuaternion::from_euler_angles(e.attitude.roll_rad, -e.attitude.pitch_rad, 0.0);
         // Velocity in level axes that turn with the heading.
         let v = tilt * e.v_ground_body;
-        let errors = [
-            ahead + water.x - v.x,
-            left + water.y - v.y,
-            climb - v.z,
-            rate - rates.z,
-        ];
+        let errors = [ahead + water.x - v.x, left + water.y - v.y, climb - v.z, rate - rates.z];
         let lags = [lag_s, lag_s, lag_s, 0.5 / loop_rad_s];
-        let most = [
-            s.speed_m_s.get(),
-            s.sideways_m_s.get(),
-            climb_most,
-            turn_most,
-        ];
+        let most = [s.speed_m_s.get(), s.sideways_m_s.get(), climb_most, turn_most];
         let mut a = [0.0; 4];
         for k in 0..4 {
             let trim = TRIM * most[k] * 4.0 * lags[k];

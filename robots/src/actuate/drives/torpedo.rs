@@ -10,9 +10,7 @@
 
 use super::super::autopilot::Autopilot;
 use super::torpedo_gains::{FULL_RPM, gains};
-use crate::handoff::{
-    Command, Does, DriveCommand, Estimate, Plant, Setpoint, ThrustTable, TorpedoSpec,
-};
+use crate::handoff::{Command, Does, DriveCommand, Estimate, Plant, Setpoint, ThrustTable, TorpedoSpec};
 
 /// A fin's part of the mix.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,9 +40,7 @@ impl TorpedoPilot {
             Does::Lifts(arm) => Some(*arm),
             _ => None,
         });
-        let (yaw, pitch) = arms.fold((1e-12f64, 1e-12f64), |(y, p), arm| {
-            (y.max(arm[5].abs()), p.max(arm[4].abs()))
-        });
+        let (yaw, pitch) = arms.fold((1e-12f64, 1e-12f64), |(y, p), arm| (y.max(arm[5].abs()), p.max(arm[4].abs())));
         let mut fins = Vec::new();
         let mut propellers = Vec::new();
         for (k, drive) in plant.drives.iter().enumerate() {
@@ -74,10 +70,9 @@ impl TorpedoPilot {
     /// Set-points of all drives for the coming `dt_s`.
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> DriveCommand {
         let command = match *command {
-            Command::Steer(set) => Command::Steer(Setpoint {
-                water_speed_m_s: set.water_speed_m_s.max(self.least_m_s),
-                ..set
-            }),
+            Command::Steer(set) => {
+                Command::Steer(Setpoint { water_speed_m_s: set.water_speed_m_s.max(self.least_m_s), ..set })
+            }
             other => other,
         };
         let asked = self.autopilot.step(&command, estimate, dt_s);
@@ -90,11 +85,7 @@ impl TorpedoPilot {
         for (k, way, table) in &self.propellers {
             let [astern, ahead] = table.thrusts_n();
             let push = way * share * share.abs();
-            set[*k] = table.input(if push < 0.0 {
-                -push * astern
-            } else {
-                push * ahead
-            });
+            set[*k] = table.input(if push < 0.0 { -push * astern } else { push * ahead });
         }
         DriveCommand::new(&set)
     }

@@ -88,10 +88,7 @@ fn turning(plant: &Plant, u: f64, yaw: &Vector6<f64>) -> f64 {
     for _ in 0..20 {
         let now = rest(v, rudder);
         let h = 1e-6;
-        let jacobian = Matrix2::from_columns(&[
-            (rest(v + h, rudder) - now) / h,
-            (rest(v, rudder + h) - now) / h,
-        ]);
+        let jacobian = Matrix2::from_columns(&[(rest(v + h, rudder) - now) / h, (rest(v, rudder + h) - now) / h]);
         let Some(step) = jacobian.lu().solve(&now) else {
             return 0.0;
         };

@@ -3,10 +3,7 @@ use crate::handoff::testing::{area, seen};
 use proptest::prelude::*;
 
 fn memory(up_deg: Option<f64>) -> PlumeMemory {
-    PlumeMemory {
-        up_flow: up_deg.map(Heading::from_deg),
-        ..PlumeMemory::default()
-    }
+    PlumeMemory { up_flow: up_deg.map(Heading::from_deg), ..PlumeMemory::default() }
 }
 
 fn zigzag() -> ZigZag {
@@ -71,16 +68,12 @@ fn waits_for_the_flow_on_its_heading_reflected_at_edges() {
 
 #[test]
 fn the_corner_comes_first_when_asked_for() {
-    let params = Params {
-        start: From::DownFlowCorner,
-        ..Params::default()
-    };
+    let params = Params { start: From::DownFlowCorner, ..Params::default() };
     let (mut z, mut m) = (ZigZag::new(&params).expect("legal"), memory(Some(10.0)));
     let mut rng = Stream::new(1, "t", "find");
     let o = seen(0.0, Vector2::zeros(), 0.0, None);
     // Up-flow 10 degrees: the south-west corner lies farthest down-flow.
-    let Stride::Start(Manoeuvre::GoToPoint { point, .. }) = z.step(&o, false, &mut m, &mut rng)
-    else {
+    let Stride::Start(Manoeuvre::GoToPoint { point, .. }) = z.step(&o, false, &mut m, &mut rng) else {
         panic!("goes to the corner first");
     };
     assert!((point - Vector2::new(-180.0, -280.0)).norm() < 1e-6);

@@ -27,13 +27,7 @@ pub(super) struct Arc {
 impl Arc {
     pub(super) fn new(start: Pose, turn: f64, radius_m: f64) -> Self {
         let centre = start.position + side(start.heading, turn) * radius_m;
-        Self {
-            start,
-            turn,
-            radius_m,
-            centre,
-            outward: Heading::of(start.position - centre),
-        }
+        Self { start, turn, radius_m, centre, outward: Heading::of(start.position - centre) }
     }
 
     /// Direction of motion after `s_m` metres.
@@ -44,10 +38,7 @@ impl Arc {
     /// Pose after `s_m` metres.
     pub(super) fn at(&self, s_m: f64) -> Pose {
         let heading = self.heading(s_m);
-        Pose {
-            position: self.centre + side(heading, self.turn).scale(-self.radius_m),
-            heading,
-        }
+        Pose { position: self.centre + side(heading, self.turn).scale(-self.radius_m), heading }
     }
 
     /// Length along it, if it is `length_m` long, from its start to the point nearest to `p`, in [0, circumference), m.
@@ -56,11 +47,7 @@ impl Arc {
         let s = wrap_tau(self.turn * (to.rad() - self.outward.rad())) * self.radius_m;
         // Just behind the start is behind, not a whole circle ahead.
         let behind = s - TAU * self.radius_m;
-        if s > length_m && -behind < s - length_m {
-            behind
-        } else {
-            s
-        }
+        if s > length_m && -behind < s - length_m { behind } else { s }
     }
 }
 

@@ -49,12 +49,7 @@ pub(in crate::guide) struct Follower {
 impl Follower {
     /// Plans the first path.
     #[must_use]
-    pub(in crate::guide) fn new(
-        from: Pose,
-        end: Pose,
-        speed_m_s: f64,
-        limits: FollowerLimits,
-    ) -> Self {
+    pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, limits: FollowerLimits) -> Self {
         let path = DubinsPath::shortest(from, end, limits.radius_m);
         Self {
             end,
@@ -78,10 +73,7 @@ impl Follower {
         let before = (self.s_m, self.foot);
         (self.s_m, self.foot) = (self.path).nearest(position, before, self.s_m + WINDOW_M);
         if (self.foot.position - position).norm() > self.limits.replan_m {
-            let at = Pose {
-                position,
-                heading: moving(),
-            };
+            let at = Pose { position, heading: moving() };
             self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
             self.s_m = 0.0;
             self.foot = self.path.at(0.0);
@@ -95,10 +87,7 @@ impl Follower {
 
     /// Distance from the path, positive to its left, m.
     fn off_m(&self, position: Vector2<f64>) -> f64 {
-        let (v, a) = (
-            position - self.foot.position,
-            self.path.unit(self.foot.heading),
-        );
+        let (v, a) = (position - self.foot.position, self.path.unit(self.foot.heading));
         a.x * v.y - a.y * v.x
     }
 }
@@ -110,12 +99,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_4;
 
     fn limits() -> FollowerLimits {
-        FollowerLimits {
-            radius_m: 15.0,
-            gain_rad_m: 5f64.to_radians(),
-            capture_rad: FRAC_PI_4,
-            replan_m: 8.0,
-        }
+        FollowerLimits { radius_m: 15.0, gain_rad_m: 5f64.to_radians(), capture_rad: FRAC_PI_4, replan_m: 8.0 }
     }
 
     /// Drives a vehicle limited to 10 deg/s at 2 m/s; returns (pose at the end, steps, finished).
@@ -133,9 +117,7 @@ mod tests {
                 return (at, k, true);
             }
             let most = 10f64.to_radians() * 0.1;
-            at.heading = at
-                .heading
-                .turned(at.heading.turn_to(want).clamp(-most, most));
+            at.heading = at.heading.turned(at.heading.turn_to(want).clamp(-most, most));
             at.position += at.heading.unit() * 0.2;
         }
         (at, 20_000, false)

@@ -52,8 +52,10 @@ impl DubinsPath {
                 }
             }
         }
-        best.expect("a path turning the same way twice exists between any two poses; a non-finite pose was given: \
-            check the estimate")
+        best.expect(
+            "a path turning the same way twice exists between any two poses; a non-finite pose was given: \
+            check the estimate",
+        )
     }
 
     fn candidate(start: Pose, end: Pose, radius_m: f64, turns: [f64; 2]) -> Option<Self> {
@@ -65,11 +67,7 @@ impl DubinsPath {
         }
         let (straight_m, course) = if turns[0] == turns[1] {
             // Outer tangent; concentric circles need no straight.
-            let course = if distance_m < 1e-9 {
-                start.heading
-            } else {
-                Heading::of(between)
-            };
+            let course = if distance_m < 1e-9 { start.heading } else { Heading::of(between) };
             (distance_m, course)
         } else {
             if distance_m < 2.0 * radius_m {
@@ -78,10 +76,7 @@ impl DubinsPath {
             // Inner tangent: leans from the line of centres by asin(2r / d), to the side of the first turn.
             let lean = math::asin((2.0 * radius_m / distance_m).min(1.0));
             let straight = (distance_m * distance_m - 4.0 * radius_m * radius_m).max(0.0);
-            (
-                straight.sqrt(),
-                Heading::of(between).turned(turns[0] * lean),
-            )
+            (straight.sqrt(), Heading::of(between).turned(turns[0] * lean))
         };
         let swept = |from: Heading, to: Heading, turn: f64| {
             let angle = wrap_tau(turn * (to.rad() - from.rad()));
@@ -94,18 +89,9 @@ impl DubinsPath {
             swept(course, end.heading, turns[1]) * radius_m,
         ];
         let (leave, along) = (first.at(lengths_m[0]), course.unit());
-        let enter = Pose {
-            position: leave.position + along * straight_m,
-            heading: course,
-        };
-        let mut path = Self {
-            arcs: [first, Arc::new(enter, turns[1], radius_m)],
-            lengths_m,
-            leave,
-            course,
-            along,
-            end: enter,
-        };
+        let enter = Pose { position: leave.position + along * straight_m, heading: course };
+        let mut path =
+            Self { arcs: [first, Arc::new(enter, turns[1], radius_m)], lengths_m, leave, course, along, end: enter };
         path.end = path.at(path.length_m());
         Some(path)
     }
@@ -124,10 +110,7 @@ impl DubinsPath {
         if s <= a {
             self.arcs[0].at(s)
         } else if s <= a + b {
-            Pose {
-                position: self.leave.position + self.along * (s - a),
-                heading: self.course,
-            }
+            Pose { position: self.leave.position + self.along * (s - a), heading: self.course }
         } else {
             self.arcs[1].at(s - a - b)
         }
@@ -150,11 +133,7 @@ impl DubinsPath {
     /// Unit vector of a direction of the path (east, north).
     #[must_use]
     pub fn unit(&self, heading: Heading) -> Vector2<f64> {
-        if heading == self.course {
-            self.along
-        } else {
-            heading.unit()
-        }
+        if heading == self.course { self.along } else { heading.unit() }
     }
 
     /// Place along the path, m, between `from_m` and `to_m`, that is nearest to `p`, and the pose there. `from` is the
@@ -204,10 +183,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn pose(east: f64, north: f64, deg: f64) -> Pose {
-        Pose {
-            position: Vector2::new(east, north),
-            heading: Heading::from_deg(deg),
-        }
+        Pose { position: Vector2::new(east, north), heading: Heading::from_deg(deg) }
     }
 
     /// The nearest place by all feet and all ends.

@@ -7,12 +7,7 @@ use proptest::prelude::*;
 const DT_S: f64 = 0.1;
 
 fn goal(id: u32, manoeuvre: Manoeuvre) -> Goal {
-    Goal {
-        id,
-        manoeuvre,
-        vertical: Vertical::Altitude(2.0),
-        speed_m_s: 1.5,
-    }
+    Goal { id, manoeuvre, vertical: Vertical::Altitude(2.0), speed_m_s: 1.5 }
 }
 
 /// A point vehicle that follows commands at once, in a steady flow that it knows.
@@ -41,10 +36,7 @@ impl Boat {
         self.est.attitude.heading = heading;
         self.est.v_ground_body.x = v.dot(&heading.unit());
         self.est.v_ground_body.y = -v.dot(&right);
-        self.est.flow = Some(FlowEstimate {
-            velocity: self.flow,
-            age_s: 0.0,
-        });
+        self.est.flow = Some(FlowEstimate { velocity: self.flow, age_s: 0.0 });
     }
 
     fn step(&mut self, goal: &Goal) -> GuidanceStatus {
@@ -69,12 +61,7 @@ impl Boat {
 #[test]
 fn a_course_is_made_good_over_ground_in_a_cross_flow() {
     let mut b = Boat::new(Vector2::zeros(), 40.0, Vector2::new(0.3, 0.1));
-    let g = goal(
-        1,
-        Manoeuvre::Course {
-            course: Heading::from_deg(350.0),
-        },
-    );
+    let g = goal(1, Manoeuvre::Course { course: Heading::from_deg(350.0) });
     for _ in 0..200 {
         assert!(!b.step(&g).done);
     }
@@ -109,10 +96,7 @@ fn a_line_is_entered_with_its_heading_and_left_at_its_end() {
 fn aside(guidance: Guidance) -> f64 {
     let mut boat = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());
     boat.guidance = guidance;
-    let round = Manoeuvre::GoToPointWithHeading {
-        point: Vector2::new(0.0, -150.0),
-        heading: Heading::from_deg(180.0),
-    };
+    let round = Manoeuvre::GoToPointWithHeading { point: Vector2::new(0.0, -150.0), heading: Heading::from_deg(180.0) };
     let (goal, mut most) = (goal(1, round), 0.0f64);
     for _ in 0..4000 {
         if boat.step(&goal).done {
@@ -139,13 +123,7 @@ fn a_new_id_starts_afresh_and_an_old_one_stays_done() {
     let mut b = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());
     let there = |id, north| {
         let point = Vector2::new(0.0, north);
-        goal(
-            id,
-            Manoeuvre::GoToPoint {
-                point,
-                radius_m: Some(5.0),
-            },
-        )
+        goal(id, Manoeuvre::GoToPoint { point, radius_m: Some(5.0) })
     };
     assert!(b.run(&there(1, 30.0), 60.0));
     let status = b.step(&there(1, 30.0));
@@ -159,37 +137,17 @@ fn direct_goes_straight_through() {
     let mut g = Guidance::new(&GuidanceSpec::default());
     // Far outside: nothing stands between table and actuators.
     let est = seen(0.0, Vector2::new(900.0, 0.0), 0.0, None).estimate;
-    let direct = Manoeuvre::Direct {
-        rudder_rad: 0.1,
-        stern_rad: -0.2,
-        rpm: 1500.0,
-    };
+    let direct = Manoeuvre::Direct { rudder_rad: 0.1, stern_rad: -0.2, rpm: 1500.0 };
     let (command, status) = g.step(&est, &goal(3, direct), &area(), DT_S);
-    let want = ActuatorCommand {
-        rudder_rad: 0.1,
-        stern_rad: -0.2,
-        rpm: 1500.0,
-    };
+    let want = ActuatorCommand { rudder_rad: 0.1, stern_rad: -0.2, rpm: 1500.0 };
     assert_eq!(command, Command::Direct(want));
-    assert_eq!(
-        status,
-        GuidanceStatus {
-            goal_id: 3,
-            done: false,
-            aborted: false
-        }
-    );
+    assert_eq!(status, GuidanceStatus { goal_id: 3, done: false, aborted: false });
 }
 
 #[test]
 fn aborted_far_outside_and_for_good() {
     let mut g = Guidance::new(&GuidanceSpec::default());
-    let course = goal(
-        1,
-        Manoeuvre::Course {
-            course: Heading::from_deg(90.0),
-        },
-    );
+    let course = goal(1, Manoeuvre::Course { course: Heading::from_deg(90.0) });
     let mut at = |east: f64| {
         let est = seen(0.0, Vector2::new(east, 0.0), 90.0, None).estimate;
         g.step(&est, &course, &area(), DT_S).1.aborted

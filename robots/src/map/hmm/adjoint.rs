@@ -90,9 +90,7 @@ impl Hmm {
                     }
                 }
             }
-            let peaks = mean
-                .iter()
-                .map(|row| row.iter().fold(0.0, |m: f64, v| m.max(*v)));
+            let peaks = mean.iter().map(|row| row.iter().fold(0.0, |m: f64, v| m.max(*v)));
             if peaks.product::<f64>() < GONE {
                 break;
             }

@@ -110,10 +110,7 @@ impl Listed for HmmSpec {
 impl MapParams for HmmSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
         Alternatives::around(&self.doubt, |doubt| {
-            let spec = Self {
-                doubt: doubt.clone(),
-                ..self.clone()
-            };
+            let spec = Self { doubt: doubt.clone(), ..self.clone() };
             Ok(Box::new(Hmm::new(&spec, self.grid.build(area)?)?))
         })
     }
@@ -169,10 +166,7 @@ impl Hmm {
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
         spec.trajectory.holds("step_s", step_s)?;
         if h < step_s {
-            return Err(invalid(
-                "step_s",
-                &format!("must be at most trajectory.lookback_s, {h}, got {step_s}"),
-            ));
+            return Err(invalid("step_s", &format!("must be at most trajectory.lookback_s, {h}, got {step_s}")));
         }
         if spec.walk_steps > MOST_WALK {
             let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
@@ -180,25 +174,14 @@ impl Hmm {
         }
         let trajectory = &spec.trajectory;
         // The chain's steps are independent: a lasting error of the flow spreads odour as it does in the long run.
-        let strayed = 2.0
-            * trajectory.flow_error_m_s.get()
-            * trajectory.flow_error_m_s.get()
-            * trajectory.flow_error_s.get();
+        let strayed =
+            2.0 * trajectory.flow_error_m_s.get() * trajectory.flow_error_m_s.get() * trajectory.flow_error_s.get();
         let [x, y, z] = trajectory.sigmas();
         let sigmas = [(x * x + strayed).sqrt(), (y * y + strayed).sqrt(), z];
-        let with = Workings::new(
-            grid,
-            trajectory,
-            [step_s; 2],
-            spec.false_detection,
-            &spec.doubt,
-            spec.grid.places,
-        )?;
+        let with = Workings::new(grid, trajectory, [step_s; 2], spec.false_detection, &spec.doubt, spec.grid.places)?;
         if with.places > 1 && spec.odour_every_s.is_some() {
-            let problem = format!(
-                "must not be given with grid.places {}: odour is shown for one place in a cell",
-                with.places
-            );
+            let problem =
+                format!("must not be given with grid.places {}: odour is shown for one place in a cell", with.places);
             return Err(invalid("odour_every_s", &problem));
         }
         let (grid, places) = (with.grid.clone(), with.places as f64);
@@ -243,11 +226,7 @@ impl Hmm {
             gatherer: Gatherer::new(trajectory, [0, 1].map(|a| grid.cell_m[a] * places)),
             terms: Terms::new(grid.n),
             seen_marks: 0,
-            levels: if spec.sheared {
-                vec![None; grid.n[2]]
-            } else {
-                Vec::new()
-            },
+            levels: if spec.sheared { vec![None; grid.n[2]] } else { Vec::new() },
             level: 0,
             say: (spec.odour_every_s).map(|s| (s.get(), spec.walk_steps as usize)),
             said_s: f64::NEG_INFINITY,
@@ -258,9 +237,7 @@ impl Hmm {
     /// Adds the newest step of the measured flow to the chain.
     fn extend(&mut self, marks: u64) {
         let fresh = (marks.min(self.most_steps as u64 + 1)) as usize;
-        let places: Vec<[f64; 2]> = (self.with.watch.history.newest(fresh + 1))
-            .map(|m| m.s_m)
-            .collect();
+        let places: Vec<[f64; 2]> = (self.with.watch.history.newest(fresh + 1)).map(|m| m.s_m).collect();
         for pair in places.windows(2) {
             let u = [0, 1].map(|a| pair[1][a] - pair[0][a]);
             self.measure(u);
@@ -274,9 +251,7 @@ impl Hmm {
             let flows = self.flows(mean.map(|v| v * self.step_s));
             let mut drifts = vec![Drift::default(); self.grid.n[2]];
             let before = 0..self.most_steps - self.steps.len();
-            self.assumed = before
-                .map(|_| self.transition(&flows, &mut drifts))
-                .collect();
+            self.assumed = before.map(|_| self.transition(&flows, &mut drifts)).collect();
         }
     }
 
@@ -296,14 +271,9 @@ impl Hmm {
     /// Displacement in a step, m: `u` at all levels, or with shear that of each level; a level not visited has that
     /// of the nearest visited one.
     fn flows(&self, u: [f64; 2]) -> Vec<[f64; 2]> {
-        let measured: Vec<_> = (0..)
-            .zip(&self.levels)
-            .filter_map(|(k, u)| Some((k, (*u)?)))
-            .collect();
+        let measured: Vec<_> = (0..).zip(&self.levels).filter_map(|(k, u)| Some((k, (*u)?))).collect();
         let nearest = |k: usize| measured.iter().min_by_key(|(m, _)| k.abs_diff(*m));
-        let flows: Vec<_> = (0..self.levels.len())
-            .filter_map(|k| Some(nearest(k)?.1))
-            .collect();
+        let flows: Vec<_> = (0..self.levels.len()).filter_map(|k| Some(nearest(k)?.1)).collect();
         if flows.is_empty() { vec![u] } else { flows }
     }
 
@@ -324,19 +294,13 @@ impl Hmm {
             [0, 1].map(|a| Hops::new(by[a], &self.aside[a], false))
         };
         // As long as all levels are alike, so is the displacement that they have left over.
-        let mut levels: Vec<_> = (0..self.levels.len().max(flows.len()))
-            .map(&mut level)
-            .collect();
+        let mut levels: Vec<_> = (0..self.levels.len().max(flows.len())).map(&mut level).collect();
         if levels.iter().all(|l| *l == levels[0]) {
             levels.truncate(1);
         }
         Transition {
             levels,
-            vertical: if self.grid.n[2] == 1 {
-                Hops::still()
-            } else {
-                Hops::new(0, &self.aside[2], true)
-            },
+            vertical: if self.grid.n[2] == 1 { Hops::still() } else { Hops::new(0, &self.aside[2], true) },
         }
     }
 

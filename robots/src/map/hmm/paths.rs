@@ -23,11 +23,7 @@ impl Hmm {
         let first = chain.len().checked_sub(age)?;
         let n = self.grid.n;
         let ln = |p: f64| {
-            if p > NEVER {
-                math::ln(p)
-            } else {
-                f64::NEG_INFINITY
-            }
+            if p > NEVER { math::ln(p) } else { f64::NEG_INFINITY }
         };
         let mut value: Vec<f64> = (self.with.belief.p().iter()).map(|p| ln(*p)).collect();
         let mut from: Vec<Vec<u32>> = Vec::with_capacity(age * 3);
@@ -37,13 +33,9 @@ impl Hmm {
                 let levels = if axis == 2 { 1 } else { step.levels.len() };
                 let list = |k: usize, i: usize| -> Vec<(usize, f64)> {
                     let all = (0..n[axis]).map(|j| (j, step.hops(axis, k).chance(i, j, n[axis])));
-                    all.filter(|(_, p)| *p > NEVER)
-                        .map(|(j, p)| (j, math::ln(p)))
-                        .collect()
+                    all.filter(|(_, p)| *p > NEVER).map(|(j, p)| (j, math::ln(p))).collect()
                 };
-                let chance: Vec<Vec<_>> = (0..levels)
-                    .map(|k| (0..n[axis]).map(|i| list(k, i)).collect())
-                    .collect();
+                let chance: Vec<Vec<_>> = (0..levels).map(|k| (0..n[axis]).map(|i| list(k, i)).collect()).collect();
                 let stride = [1, n[0], n[0] * n[1]][axis];
                 let mut next = vec![f64::NEG_INFINITY; value.len()];
                 let mut origin = vec![u32::MAX; value.len()];

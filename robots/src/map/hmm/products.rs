@@ -39,13 +39,7 @@ impl Hmm {
         let detection = self.detection_map();
         let mut walk = vec![cell];
         walk.extend(best_walk(self.grid.n, &detection, cell, steps));
-        Odour {
-            t_s,
-            grid: self.grid.clone(),
-            came: self.likely_odour_path(cell).unwrap_or_default(),
-            detection,
-            walk,
-        }
+        Odour { t_s, grid: self.grid.clone(), came: self.likely_odour_path(cell).unwrap_or_default(), detection, walk }
     }
 
     /// Cells of the vehicle's path of `steps` steps from `start` that most likely leads to a detection, without the
@@ -94,7 +88,6 @@ pub(super) fn neighbours(n: [usize; 3], cell: usize) -> impl Iterator<Item = usi
     let place = [cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1])];
     let span = [0, 1, 2].map(|a| (place[a].saturating_sub(1), (place[a] + 1).min(n[a] - 1)));
     (span[2].0..=span[2].1).flat_map(move |k| {
-        (span[1].0..=span[1].1)
-            .flat_map(move |j| (span[0].0..=span[0].1).map(move |i| (k * n[1] + j) * n[0] + i))
+        (span[1].0..=span[1].1).flat_map(move |j| (span[0].0..=span[0].1).map(move |i| (k * n[1] + j) * n[0] + i))
     })
 }

@@ -42,9 +42,7 @@ fn hmm(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
 fn sheared(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
     let mut new = hmm(n, sigma, &[]);
     for [u, v] in flows {
-        let levels: Vec<_> = (0..n[2])
-            .map(|k| [u - 8.0 * f64::from(k), v + 5.0 * f64::from(k)])
-            .collect();
+        let levels: Vec<_> = (0..n[2]).map(|k| [u - 8.0 * f64::from(k), v + 5.0 * f64::from(k)]).collect();
         new.push_step(&levels);
     }
     new
@@ -55,20 +53,13 @@ fn matrices(hmm: &Hmm) -> Vec<DMatrix<f64>> {
     let grid = &hmm.grid;
     let chance = |step: &super::transition::Transition, i: usize, j: usize| -> f64 {
         let (from, to) = (grid.place(i), grid.place(j));
-        (0..3)
-            .map(|a| step.hops(a, from[2]).chance(from[a], to[a], grid.n[a]))
-            .product()
+        (0..3).map(|a| step.hops(a, from[2]).chance(from[a], to[a], grid.n[a])).product()
     };
-    (hmm.steps.iter())
-        .map(|s| DMatrix::from_fn(grid.len(), grid.len(), |i, j| chance(s, i, j)))
-        .collect()
+    (hmm.steps.iter()).map(|s| DMatrix::from_fn(grid.len(), grid.len(), |i, j| chance(s, i, j))).collect()
 }
 
 fn flows() -> impl Strategy<Value = Vec<[f64; 2]>> {
-    proptest::collection::vec(
-        (-30.0..30.0f64, -30.0..30.0f64).prop_map(|(u, v)| [u, v]),
-        5,
-    )
+    proptest::collection::vec((-30.0..30.0f64, -30.0..30.0f64).prop_map(|(u, v)| [u, v]), 5)
 }
 
 proptest! {
@@ -180,13 +171,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
     let grid = spec.grid.build(&paper_area()).expect("grid");
     let mut hmm = Hmm::new(&spec, grid).expect("mapper");
     // Two seconds near the surface, two near the bed, in opposite flows.
-    for (t, z, u) in [
-        (0.0, -1.0, 30.0),
-        (1.0, -1.0, 30.0),
-        (2.0, -9.0, 30.0),
-        (3.0, -9.0, -30.0),
-        (4.0, -9.0, -30.0),
-    ] {
+    for (t, z, u) in [(0.0, -1.0, 30.0), (1.0, -1.0, 30.0), (2.0, -9.0, 30.0), (3.0, -9.0, -30.0), (4.0, -9.0, -30.0)] {
         hmm.step(&MapObservation {
             t_s: t,
             p_W: Vector3::new(50.0, 50.0, z),
@@ -200,11 +185,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
     // 30 m a step over cells of 25 m: the likeliest hop is one cell, east above and west below.
     let likeliest = |k: usize| {
         let hops = last.hops(0, k);
-        (hops.first..)
-            .zip(hops.p.iter())
-            .max_by(|a, b| a.1.total_cmp(b.1))
-            .expect("some")
-            .0
+        (hops.first..).zip(hops.p.iter()).max_by(|a, b| a.1.total_cmp(b.1)).expect("some").0
     };
     assert_eq!([0, 1, 2, 3, 4].map(likeliest), [-1, -1, -1, 1, 1]);
 }
@@ -217,14 +198,8 @@ fn the_chain_is_as_long_as_the_look_back() {
 
 #[test]
 fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
-    let spec = HmmSpec {
-        odour_every_s: Some(Positive::new(10.0)),
-        walk_steps: 6,
-        ..HmmSpec::default()
-    };
-    let build = |spec: &HmmSpec| {
-        Hmm::new(spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper")
-    };
+    let spec = HmmSpec { odour_every_s: Some(Positive::new(10.0)), walk_steps: 6, ..HmmSpec::default() };
+    let build = |spec: &HmmSpec| Hmm::new(spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
     let (mut asked, mut silent) = (build(&spec), build(&HmmSpec::default()));
     let mut times = Vec::new();
     for t in 0..60 {
@@ -244,10 +219,7 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
     assert!(silent.belief().odour.is_none());
     assert_eq!(times, [20.0, 30.0, 40.0, 50.0]);
     let odour = asked.belief().odour.clone().expect("said");
-    let here = odour
-        .grid
-        .cell(&Vector3::new(80.0, 50.0, 0.0))
-        .expect("inside");
+    let here = odour.grid.cell(&Vector3::new(80.0, 50.0, 0.0)).expect("inside");
     assert_eq!((odour.walk[0], odour.walk.len()), (here, 7));
     assert_eq!(odour.came.last(), Some(&here));
     // It came down the flow, from the west.
@@ -261,12 +233,7 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
 fn odour_at_the_vehicles_place_stands_for_a_cell() {
     let make = |n: [u32; 2], places: u32| {
         let spec = HmmSpec {
-            grid: GridSpec {
-                along: n[0],
-                across: n[1],
-                places,
-                ..GridSpec::default()
-            },
+            grid: GridSpec { along: n[0], across: n[1], places, ..GridSpec::default() },
             trajectory: TrajectorySpec {
                 sigma_x_m_rts: Positive::new(4.0),
                 sigma_y_m_rts: Positive::new(3.0),
@@ -276,8 +243,7 @@ fn odour_at_the_vehicles_place_stands_for_a_cell() {
             },
             ..HmmSpec::default()
         };
-        let mut hmm =
-            Hmm::new(&spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
+        let mut hmm = Hmm::new(&spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
         for u in [[9.0, 1.0], [11.0, -4.0], [7.0, 3.0]] {
             hmm.push_step(&[u]);
         }

@@ -86,20 +86,12 @@ pub(super) struct Hops {
 impl Hops {
     /// A move of `by` cells with a spread (of −n … n cells) around it.
     pub(super) fn new(by: isize, spread: &Arc<[f64]>, mirrors: bool) -> Self {
-        Self {
-            first: by - (spread.len() / 2) as isize,
-            p: spread.clone(),
-            mirrors,
-        }
+        Self { first: by - (spread.len() / 2) as isize, p: spread.clone(), mirrors }
     }
 
     /// No move.
     pub(super) fn still() -> Self {
-        Self {
-            first: 0,
-            p: Arc::new([1.0]),
-            mirrors: true,
-        }
+        Self { first: 0, p: Arc::new([1.0]), mirrors: true }
     }
 
     /// The cell where a hop of `d` cells from `i` ends among `n`, if it is in the map.
@@ -116,19 +108,12 @@ impl Hops {
     /// Chance of moving from `i` to `j` among `n` cells.
     pub(super) fn chance(&self, i: usize, j: usize, n: usize) -> f64 {
         let hops = (self.first..).zip(self.p.iter());
-        hops.filter(|(d, _)| self.land(i, *d, n) == Some(j))
-            .map(|(_, p)| p)
-            .sum()
+        hops.filter(|(d, _)| self.land(i, *d, n) == Some(j)).map(|(_, p)| p).sum()
     }
 
     /// The adjoint, g ← A g: from the values of the cells after a step to their values before it. Only the cells
     /// `support` of g are not zero; returns the range of cells that are not zero in the result.
-    pub(super) fn pull(
-        &self,
-        g: &[f64],
-        support: (usize, usize),
-        out: &mut [f64],
-    ) -> (usize, usize) {
+    pub(super) fn pull(&self, g: &[f64], support: (usize, usize), out: &mut [f64]) -> (usize, usize) {
         let n = g.len();
         if n == 1 && self.mirrors {
             // A single layer keeps everything.

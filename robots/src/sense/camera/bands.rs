@@ -36,15 +36,9 @@ pub(super) const GREEN: usize = 3;
 
 /// Sensitivity of red, green and blue pixels to each wavelength.
 const SENSES: [Spectrum; 3] = [
-    [
-        0.0261, 0.0316, 0.0355, 0.0519, 0.1231, 0.4184, 0.2493, 0.0641,
-    ],
-    [
-        0.0320, 0.1083, 0.2161, 0.3230, 0.2285, 0.0750, 0.0138, 0.0033,
-    ],
-    [
-        0.1997, 0.4188, 0.2807, 0.0811, 0.0145, 0.0027, 0.0015, 0.0010,
-    ],
+    [0.0261, 0.0316, 0.0355, 0.0519, 0.1231, 0.4184, 0.2493, 0.0641],
+    [0.0320, 0.1083, 0.2161, 0.3230, 0.2285, 0.0750, 0.0138, 0.0033],
+    [0.1997, 0.4188, 0.2807, 0.0811, 0.0145, 0.0027, 0.0015, 0.0010],
 ];
 
 /// Wavelengths at which red, green and blue of a thing's colour hold, nm: the middles of the sensitivities.
@@ -72,9 +66,8 @@ pub(super) fn see(light: &Spectrum) -> Rgb {
 pub(super) fn spread<T: Into<f64>>(c: (T, T, T)) -> Spectrum {
     let [red, green, blue] = [c.0.into(), c.1.into(), c.2.into()];
     each(|i| {
-        let part = |from: usize, to: usize| {
-            ((NM[i] - MIDDLE_NM[from]) / (MIDDLE_NM[to] - MIDDLE_NM[from])).clamp(0.0, 1.0)
-        };
+        let part =
+            |from: usize, to: usize| ((NM[i] - MIDDLE_NM[from]) / (MIDDLE_NM[to] - MIDDLE_NM[from])).clamp(0.0, 1.0);
         blue + (green - blue) * part(2, 1) + (red - green) * part(1, 0)
     })
 }

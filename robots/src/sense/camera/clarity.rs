@@ -44,11 +44,7 @@ pub struct ClaritySpec {
 
 impl Default for ClaritySpec {
     fn default() -> Self {
-        Self {
-            visibility_m: Positive::new(8.0),
-            absorption_per_m: None,
-            scattering_per_m: None,
-        }
+        Self { visibility_m: Positive::new(8.0), absorption_per_m: None, scattering_per_m: None }
     }
 }
 
@@ -85,11 +81,7 @@ impl Clarity {
         let (a, b) = waters::of_attenuation(c);
         let absorption = spec.absorption_per_m.map_or(a, spread);
         let scattering = spec.scattering_per_m.map_or(b, spread);
-        Ok(Self {
-            absorption,
-            scattering,
-            attenuation: each(|i| absorption[i] + scattering[i]),
-        })
+        Ok(Self { absorption, scattering, attenuation: each(|i| absorption[i] + scattering[i]) })
     }
 
     /// Distance at which a dark thing is just visible on a level line, m.
@@ -113,10 +105,7 @@ mod tests {
     use super::*;
 
     fn water(visibility_m: f64) -> Result<Clarity, RobotError> {
-        Clarity::new(&ClaritySpec {
-            visibility_m: Positive::new(visibility_m),
-            ..ClaritySpec::default()
-        })
+        Clarity::new(&ClaritySpec { visibility_m: Positive::new(visibility_m), ..ClaritySpec::default() })
     }
 
     #[test]
@@ -151,24 +140,16 @@ mod tests {
     #[test]
     fn colours_given_take_the_place_of_the_table() {
         let m = Positive::new;
-        let w = Clarity::new(&ClaritySpec {
-            absorption_per_m: Some((m(0.3), m(0.1), m(0.2))),
-            ..ClaritySpec::default()
-        })
-        .unwrap();
-        assert_eq!(
-            [w.absorption[1], w.absorption[3], w.absorption[5]],
-            [0.2, 0.1, 0.3]
-        );
+        let w =
+            Clarity::new(&ClaritySpec { absorption_per_m: Some((m(0.3), m(0.1), m(0.2))), ..ClaritySpec::default() })
+                .unwrap();
+        assert_eq!([w.absorption[1], w.absorption[3], w.absorption[5]], [0.2, 0.1, 0.3]);
         assert_eq!(w.scattering, water(8.0).unwrap().scattering);
     }
 
     #[test]
     fn water_clearer_than_water_is_refused() {
         let e = water(110.0).unwrap_err().to_string();
-        assert_eq!(
-            e,
-            "optics.clarity.visibility_m: must be at most 105.2, that of pure sea water, got 110"
-        );
+        assert_eq!(e, "optics.clarity.visibility_m: must be at most 105.2, that of pure sea water, got 110");
     }
 }

@@ -94,19 +94,10 @@ impl DyeGrid {
     }
 
     /// Evaluates the other nodes that have dye at a corner of their coarse cell.
-    fn refine(
-        &mut self,
-        lines: &Lines,
-        coarse: impl Fn(usize, usize) -> bool,
-        ask: impl Fn(usize, usize) -> f32,
-    ) {
+    fn refine(&mut self, lines: &Lines, coarse: impl Fn(usize, usize) -> bool, ask: impl Fn(usize, usize) -> f32) {
         let ([nx, ny], steps) = (lines.n, self.steps);
         let about = |i: usize, n: usize| {
-            if coarse(i, n) {
-                [i, i]
-            } else {
-                [i - 1, (i + 1).min(n - 1)]
-            }
+            if coarse(i, n) { [i, i] } else { [i - 1, (i + 1).min(n - 1)] }
         };
         for j in 0..ny {
             for i in 0..nx {
@@ -116,10 +107,9 @@ impl DyeGrid {
                         continue;
                     }
                     let found = about(j, ny).into_iter().any(|j| {
-                        about(i, nx).into_iter().any(|i| {
-                            (about(k, steps).into_iter())
-                                .any(|k| self.rho[(j * nx + i) * steps + k] > 0.0)
-                        })
+                        about(i, nx)
+                            .into_iter()
+                            .any(|i| (about(k, steps).into_iter()).any(|k| self.rho[(j * nx + i) * steps + k] > 0.0))
                     });
                     if found {
                         self.rho[line * steps + k] = ask(line, k);
@@ -140,8 +130,7 @@ impl DyeGrid {
                 for k in (0..steps).filter(|k| coarse(*k, steps)) {
                     let beside = (j.saturating_sub(1)..(j + 2).min(ny)).any(|j| {
                         (i.saturating_sub(1)..(i + 2).min(nx)).any(|i| {
-                            (k.saturating_sub(1)..(k + 2).min(steps))
-                                .any(|k| self.rho[(j * nx + i) * steps + k] > 0.0)
+                            (k.saturating_sub(1)..(k + 2).min(steps)).any(|k| self.rho[(j * nx + i) * steps + k] > 0.0)
                         })
                     });
                     if !beside {

@@ -58,12 +58,8 @@ impl SensorParams for CameraSpec {
 
 impl Sensor for Camera {
     fn sense(&mut self, around: &Around, readings: &mut Readings) {
-        let scene = Scene {
-            terrain: around.terrain,
-            obstacles: around.obstacles,
-            dye: around.dye,
-            optics: around.optics,
-        };
+        let scene =
+            Scene { terrain: around.terrain, obstacles: around.obstacles, dye: around.dye, optics: around.optics };
         readings.picture = self.read(around.clock, around.truth, &scene, around.asked.picture);
     }
 }
@@ -88,26 +84,18 @@ impl Camera {
     /// # Errors
     /// If the rate does not fit the step, or if the picture's size or angle is out of range.
     pub fn new(spec: &CameraSpec, pose_BM: &Pose, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("sensors.camera.{field}"),
-            problem,
-        };
+        let wrong =
+            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.camera.{field}"), problem };
         for (field, n) in [("width", spec.width), ("height", spec.height)] {
             if n == 0 || n > MOST {
                 return Err(wrong(field, format!("must be from 1 to {MOST}, got {n}")));
             }
         }
         if spec.view_deg.get() >= 170.0 {
-            return Err(wrong(
-                "view_deg",
-                format!("must be less than 170, got {}", spec.view_deg.get()),
-            ));
+            return Err(wrong("view_deg", format!("must be less than 170, got {}", spec.view_deg.get())));
         }
         let every = on.every("sensors.camera.rate_hz", spec.rate_hz.get())?;
-        let look = turned(
-            spec.pan_deg.get().to_radians(),
-            spec.tilt_deg.get().to_radians(),
-        );
+        let look = turned(spec.pan_deg.get().to_radians(), spec.tilt_deg.get().to_radians());
         Ok(Self {
             model: CameraModel::new(spec),
             p_BC: pose_BM.p_WB,
@@ -121,32 +109,18 @@ impl Camera {
     }
 
     /// The picture of this step, if one was requested and its time has come.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        scene: &Scene<'_>,
-        asked: bool,
-    ) -> Option<Picture> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, scene: &Scene<'_>, asked: bool) -> Option<Picture> {
         self.asked |= asked;
         if !self.asked || clock.step < self.next {
             return None;
         }
         self.asked = false;
         self.next = clock.step + self.wait;
-        let pose_WC = Pose {
-            p_WB: truth.pose.point(self.p_BC),
-            R_WB: truth.pose.R_WB * self.R_BC,
-        };
+        let pose_WC = Pose { p_WB: truth.pose.point(self.p_BC), R_WB: truth.pose.R_WB * self.R_BC };
         // The number of the picture, not the time, so that pictures differ at whatever times they are requested.
         let noise = self.key.wrapping_add(self.taken);
         self.taken += 1;
         let made = render(&self.model, &pose_WC, scene, noise);
-        Some(Picture {
-            image: Arc::new(made.image),
-            p_BC: self.p_BC,
-            R_BC: self.R_BC,
-            view_rad: self.model.view_rad,
-        })
+        Some(Picture { image: Arc::new(made.image), p_BC: self.p_BC, R_BC: self.R_BC, view_rad: self.model.view_rad })
     }
 }

@@ -137,10 +137,7 @@ pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
 /// the left) and an angle down from the horizon (rad).
 #[must_use]
 pub fn looking(p_W: Vector3<f64>, yaw_rad: f64, down_rad: f64) -> Pose {
-    Pose {
-        p_WB: p_W,
-        R_WB: turned(yaw_rad, down_rad),
-    }
+    Pose { p_WB: p_W, R_WB: turned(yaw_rad, down_rad) }
 }
 
 #[cfg(test)]
@@ -150,8 +147,7 @@ mod tests {
 
     #[test]
     fn the_axes_lie_as_said() {
-        let near =
-            |a: Vector3<f64>, b: [f64; 3]| assert!((a - Vector3::from(b)).norm() < 1e-12, "{a}");
+        let near = |a: Vector3<f64>, b: [f64; 3]| assert!((a - Vector3::from(b)).norm() < 1e-12, "{a}");
         let east = looking(Vector3::zeros(), 0.0, 0.0).R_WB;
         near(east * Vector3::z(), [1.0, 0.0, 0.0]);
         near(east * Vector3::x(), [0.0, -1.0, 0.0]);

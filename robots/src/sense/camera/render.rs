@@ -86,22 +86,13 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
         }
     }
     let exposed = Exposed::new(&camera.sensor, sum.map(|s| s / n as f64), noise);
-    let bytes = (radiance.iter().enumerate())
-        .flat_map(|(k, l)| exposed.pixel(k as u64, l.map(f64::from)))
-        .collect();
-    let image = RgbImage::from_raw(camera.width, camera.height, bytes)
-        .expect("three bytes were made for each pixel");
-    Rendered {
-        image,
-        seen,
-        radiance,
-    }
+    let bytes = (radiance.iter().enumerate()).flat_map(|(k, l)| exposed.pixel(k as u64, l.map(f64::from))).collect();
+    let image = RgbImage::from_raw(camera.width, camera.height, bytes).expect("three bytes were made for each pixel");
+    Rendered { image, seen, radiance }
 }
 
 fn change(water: &Rgb, dyed: &Rgb) -> f32 {
-    (0..3)
-        .map(|i| (water[i] - dyed[i]).abs() / water[i].max(dyed[i]).max(f64::MIN_POSITIVE))
-        .fold(0.0, f64::max) as f32
+    (0..3).map(|i| (water[i] - dyed[i]).abs() / water[i].max(dyed[i]).max(f64::MIN_POSITIVE)).fold(0.0, f64::max) as f32
 }
 
 fn obstacle(end: &End) -> Option<u16> {

@@ -135,46 +135,25 @@ impl Scene<'_> {
     pub(super) fn near(&self, from: &Vector3<f64>, max_m: f64) -> Vec<Round<'_>> {
         let all = self.obstacles.0.iter().enumerate().map(|(number, solid)| {
             let (middle, r) = solid.ball();
-            Round {
-                solid,
-                to_middle: middle - from,
-                r2: r * r,
-                number,
-            }
+            Round { solid, to_middle: middle - from, r2: r * r, number }
         });
-        all.filter(|r| r.to_middle.norm() - r.r2.sqrt() < max_m)
-            .collect()
+        all.filter(|r| r.to_middle.norm() - r.r2.sqrt() < max_m).collect()
     }
 
     /// Where bed or surface end the line of sight from `from` along the unit vector `dir`.
     pub(super) fn shell(&self, from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> End {
         if let Some(way_m) = self.terrain.ray(from, dir, max_m) {
-            return End {
-                way_m,
-                kind: Kind::Bed,
-            };
+            return End { way_m, kind: Kind::Bed };
         }
         let up = -from.z / dir.z;
         if dir.z > 0.0 && up < max_m {
-            return End {
-                way_m: up.max(0.0),
-                kind: Kind::Surface,
-            };
+            return End { way_m: up.max(0.0), kind: Kind::Surface };
         }
-        End {
-            way_m: max_m,
-            kind: Kind::Water,
-        }
+        End { way_m: max_m, kind: Kind::Water }
     }
 
     /// The end of a line of sight.
-    pub(super) fn end(
-        &self,
-        near: &[Round<'_>],
-        from: &Vector3<f64>,
-        dir: &Vector3<f64>,
-        max_m: f64,
-    ) -> End {
+    pub(super) fn end(&self, near: &[Round<'_>], from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> End {
         let mut end = self.shell(from, dir, max_m);
         for r in near {
             let along = r.to_middle.dot(dir);
@@ -182,10 +161,7 @@ impl Scene<'_> {
                 continue;
             }
             if let Some((way_m, normal)) = r.solid.cast(from, dir, end.way_m) {
-                end = End {
-                    way_m,
-                    kind: Kind::Solid(r.number, normal),
-                };
+                end = End { way_m, kind: Kind::Solid(r.number, normal) };
             }
         }
         end
@@ -229,10 +205,7 @@ fn window(o: &Optics, dir: &Vector3<f64>) -> Spectrum {
     let rim = math::asin(1.0 / INDEX);
     let sky_share = ((rim - slant) / (2.0 * WAVES_RAD) + 0.5).clamp(0.0, 1.0);
     let flat = INDEX * math::sin(slant.min(rim));
-    let lost = fresnel(
-        (1.0 - flat * flat).max(0.0).sqrt(),
-        math::cos(slant.min(rim)),
-    );
+    let lost = fresnel((1.0 - flat * flat).max(0.0).sqrt(), math::cos(slant.min(rim)));
     let sky = SKY * light.above / PI * INDEX * INDEX * (1.0 - lost);
     let sun = (1.0 - SKY) * light.above * phase(0.97, dir.dot(&light.to_sun));
     each(|i| sky_share * (sky + sun) + (1.0 - sky_share) * mirror[i])

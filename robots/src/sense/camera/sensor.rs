@@ -102,25 +102,12 @@ impl Exposed {
         };
         let most = spec.white_balance.get().max(1.0);
         let scale = [0, 1, 2].map(|i| {
-            let off = if mean[i] > 0.0 {
-                mean[1] / mean[i]
-            } else {
-                1.0
-            };
+            let off = if mean[i] > 0.0 { mean[1] / mean[i] } else { 1.0 };
             gain / full * off.clamp(1.0 / most, most)
         });
-        let curve = (0..=STEPS)
-            .map(|k| transfer(k as f64 / STEPS as f64))
-            .collect();
+        let curve = (0..=STEPS).map(|k| transfer(k as f64 / STEPS as f64)).collect();
         let read = spec.read_noise_e.get();
-        Self {
-            electrons: rate * exposure,
-            scale,
-            read2: read * read,
-            saturation: spec.saturation.get(),
-            key,
-            curve,
-        }
+        Self { electrons: rate * exposure, scale, read2: read * read, saturation: spec.saturation.get(), key, curve }
     }
 
     /// The three bytes of pixel number `n` for its radiance (cd/m²).
@@ -145,11 +132,7 @@ fn grey(c: &Rgb) -> f64 {
 
 /// sRGB's transfer curve, rounded to 8 bits.
 fn transfer(share: f64) -> u8 {
-    let bent = if share <= 0.003_130_8 {
-        12.92 * share
-    } else {
-        1.055 * math::powf(share, 1.0 / 2.4) - 0.055
-    };
+    let bent = if share <= 0.003_130_8 { 12.92 * share } else { 1.055 * math::powf(share, 1.0 / 2.4) - 0.055 };
     (255.0 * bent + 0.5) as u8
 }
 
@@ -213,10 +196,7 @@ mod tests {
             // there.
             let step = 1e4 / 255.0 * 2.4 / 1.055 * math::powf(electrons / 1e4, 1.4 / 2.4);
             let want = want + step * step / 12.0;
-            assert!(
-                (m - electrons).abs() < 5.0 * (want / n).sqrt() + 0.05 * step,
-                "{m} {electrons}"
-            );
+            assert!((m - electrons).abs() < 5.0 * (want / n).sqrt() + 0.05 * step, "{m} {electrons}");
             assert!((v / want - 1.0).abs() < 0.08, "{v} {want}");
         }
     }

@@ -41,14 +41,9 @@ const BED: Terrain = Terrain::Level { depth_m: 6.0 };
 fn wall(albedo: f64) -> Obstacles {
     let (m, f) = (Positive::new, Fraction::new(albedo));
     let spec = ObstacleSpec {
-        surface: Surface {
-            albedo: (f, f, f),
-            ..Surface::default()
-        },
+        surface: Surface { albedo: (f, f, f), ..Surface::default() },
         id: "wall".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(2.0), m(60.0), m(190.0)),
-        }),
+        shape: ShapeSpec::Box(BoxShape { size_m: (m(2.0), m(60.0), m(190.0)) }),
         east_m: Finite::new(4.0),
         north_m: Finite::new(0.0),
         base: Base::Z(Finite::new(-195.0)),
@@ -59,10 +54,7 @@ fn wall(albedo: f64) -> Obstacles {
 
 /// Smooth surfaces under a steady light.
 fn plain(change: impl Fn(&mut OpticsSpec)) -> Optics {
-    let mut spec = OpticsSpec {
-        texture: Fraction::new(0.0),
-        ..OpticsSpec::default()
-    };
+    let mut spec = OpticsSpec { texture: Fraction::new(0.0), ..OpticsSpec::default() };
     spec.light.flicker = Fraction::new(0.0);
     change(&mut spec);
     Optics::new(&spec).unwrap()
@@ -75,11 +67,7 @@ fn no_scattering(spec: &mut OpticsSpec) {
 
 /// 41 × 31 pixels: the middle one looks along the axis.
 fn camera() -> CameraModel {
-    CameraModel::new(&CameraSpec {
-        width: 41,
-        height: 31,
-        ..CameraSpec::default()
-    })
+    CameraModel::new(&CameraSpec { width: 41, height: 31, ..CameraSpec::default() })
 }
 
 /// 5 m down, looking east on the level.
@@ -87,18 +75,8 @@ fn level() -> Pose {
     looking(Vector3::new(0.0, 0.0, -5.0), 0.0, 0.0)
 }
 
-fn take(
-    optics: &Optics,
-    terrain: &Terrain,
-    obstacles: &Obstacles,
-    dye: &dyn Concentration,
-) -> Rendered {
-    let scene = Scene {
-        terrain,
-        obstacles,
-        dye,
-        optics,
-    };
+fn take(optics: &Optics, terrain: &Terrain, obstacles: &Obstacles, dye: &dyn Concentration) -> Rendered {
+    let scene = Scene { terrain, obstacles, dye, optics };
     render(&camera(), &level(), &scene, 9)
 }
 
@@ -143,18 +121,10 @@ fn a_wall_fades_with_the_beam_attenuation_alone_where_nothing_scatters() {
 fn the_veil_grows_to_the_colour_of_endless_water() {
     let o = plain(|_| {});
     let far = o.light.endless(&o.clarity, -5.0, &Vector3::x());
-    near(
-        middle(&take(&o, &DEEP, &Obstacles::default(), &Clean)),
-        see(&far),
-        1e-3,
-    );
+    near(middle(&take(&o, &DEEP, &Obstacles::default(), &Clean)), see(&far), 1e-3);
     let c = o.clarity.attenuation;
     let part = each(|i| far[i] * (1.0 - math::exp(-c[i] * 3.0)));
-    near(
-        middle(&take(&o, &DEEP, &wall(0.0), &Clean)),
-        see(&part),
-        1e-3,
-    );
+    near(middle(&take(&o, &DEEP, &wall(0.0), &Clean)), see(&part), 1e-3);
     // Murkier water hides the wall: at the range of visibility 0.8 % of the contrast at 530 nm is left, and about as
     // much in all green.
     let murky = plain(|s| s.clarity.visibility_m = Positive::new(3.0));
@@ -194,34 +164,15 @@ fn a_lamp_alone_lights_by_the_square_of_the_distance_and_both_ways_through_the_w
         no_scattering(s);
         s.light.illuminance_klux = Positive::new(1e-12);
     });
-    let camera = CameraModel {
-        lamp: Some(LampSpec {
-            right_m: Finite::new(0.0),
-            ..LampSpec::default()
-        }),
-        ..camera()
-    };
+    let camera = CameraModel { lamp: Some(LampSpec { right_m: Finite::new(0.0), ..LampSpec::default() }), ..camera() };
     let walls = wall(0.3);
-    let scene = Scene {
-        terrain: &DEEP,
-        obstacles: &walls,
-        dye: &Clean,
-        optics: &o,
-    };
+    let scene = Scene { terrain: &DEEP, obstacles: &walls, dye: &Clean, optics: &o };
     let got = middle(&render(&camera, &level(), &scene, 0));
     let a = o.clarity.absorption;
-    near(
-        got,
-        see(&each(|i| 0.3 / PI * 2000.0 / 9.0 * math::exp(-a[i] * 6.0))),
-        1e-6,
-    );
+    near(got, see(&each(|i| 0.3 / PI * 2000.0 / 9.0 * math::exp(-a[i] * 6.0))), 1e-6);
     // Scattering water sends some light back before any surface: less than forward, more than nothing.
     let o = plain(|s| s.light.illuminance_klux = Positive::new(1e-12));
-    let scene = Scene {
-        obstacles: &Obstacles::default(),
-        optics: &o,
-        ..scene
-    };
+    let scene = Scene { obstacles: &Obstacles::default(), optics: &o, ..scene };
     let got = middle(&render(&camera, &level(), &scene, 0))[1];
     // From 5 cm on, the lamp's near field, to endless range, in steps of a millimetre.
     let (b, c) = (o.clarity.scattering[GREEN], o.clarity.attenuation[GREEN]);
@@ -242,12 +193,7 @@ fn dye_reddens_the_picture_and_nothing_else_does() {
     let cloud = Cloud(Vector3::new(2.5, 0.0, -5.0));
     let clean = take(&o, &BED, &Obstacles::default(), &Clean);
     let dyed = take(&o, &BED, &Obstacles::default(), &cloud);
-    assert!(
-        clean
-            .seen
-            .iter()
-            .all(|s| s.plume == 0.0 && s.opacity == 0.0)
-    );
+    assert!(clean.seen.iter().all(|s| s.plume == 0.0 && s.opacity == 0.0));
     let red = |l: &[f32; 3]| l[0] / l[1];
     let (mut in_it, mut beside) = (0, 0);
     for (n, seen) in dyed.seen.iter().enumerate() {
@@ -265,10 +211,7 @@ fn dye_reddens_the_picture_and_nothing_else_does() {
     let middle = dyed.seen[15 * 41 + 20];
     let depth = 1e-4 * o.dye.absorption[GREEN] * (0.18 * PI).sqrt();
     let opacity = 1.0 - math::exp(-depth);
-    assert!(
-        (f64::from(middle.opacity) - opacity).abs() < 0.01,
-        "{middle:?} {opacity}"
-    );
+    assert!((f64::from(middle.opacity) - opacity).abs() < 0.01, "{middle:?} {opacity}");
     assert!(middle.plume > 0.3, "{middle:?}");
 }
 
@@ -285,12 +228,7 @@ fn light_is_finite_and_never_negative() {
         for z in [-0.2, -3.0, -5.9] {
             let (yaw, down) = *views.next().unwrap();
             let cloud = Cloud(Vector3::new(0.5, 0.3, z));
-            let scene = Scene {
-                terrain: &BED,
-                obstacles: &Obstacles::default(),
-                dye: &cloud,
-                optics: &o,
-            };
+            let scene = Scene { terrain: &BED, obstacles: &Obstacles::default(), dye: &cloud, optics: &o };
             let pose = looking(Vector3::new(0.0, 0.0, z), yaw, down);
             let made = render(&camera(), &pose, &scene, 0);
             for (l, s) in made.radiance.iter().zip(&made.seen) {
@@ -307,12 +245,7 @@ fn light_is_finite_and_never_negative() {
 fn a_picture_repeats_bit_for_bit_and_its_noise_follows_its_seed_alone() {
     let o = Optics::new(&OpticsSpec::default()).unwrap();
     let cloud = Cloud(Vector3::new(2.0, 0.4, -5.2));
-    let scene = Scene {
-        terrain: &BED,
-        obstacles: &Obstacles::default(),
-        dye: &cloud,
-        optics: &o,
-    };
+    let scene = Scene { terrain: &BED, obstacles: &Obstacles::default(), dye: &cloud, optics: &o };
     let made = |noise| render(&camera(), &level(), &scene, noise);
     let (one, same, other) = (made(1), made(1), made(2));
     assert_eq!(one, same);
@@ -324,11 +257,7 @@ fn a_picture_repeats_bit_for_bit_and_its_noise_follows_its_seed_alone() {
 fn any_size_of_picture_can_be_made() {
     let o = Optics::new(&OpticsSpec::default()).unwrap();
     for (width, height) in [(1, 1), (1, 7), (160, 3), (3, 161)] {
-        let camera = CameraModel {
-            width,
-            height,
-            ..camera()
-        };
+        let camera = CameraModel { width, height, ..camera() };
         let scene = Scene {
             terrain: &BED,
             obstacles: &Obstacles::default(),
@@ -353,12 +282,7 @@ fn the_instrument_takes_a_picture_when_asked_and_not_more_often_than_it_can() {
     let mount = Pose::level(Vector3::new(0.5, 0.0, -0.1), Heading::from_deg(90.0));
     let mut camera = Camera::new(&spec, &mount, &OnBoard::new("auv0", 3, 0.1)).unwrap();
     let o = Optics::new(&OpticsSpec::default()).unwrap();
-    let scene = Scene {
-        terrain: &BED,
-        obstacles: &Obstacles::default(),
-        dye: &Clean,
-        optics: &o,
-    };
+    let scene = Scene { terrain: &BED, obstacles: &Obstacles::default(), dye: &Clean, optics: &o };
     let truth = at(0.0, 0.0, -4.0);
     // Requested in steps 3 and 4, and then not before 20.
     let asked = [3, 4, 20];
@@ -381,19 +305,12 @@ fn a_camera_that_cannot_be_is_refused_with_its_field() {
     let refused = |change: &dyn Fn(&mut CameraSpec)| {
         let mut spec = CameraSpec::default();
         change(&mut spec);
-        Camera::new(&spec, &mount, &OnBoard::new("a", 1, 0.02))
-            .unwrap_err()
-            .to_string()
+        Camera::new(&spec, &mount, &OnBoard::new("a", 1, 0.02)).unwrap_err().to_string()
     };
-    assert_eq!(
-        refused(&|s| s.width = 0),
-        "sensors.camera.width: must be from 1 to 4096, got 0"
-    );
+    assert_eq!(refused(&|s| s.width = 0), "sensors.camera.width: must be from 1 to 4096, got 0");
     assert_eq!(
         refused(&|s| s.view_deg = Positive::new(170.0)),
         "sensors.camera.view_deg: must be less than 170, got 170"
     );
-    assert!(
-        refused(&|s| s.rate_hz = Positive::new(60.0)).starts_with("sensors.camera.rate_hz: 60 Hz")
-    );
+    assert!(refused(&|s| s.rate_hz = Positive::new(60.0)).starts_with("sensors.camera.rate_hz: 60 Hz"));
 }

@@ -86,55 +86,30 @@ pub(super) struct Volume {
 impl Volume {
     /// How far a line is followed in a water, m.
     pub(super) fn range_m(o: &Optics) -> f64 {
-        let clearest = o
-            .clarity
-            .attenuation
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
+        let clearest = o.clarity.attenuation.into_iter().fold(f64::INFINITY, f64::min);
         (FARTHEST.0 / clearest).min(FARTHEST.1)
     }
 
     /// Follows the lines of sight of a camera through the scene's water.
-    pub(super) fn new(
-        camera: &CameraModel,
-        pose_WC: &Pose,
-        scene: &Scene<'_>,
-        lamp: Option<&Lamp>,
-    ) -> Self {
+    pub(super) fn new(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, lamp: Option<&Lamp>) -> Self {
         let range = Self::range_m(scene.optics);
         let tile = camera.width.max(camera.height).div_ceil(TILES);
         let n = [camera.width, camera.height].map(|n| n.div_ceil(tile) as usize + 1);
         let from = pose_WC.p_WB;
         let at = |n: usize| f64::from(n as u32 * tile);
-        let dirs: Vec<_> = (0..n[0] * n[1])
-            .map(|k| pose_WC.R_WB * camera.ray(at(k % n[0]), at(k / n[0])))
-            .collect();
+        let dirs: Vec<_> = (0..n[0] * n[1]).map(|k| pose_WC.R_WB * camera.ray(at(k % n[0]), at(k / n[0]))).collect();
         let growth = math::powf(1.0 / FIRST, 1.0 / (STEPS - 1) as f64);
         let mut ways = vec![FIRST * range; STEPS];
         for k in 1..STEPS {
             ways[k] = ways[k - 1] * growth;
         }
         // A little behind bed and surface, for neighbouring lines that go farther.
-        let ends = (dirs.iter())
-            .map(|dir| 1.15 * scene.shell(&from, dir, range).way_m)
-            .collect();
-        let lines = Lines {
-            from,
-            n,
-            dirs,
-            ends,
-            ways,
-        };
+        let ends = (dirs.iter()).map(|dir| 1.15 * scene.shell(&from, dir, range).way_m).collect();
+        let lines = Lines { from, n, dirs, ends, ways };
         let dye = DyeGrid::new(scene, &lines);
-        let mut volume = Self {
-            tile,
-            veils: Vec::with_capacity(lines.dirs.len() * STEPS),
-            lines,
-        };
+        let mut volume = Self { tile, veils: Vec::with_capacity(lines.dirs.len() * STEPS), lines };
         let clear: Vec<Spectrum> = (0..STEPS)
-            .map(|k| {
-                each(|i| math::exp(-scene.optics.clarity.attenuation[i] * volume.lines.step(k).1))
-            })
+            .map(|k| each(|i| math::exp(-scene.optics.clarity.attenuation[i] * volume.lines.step(k).1)))
             .collect();
         for line in 0..volume.lines.dirs.len() {
             volume.follow(scene.optics, &dye, lamp, line, &clear);
@@ -142,14 +117,7 @@ impl Volume {
         volume
     }
 
-    fn follow(
-        &mut self,
-        o: &Optics,
-        dye: &DyeGrid,
-        lamp: Option<&Lamp>,
-        line: usize,
-        clear: &[Spectrum],
-    ) {
+    fn follow(&mut self, o: &Optics, dye: &DyeGrid, lamp: Option<&Lamp>, line: usize, clear: &[Spectrum]) {
         let (w, d) = (&o.clarity, &o.dye);
         let dir = self.lines.dirs[line];
         let (thrown, front) = (o.light.scattered(&dir), o.light.from_front(&dir));
@@ -170,11 +138,7 @@ impl Volume {
             let from_lamp = each(|i| lamp.map_or(0.0, |(lx, p)| lx[i] * p));
             // What the dye of this step takes along the way, and what that above it has taken of the sun's light.
             let taken = d.absorption.map(|a| rho * a);
-            let under = if rho > 0.0 {
-                d.absorption.map(|a| math::exp(-a * above))
-            } else {
-                [1.0; N]
-            };
+            let under = if rho > 0.0 { d.absorption.map(|a| math::exp(-a * above)) } else { [1.0; N] };
             for i in 0..N {
                 let (b, c) = (w.scattering[i], w.attenuation[i]);
                 let got = left[i] * (1.0 - clear[i]) / c;
@@ -190,14 +154,11 @@ impl Volume {
                     let along = |rate: f64| (1.0 - math::exp(-rate * length)) / rate;
                     let back = along(all);
                     let ahead = |j: usize| before[j] * along(all + taken[j]);
-                    let day_on = |j: usize, ahead: f64| {
-                        day[j] * (front * ahead + (1.0 - front) * (under[j] * back))
-                    };
+                    let day_on = |j: usize, ahead: f64| day[j] * (front * ahead + (1.0 - front) * (under[j] * back));
                     let lamp_on = |j: usize, ahead: f64| lamp.map_or(0.0, |(lx, _)| lx[j] * ahead);
                     let evenly = rho / (4.0 * PI);
                     let own = ahead(i);
-                    let mut sum = b * from_lamp[i] * own
-                        + (b * thrown + d.scattering * evenly) * day_on(i, own);
+                    let mut sum = b * from_lamp[i] * own + (b * thrown + d.scattering * evenly) * day_on(i, own);
                     for j in (0..N).filter(|j| d.glow[i][*j] > 0.0) {
                         let there = ahead(j);
                         sum += evenly * d.glow[i][j] * (day_on(j, there) + lamp_on(j, there));
@@ -244,20 +205,12 @@ impl Volume {
         ] {
             let far = &self.veils[line * STEPS + k];
             let none: [f32; ROW] = std::array::from_fn(|k| if k < 6 { 0.0 } else { 1.0 });
-            let near = if k == 0 {
-                &none
-            } else {
-                &self.veils[line * STEPS + k - 1]
-            };
+            let near = if k == 0 { &none } else { &self.veils[line * STEPS + k - 1] };
             for (sum, (near, far)) in sum.iter_mut().zip(near.iter().zip(far)) {
                 let (near, far) = (f64::from(*near), f64::from(*far));
                 *sum += weight * (near + part * (far - near));
             }
         }
-        Veil {
-            water: [sum[0], sum[1], sum[2]],
-            dyed: [sum[3], sum[4], sum[5]],
-            passes: each(|i| sum[6 + i]),
-        }
+        Veil { water: [sum[0], sum[1], sum[2]], dyed: [sum[3], sum[4], sum[5]], passes: each(|i| sum[6 + i]) }
     }
 }

@@ -16,8 +16,7 @@ use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone,
-    detects,
+    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::{Vector2, Vector3};
@@ -92,15 +91,9 @@ impl Amp {
             unplanned: Arc::default(),
             flow: None,
             post: PostDeclaration::new(&spec.after_declaration)?,
-            heeds_on_the_way: spec
-                .start_at
-                .as_ref()
-                .is_some_and(|s| s.detections == Detections::Heeded),
+            heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
             behaviours: Behaviours {
-                go_to: spec
-                    .start_at
-                    .as_ref()
-                    .map(|s| GoTo::new(Vector2::new(s.east_m.get(), s.north_m.get()))),
+                go_to: spec.start_at.as_ref().map(|s| GoTo::new(Vector2::new(s.east_m.get(), s.north_m.get()))),
                 find: spec.find.build()?,
                 track_in: spec.track_in.build()?,
                 track_out: spec.track_out.build()?,
@@ -118,9 +111,7 @@ impl Amp {
     /// The switches of Fig. 5 that do not wait for a behaviour's end.
     fn switch(&self, detected: bool) -> Option<Behaviour> {
         match self.now {
-            Behaviour::Idle
-                if self.behaviours.go_to.is_some() && !(detected && self.heeds_on_the_way) =>
-            {
+            Behaviour::Idle if self.behaviours.go_to.is_some() && !(detected && self.heeds_on_the_way) => {
                 Some(Behaviour::GoTo)
             }
             Behaviour::Idle if detected => Some(Behaviour::TrackIn),
@@ -164,12 +155,7 @@ impl Amp {
     fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
         match stride {
             Stride::Start(manoeuvre) => {
-                self.goal = Goal {
-                    id: self.goal.id + 1,
-                    manoeuvre,
-                    vertical,
-                    speed_m_s: self.speed_m_s,
-                }
+                self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, speed_m_s: self.speed_m_s }
             }
             Stride::Adjust(manoeuvre) => self.goal.manoeuvre = manoeuvre,
             Stride::Keep => {}
@@ -213,9 +199,7 @@ impl Amp {
         self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
             Behaviour::GoHome | Behaviour::Survey | Behaviour::Done => false,
-            Behaviour::Idle | Behaviour::GoTo => {
-                self.behaviours.go_to.is_none() || self.heeds_on_the_way
-            }
+            Behaviour::Idle | Behaviour::GoTo => self.behaviours.go_to.is_none() || self.heeds_on_the_way,
             _ => true,
         };
         let detected = heeded && detects(seen);
@@ -254,11 +238,7 @@ impl Strategy for Amp {
                 }
             }
             let out = self.now == Behaviour::TrackOut;
-            let over = if out && detected {
-                true
-            } else {
-                self.act(seen, arrived, rng)
-            };
+            let over = if out && detected { true } else { self.act(seen, arrived, rng) };
             if !over {
                 break;
             }

@@ -32,10 +32,7 @@ impl Desk {
     fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Decision {
         self.t_s += 0.1;
         let flow = Some(Vector2::new(0.0, -0.2));
-        let mut o = smelling(
-            seen(self.t_s, Vector2::new(0.0, north), 350.0, flow),
-            smells,
-        );
+        let mut o = smelling(seen(self.t_s, Vector2::new(0.0, north), 350.0, flow), smells);
         if let Some(goal) = self.goal {
             o.guidance.goal_id = goal.id;
             o.guidance.done = arrived;
@@ -190,10 +187,7 @@ fn at_most_six_points_are_kept_the_most_up_flow_ones() {
 
 #[test]
 fn may_stop_on_the_spot() {
-    let mut d = Desk::new(&AmpSpec {
-        after_declaration: AfterDeclaration::Stop,
-        ..AmpSpec::default()
-    });
+    let mut d = Desk::new(&AmpSpec { after_declaration: AfterDeclaration::Stop, ..AmpSpec::default() });
     d.point(0.0);
     d.point(0.0);
     d.point(0.0);
@@ -227,11 +221,7 @@ fn a_cage_abort_ends_the_mission_in_any_behaviour() {
 #[test]
 fn detections_on_the_way_to_the_start_as_told() {
     let start = |detections| AmpSpec {
-        start_at: Some(StartAt {
-            east_m: Finite::new(50.0),
-            north_m: Finite::new(-100.0),
-            detections,
-        }),
+        start_at: Some(StartAt { east_m: Finite::new(50.0), north_m: Finite::new(-100.0), detections }),
         ..AmpSpec::default()
     };
     let mut d = Desk::new(&start(Detections::Ignored));

@@ -47,21 +47,13 @@ struct Report {
 fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
     let mut amp = Amp::new(&AmpSpec::default()).expect("defaults are legal");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
-    let (mut rng, mut patches) = (
-        Stream::new(seed, "a", "amp"),
-        Stream::new(seed, "a", "patches"),
-    );
+    let (mut rng, mut patches) = (Stream::new(seed, "a", "amp"), Stream::new(seed, "a", "patches"));
     let mut noise = Stream::new(seed, "a", "noise");
     let home = Vector2::new(150.0, -260.0);
     let mut o = seen(0.0, home, 270.0, None);
     o.home = home;
-    let mut report = Report {
-        declared: None,
-        outcome: None,
-        t_s: 0.0,
-        seen: Vec::new(),
-        farthest_outside_m: f64::NEG_INFINITY,
-    };
+    let mut report =
+        Report { declared: None, outcome: None, t_s: 0.0, seen: Vec::new(), farthest_outside_m: f64::NEG_INFINITY };
     let (mut patch, mut status) = (false, GuidanceStatus::default());
     let (mut truth, mut off) = (home, Vector2::zeros());
     for tick in 0..(limit_s / DT_S) as u32 {
@@ -72,10 +64,7 @@ fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
         // The flow is known from 5 s on; its direction has an error of some 6 degrees.
         if tick >= 50 && tick.is_multiple_of(10) {
             let velocity = flow() + Vector2::new(noise.normal(), noise.normal()) * 0.015;
-            o.estimate.flow = Some(crate::handoff::FlowEstimate {
-                velocity,
-                age_s: 0.0,
-            });
+            o.estimate.flow = Some(crate::handoff::FlowEstimate { velocity, age_s: 0.0 });
         }
         o.estimate.t_s = o.t_s;
         o.guidance = status;
@@ -114,17 +103,9 @@ fn finds_traces_declares_and_goes_home() {
         // The first lost points lie within a silence of lambda (5 s at 2 m/s) of the source, and in the
         // plume's width there, 1 + 0.5 sqrt(10) m.
         let error = (declared - SOURCE).norm();
-        assert!(
-            error < 13.0,
-            "seed {seed}: {error:.1} m off at {declared:?}"
-        );
+        assert!(error < 13.0, "seed {seed}: {error:.1} m off at {declared:?}");
         assert_eq!(r.outcome, Some(Outcome::Completed), "seed {seed}");
-        for wanted in [
-            Behaviour::Find,
-            Behaviour::TrackIn,
-            Behaviour::TrackOut,
-            Behaviour::GoHome,
-        ] {
+        for wanted in [Behaviour::Find, Behaviour::TrackIn, Behaviour::TrackOut, Behaviour::GoHome] {
             assert!(r.seen.contains(&wanted), "seed {seed}: never in {wanted:?}");
         }
     }

@@ -23,34 +23,25 @@ impl MapAndPlanSpec {
         let cells: f64 = counts.iter().product();
         let plans = times.mission_s / self.replan_s.get().max(1.0);
         let chart_s = CHART_S[0] + obstacles as f64 * CHART_S[1];
-        let room = Part::new(
-            "room.cell_m",
-            format!("{cells:.1e} cells of the planner's room"),
-        )
-        .holds(cells * CELL_BYTES)
-        .takes(cells * (chart_s + plans * PLAN_S))
-        .by(sides_m[0], -2.0);
+        let room = Part::new("room.cell_m", format!("{cells:.1e} cells of the planner's room"))
+            .holds(cells * CELL_BYTES)
+            .takes(cells * (chart_s + plans * PLAN_S))
+            .by(sides_m[0], -2.0);
         let mut cost = Cost::of(room);
         let (field, beyond_m) = self.planner.reach();
         let reach_m = beyond_m + self.hull_m.get();
         let near = |a: usize| 2.0 * (reach_m / sides_m[a] + 2.0).min(counts[a]) + 1.0;
         let round: f64 = (0..3).map(near).product();
-        let kept = Part::new(
-            format!("planner.{field}"),
-            format!("{round:.1e} cells within reach of a solid one"),
-        );
+        let kept = Part::new(format!("planner.{field}"), format!("{round:.1e} cells within reach of a solid one"));
         cost.parts.push(kept.holds(round * NEAR_BYTES));
         let narrowest_m = sides_m.iter().copied().fold(f64::INFINITY, f64::min);
         let way_m = area.length_m + area.width_m + depth_m;
         cost.add(self.planner.cost(way_m, plans).under("planner"));
         if let Some(evade) = &self.evade {
             let steps = 2.0 * evade.look_m.get().min(area.length_m + area.width_m) / narrowest_m;
-            let part = Part::new(
-                "evade.look_m",
-                format!("{steps:.1e} steps of looking ahead"),
-            )
-            .takes(times.mission_s / times.step_s * steps * LOOK_S)
-            .by(evade.look_m.get(), 1.0);
+            let part = Part::new("evade.look_m", format!("{steps:.1e} steps of looking ahead"))
+                .takes(times.mission_s / times.step_s * steps * LOOK_S)
+                .by(evade.look_m.get(), 1.0);
             cost.parts.push(part);
         }
         cost

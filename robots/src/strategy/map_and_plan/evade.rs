@@ -72,12 +72,7 @@ pub(super) struct Evade {
 
 impl Evade {
     pub(super) fn new(spec: EvadeSpec, hull_m: f64) -> Self {
-        Self {
-            spec,
-            hull_m,
-            slow_since_s: None,
-            back_until_s: f64::NEG_INFINITY,
-        }
+        Self { spec, hull_m, slow_since_s: None, back_until_s: f64::NEG_INFINITY }
     }
 
     /// Turning radius of a vehicle, m.
@@ -205,20 +200,14 @@ mod tests {
             nearest = f64::min(nearest, r.clearance_m(r.nearest_cell(&p)));
         }
         // No nearer than the hull, except for half a cell, the distance of the vehicle from its cell's middle.
-        assert!(
-            nearest >= 0.8 - r.half_diagonal_m() && p.y > 48.0,
-            "{nearest} {p}"
-        );
+        assert!(nearest >= 0.8 - r.half_diagonal_m() && p.y > 48.0, "{nearest} {p}");
     }
 
     #[test]
     fn before_a_wall_it_turns_to_the_side_where_there_is_room() {
         let north = Heading::from_deg(0.0);
         // A corner: a wall ahead and another one on the left.
-        let walls = vec![
-            block("n", 40.0, 60.0, [80.0, 4.0, 8.0]),
-            block("w", 30.0, 40.0, [4.0, 40.0, 8.0]),
-        ];
+        let walls = vec![block("n", 40.0, 60.0, [80.0, 4.0, 8.0]), block("w", 30.0, 40.0, [4.0, 40.0, 8.0])];
         let r = room([80, 80, 1], [1.0; 3], walls);
         let wish = Heading::from_deg(-10.0);
         let course = evade().course(&r, &at(38.0, 42.0), north, wish, 12.0);
@@ -231,15 +220,9 @@ mod tests {
         let north = Heading::from_deg(0.0);
         let wall = vec![block("n", 40.0, 62.0, [80.0, 4.0, 8.0])];
         let r = room([80, 80, 1], [1.0; 3], wall);
-        let spec = EvadeSpec {
-            look_m: Positive::new(60.0),
-            ..EvadeSpec::default()
-        };
+        let spec = EvadeSpec { look_m: Positive::new(60.0), ..EvadeSpec::default() };
         let evade = Evade::new(spec, 0.8);
-        let able = |turning_radius_m| Capabilities {
-            turning_radius_m,
-            ..Capabilities::default()
-        };
+        let able = |turning_radius_m| Capabilities { turning_radius_m, ..Capabilities::default() };
         let radii = [4.0, 12.0, 30.0].map(|m| evade.turn_radius_m(&able(m)));
         assert_eq!(radii, [12.0, 12.0, 30.0]);
         let turned = |y: f64, radius_m: f64| {
@@ -277,9 +260,6 @@ mod tests {
             .collect();
         // Three seconds at rest, ten astern.
         let (first, last) = (backs[0], backs[backs.len() - 1]);
-        assert!(
-            (first - 13.0).abs() < 0.15 && (last - 23.0).abs() < 0.15,
-            "{first} {last}"
-        );
+        assert!((first - 13.0).abs() < 0.15 && (last - 23.0).abs() < 0.15, "{first} {last}");
     }
 }

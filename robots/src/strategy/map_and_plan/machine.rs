@@ -18,8 +18,7 @@ use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting,
-    Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
@@ -72,7 +71,8 @@ impl MapAndPlan {
             return Err(RobotError::Invalid {
                 field: "strategy".into(),
                 problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
-                    Pomdp()".into(),
+                    Pomdp()"
+                    .into(),
             });
         }
         if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
@@ -138,9 +138,7 @@ impl MapAndPlan {
     fn search(&mut self, seen: &Observation, rng: &mut Stream) {
         let at = seen.estimate.p_WB();
         let arrived = match self.leg {
-            Some(Manoeuvre::GoToPoint { point, .. }) => {
-                (point - at.xy()).norm() < 2.0 * self.arrive_m
-            }
+            Some(Manoeuvre::GoToPoint { point, .. }) => (point - at.xy()).norm() < 2.0 * self.arrive_m,
             _ => false,
         };
         match self.find.step(seen, arrived, &mut self.memory, rng) {
@@ -174,9 +172,7 @@ impl MapAndPlan {
             }
             return;
         }
-        let leg = Manoeuvre::Course {
-            course: self.pilot.clear(seen, course),
-        };
+        let leg = Manoeuvre::Course { course: self.pilot.clear(seen, course) };
         if self.goal.manoeuvre != leg {
             self.steer_by(leg, None, true);
         }
@@ -192,17 +188,12 @@ impl MapAndPlan {
         };
         let inside = |m: f64| seen.area.contains(on(m).xy());
         let (step, free_m) = BEYOND;
-        let reach = (1..=(LOOK_M / step) as u32)
-            .map(|k| f64::from(k) * step)
-            .take_while(|m| inside(*m))
-            .last()?;
+        let reach = (1..=(LOOK_M / step) as u32).map(|k| f64::from(k) * step).take_while(|m| inside(*m)).last()?;
         let closed = |from: f64, to: f64| !room.line_free(&on(from), &on(to));
         if !closed(0.0, reach) {
             return None;
         }
-        let first = (0..)
-            .map(|k| f64::from(k) * step)
-            .find(|m| closed(*m, m + step))?;
+        let first = (0..).map(|k| f64::from(k) * step).find(|m| closed(*m, m + step))?;
         let beyond = (1..)
             .map(|k| first + f64::from(k) * step)
             .take_while(|m| inside(*m + free_m))
@@ -259,23 +250,16 @@ impl MapAndPlan {
             Some((of, best)) if *of == key => *best,
             _ => {
                 let free = |cell: &usize| !self.pilot.in_solid(&belief.grid, *cell);
-                let likelier =
-                    |a: &usize, b: &usize| belief.p[*a].total_cmp(&belief.p[*b]).then(b.cmp(a));
+                let likelier = |a: &usize, b: &usize| belief.p[*a].total_cmp(&belief.p[*b]).then(b.cmp(a));
                 if free(&belief.best) {
                     belief.best
                 } else {
-                    (0..belief.p.len())
-                        .filter(free)
-                        .max_by(likelier)
-                        .unwrap_or(belief.best)
+                    (0..belief.p.len()).filter(free).max_by(likelier).unwrap_or(belief.best)
                 }
             }
         };
         self.likeliest = Some((key, best));
-        Some(Belief {
-            best,
-            ..belief.clone()
-        })
+        Some(Belief { best, ..belief.clone() })
     }
 
     fn declared(&mut self, seen: &Observation, belief: &Belief) -> Option<Declaration> {
@@ -285,10 +269,7 @@ impl MapAndPlan {
         }
         // The one level of a flat map says nothing of the source's height.
         let z_m = (belief.grid.n[2] > 1).then_some(position.z);
-        Some(Declaration {
-            z_m,
-            ..Declaration::first(seen.t_s, position.xy(), self.rule_name)
-        })
+        Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.rule_name) })
     }
 }
 
@@ -332,11 +313,7 @@ impl Strategy for MapAndPlan {
             (Behaviour::Find, _) => self.search(seen, rng),
             (Behaviour::FollowPath, Some(belief)) => self.trace(seen, belief),
             (Behaviour::GoHome, _) => {
-                let home = Vector3::new(
-                    seen.home.x,
-                    seen.home.y,
-                    self.pilot.level(seen.home.x, seen.home.y),
-                );
+                let home = Vector3::new(seen.home.x, seen.home.y, self.pilot.level(seen.home.x, seen.home.y));
                 self.towards(seen, home);
                 if (seen.home - seen.estimate.position).norm() < HOME_M {
                     self.turn_to(Behaviour::Done, seen);

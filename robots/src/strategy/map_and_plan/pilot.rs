@@ -66,18 +66,14 @@ impl Pilot {
         if spec.planner.plane_only() && !spec.room.plane() {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.planner.AStar.cost".into(),
-                problem:
-                    "the paper's costs are for a room of the plane; use Metric, or room: Plane()"
-                        .into(),
+                problem: "the paper's costs are for a room of the plane; use Metric, or room: Plane()".into(),
             });
         }
         spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
         let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach().1);
-        room.chart(&setting.chart, &setting.bed, &|x, y| {
-            level(vertical, &setting.bed, x, y)
-        });
+        room.chart(&setting.chart, &setting.bed, &|x, y| level(vertical, &setting.bed, x, y));
         let lattice = room.lattice();
         if !(0..lattice.len()).any(|cell| room.free(cell)) {
             return Err(RobotError::Invalid {
@@ -131,24 +127,9 @@ impl Pilot {
     /// Whether a cell of a map is solid at its middle and half-way to each of its corners.
     pub(super) fn in_solid(&self, grid: &BeliefGrid, cell: usize) -> bool {
         let middle = grid.centre(cell);
-        let z = if grid.n[2] == 1 {
-            self.level(middle.x, middle.y)
-        } else {
-            middle.z
-        };
-        let quarter = [
-            grid.axes[0] * (grid.cell_m[0] / 4.0),
-            grid.axes[1] * (grid.cell_m[1] / 4.0),
-        ];
-        [
-            (0.0, 0.0),
-            (1.0, 1.0),
-            (1.0, -1.0),
-            (-1.0, 1.0),
-            (-1.0, -1.0),
-        ]
-        .iter()
-        .all(|(a, b)| {
+        let z = if grid.n[2] == 1 { self.level(middle.x, middle.y) } else { middle.z };
+        let quarter = [grid.axes[0] * (grid.cell_m[0] / 4.0), grid.axes[1] * (grid.cell_m[1] / 4.0)];
+        [(0.0, 0.0), (1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].iter().all(|(a, b)| {
             let p = middle.xy() + quarter[0] * *a + quarter[1] * *b;
             let at = Vector3::new(p.x, p.y, z);
             self.room.solid(self.room.nearest_cell(&at))
@@ -157,10 +138,7 @@ impl Pilot {
 
     /// The path still ahead; empty without one.
     pub(super) fn planned(&self) -> Arc<Vec<Vector3<f64>>> {
-        self.follow
-            .as_ref()
-            .map(|f| f.points().clone())
-            .unwrap_or_default()
+        self.follow.as_ref().map(|f| f.points().clone()).unwrap_or_default()
     }
 
     /// How far the newest path leads.
@@ -189,24 +167,12 @@ impl Pilot {
         let off = steer.is_some_and(|s| s.off_m > self.replan_off_m);
         let again = steer.is_none() || (due && (moved || ended || off || self.closed()));
         if again {
-            let start = From {
-                p_W: at,
-                heading: moving(&seen.estimate),
-                turning_radius_m: seen.able.turning_radius_m,
-            };
-            let path = self
-                .planner
-                .plan(&self.room, &start, &wish)
-                .unwrap_or_else(|full| {
-                    // What was sensed fills the whole room: steer for the destination itself.
-                    let NoPath::Full = full;
-                    Path {
-                        points: vec![at, wish],
-                        reach: Reach::Goal,
-                        leaves_solid: true,
-                        tightest_m: 0.0,
-                    }
-                });
+            let start = From { p_W: at, heading: moving(&seen.estimate), turning_radius_m: seen.able.turning_radius_m };
+            let path = self.planner.plan(&self.room, &start, &wish).unwrap_or_else(|full| {
+                // What was sensed fills the whole room: steer for the destination itself.
+                let NoPath::Full = full;
+                Path { points: vec![at, wish], reach: Reach::Goal, leaves_solid: true, tightest_m: 0.0 }
+            });
             let mut follow = Follow::new(&path, self.look_ahead_m);
             steer = Some(follow.step(&at));
             self.follow = Some(follow);
@@ -269,9 +235,5 @@ fn level(vertical: Vertical, bed: &Terrain, x: f64, y: f64) -> f64 {
 /// Direction of motion over ground.
 fn moving(est: &Estimate) -> Heading {
     let v = est.v_ground();
-    if v.norm() > SLOWEST_M_S {
-        Heading::of(v)
-    } else {
-        est.attitude.heading
-    }
+    if v.norm() > SLOWEST_M_S { Heading::of(v) } else { est.attitude.heading }
 }

@@ -144,9 +144,7 @@ pub struct PlaneSpec {
 
 impl Default for PlaneSpec {
     fn default() -> Self {
-        Self {
-            cell_m: (Positive::new(1.0), Positive::new(1.0)),
-        }
+        Self { cell_m: (Positive::new(1.0), Positive::new(1.0)) }
     }
 }
 
@@ -160,9 +158,7 @@ pub struct SpaceSpec {
 
 impl Default for SpaceSpec {
     fn default() -> Self {
-        Self {
-            cell_m: (Positive::new(1.0), Positive::new(1.0), Positive::new(1.0)),
-        }
+        Self { cell_m: (Positive::new(1.0), Positive::new(1.0), Positive::new(1.0)) }
     }
 }
 
@@ -173,26 +169,20 @@ impl RoomSpec {
     /// If there would be too many.
     pub(super) fn cells(&self, setting: &Setting) -> Result<BeliefGrid, RobotError> {
         let (counts, _) = self.counts(&setting.area, setting.bed.deepest_m());
-        let depth_m = if self.plane() {
-            1.0
-        } else {
-            setting.bed.deepest_m()
-        };
+        let depth_m = if self.plane() { 1.0 } else { setting.bed.deepest_m() };
         let all: f64 = counts.iter().product();
         // Written so that it also refuses a number that is not finite.
         if !(all <= MOST_CELLS) {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room".into(),
-                problem: format!(
-                    "would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"
-                ),
+                problem: format!("would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"),
             });
         }
         let n = counts.map(|c| c as usize);
         let cells = BeliefGrid::over(&setting.area, 0.0, depth_m, n);
         let axes = if self.plane() { 2 } else { 3 };
-        let (low, high) = (cells.cell_m[..axes].iter())
-            .fold((f64::INFINITY, 0.0_f64), |(l, h), c| (c.min(l), c.max(h)));
+        let (low, high) =
+            (cells.cell_m[..axes].iter()).fold((f64::INFINITY, 0.0_f64), |(l, h), c| (c.min(l), c.max(h)));
         if !(high <= FLATTEST * low) {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room.cell_m".into(),
@@ -247,9 +237,6 @@ pub struct CrossSpec {
 
 impl Default for CrossSpec {
     fn default() -> Self {
-        Self {
-            down_m: NonNegative::new(5.0),
-            across_m: Positive::new(15.0),
-        }
+        Self { down_m: NonNegative::new(5.0), across_m: Positive::new(15.0) }
     }
 }

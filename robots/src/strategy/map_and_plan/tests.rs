@@ -5,8 +5,7 @@ use super::super::survey::AfterDeclaration;
 use super::*;
 use crate::handoff::testing::seen;
 use crate::handoff::{
-    Beam, Behaviour, Belief, BeliefGrid, Decision, Manoeuvre, Observation, Outcome, RangeScan,
-    Setting, Vertical,
+    Beam, Behaviour, Belief, BeliefGrid, Decision, Manoeuvre, Observation, Outcome, RangeScan, Setting, Vertical,
 };
 use crate::plan::testing::block;
 use crate::plan::{PlannerSpec, PotentialFieldParams, Reach};
@@ -22,21 +21,11 @@ use world::units::Heading;
 const BED: Terrain = Terrain::Level { depth_m: 8.0 };
 
 fn area() -> Area {
-    Area {
-        centre: Vector2::new(50.0, 50.0),
-        length_m: 100.0,
-        width_m: 100.0,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::new(50.0, 50.0), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(90.0) }
 }
 
 fn setting(chart: Vec<Obstacle>) -> Setting {
-    Setting {
-        area: area(),
-        bed: BED,
-        chart: Obstacles(chart),
-        maps: true,
-    }
+    Setting { area: area(), bed: BED, chart: Obstacles(chart), maps: true }
 }
 
 fn spec() -> MapAndPlanSpec {
@@ -72,12 +61,7 @@ fn belief_of_space(at: Vector3<f64>) -> Belief {
     let best = grid.cell(&at).expect("inside");
     let mut p = vec![1e-4; grid.len()];
     p[best] = 0.6;
-    Belief {
-        grid: Arc::new(grid),
-        p: Arc::new(p),
-        best,
-        ..belief(at, 1)
-    }
+    Belief { grid: Arc::new(grid), p: Arc::new(p), best, ..belief(at, 1) }
 }
 
 /// The vehicle on its own.
@@ -94,13 +78,7 @@ struct Drive {
 }
 
 impl Drive {
-    fn new(
-        spec: &MapAndPlanSpec,
-        chart: Vec<Obstacle>,
-        truth: Vec<Obstacle>,
-        p: [f64; 2],
-        deg: f64,
-    ) -> Self {
+    fn new(spec: &MapAndPlanSpec, chart: Vec<Obstacle>, truth: Vec<Obstacle>, p: [f64; 2], deg: f64) -> Self {
         Self {
             strategy: MapAndPlan::new(spec, &setting(chart)).expect("legal"),
             truth: Obstacles(truth),
@@ -122,26 +100,15 @@ impl Drive {
             let (s, c) = world::math::sin_cos(left);
             Beam {
                 dir_B: Vector3::new(c, s, 0.0),
-                echo_m: self
-                    .truth
-                    .ray(&from, &Vector3::new(ahead.x, ahead.y, 0.0), 40.0),
+                echo_m: self.truth.ray(&from, &Vector3::new(ahead.x, ahead.y, 0.0), 40.0),
             }
         });
-        RangeScan {
-            p_BS: Vector3::zeros(),
-            max_m: 40.0,
-            beams: beams.collect(),
-        }
+        RangeScan { p_BS: Vector3::zeros(), max_m: 40.0, beams: beams.collect() }
     }
 
     fn step(&mut self) -> Decision {
         let ping = ((self.t_s * 10.0).round() as u64).is_multiple_of(5);
-        let mut o: Observation = seen(
-            self.t_s,
-            self.p,
-            self.heading.deg(),
-            Some(Vector2::new(0.5, 0.0)),
-        );
+        let mut o: Observation = seen(self.t_s, self.p, self.heading.deg(), Some(Vector2::new(0.5, 0.0)));
         o.estimate.depth_m = 4.0;
         o.area = area();
         o.belief = self.belief.clone();
@@ -184,13 +151,7 @@ fn papers_block() -> Obstacle {
 
 #[test]
 fn searches_then_follows_a_path_to_the_likeliest_cell_and_declares_it() {
-    let mut d = Drive::new(
-        &spec(),
-        vec![papers_block()],
-        vec![papers_block()],
-        [61.25, 10.0],
-        0.0,
-    );
+    let mut d = Drive::new(&spec(), vec![papers_block()], vec![papers_block()], [61.25, 10.0], 0.0);
     assert_eq!(d.step().behaviour, Behaviour::Find);
     let source = Vector3::new(21.25, 50.0, -4.0);
     d.belief = Some(belief(source, 1));
@@ -200,28 +161,15 @@ fn searches_then_follows_a_path_to_the_likeliest_cell_and_declares_it() {
     let (end, closest) = d.run(300.0, [21.25, 50.0]);
     let declared = end.declared.expect("declared");
     assert!((declared.position - source.xy()).norm() < 1e-9 && declared.rule == "Unchanged");
-    assert_eq!(
-        (end.behaviour, end.outcome),
-        (Behaviour::Done, Some(Outcome::Completed))
-    );
-    assert!(
-        closest < 5.0 && d.nearest_m > 0.5,
-        "{closest} {}",
-        d.nearest_m
-    );
+    assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)));
+    assert!(closest < 5.0 && d.nearest_m > 0.5, "{closest} {}", d.nearest_m);
     assert!(declared.t_s >= 30.0);
 }
 
 #[test]
 fn a_leg_of_the_search_is_led_round_what_is_charted() {
     // The first leg of the zig-zag, from (61, 10) 20° west of north, runs through the block.
-    let mut d = Drive::new(
-        &spec(),
-        vec![papers_block()],
-        vec![papers_block()],
-        [61.25, 10.0],
-        340.0,
-    );
+    let mut d = Drive::new(&spec(), vec![papers_block()], vec![papers_block()], [61.25, 10.0], 340.0);
     let (end, _) = d.run(120.0, [0.0, 0.0]);
     assert_eq!(end.behaviour, Behaviour::Find);
     assert!(d.nearest_m > 0.5, "{}", d.nearest_m);
@@ -229,24 +177,13 @@ fn a_leg_of_the_search_is_led_round_what_is_charted() {
 
 #[test]
 fn what_no_chart_has_the_ranging_finds() {
-    let walls = vec![
-        block("a", 45.0, 45.0, [4.0, 40.0, 8.0]),
-        block("b", 60.0, 70.0, [26.0, 4.0, 8.0]),
-    ];
+    let walls = vec![block("a", 45.0, 45.0, [4.0, 40.0, 8.0]), block("b", 60.0, 70.0, [26.0, 4.0, 8.0])];
     let mut d = Drive::new(&spec(), vec![], walls, [95.0, 50.0], 270.0);
     d.belief = Some(belief(Vector3::new(21.25, 50.0, -4.0), 1));
     let first = d.step();
-    assert!(
-        first.planned.len() <= 3,
-        "nothing known yet: {:?}",
-        first.planned
-    );
+    assert!(first.planned.len() <= 3, "nothing known yet: {:?}", first.planned);
     let (_, closest) = d.run(200.0, [21.25, 50.0]);
-    assert!(
-        closest < 6.0 && d.nearest_m > 0.3,
-        "{closest} {}",
-        d.nearest_m
-    );
+    assert!(closest < 6.0 && d.nearest_m > 0.3, "{closest} {}", d.nearest_m);
     assert!(d.strategy.sensed() > 20);
 }
 
@@ -259,10 +196,7 @@ fn the_potential_field_stays_in_the_dead_end_that_a_star_leaves() {
             block("south", 53.0, 34.5, [20.0, 3.0, 8.0]),
         ]
     };
-    let field = MapAndPlanSpec {
-        planner: PlannerSpec::new(PotentialFieldParams::default()),
-        ..spec()
-    };
+    let field = MapAndPlanSpec { planner: PlannerSpec::new(PotentialFieldParams::default()), ..spec() };
     for (spec, comes) in [(spec(), true), (field, false)] {
         let mut d = Drive::new(&spec, u(), u(), [85.0, 48.0], 270.0);
         d.belief = Some(belief(Vector3::new(21.25, 50.0, -4.0), 1));
@@ -275,35 +209,20 @@ fn the_potential_field_stays_in_the_dead_end_that_a_star_leaves() {
 
 #[test]
 fn a_cell_that_is_solid_through_and_through_is_no_target() {
-    let mut d = Drive::new(
-        &spec(),
-        vec![papers_block()],
-        vec![papers_block()],
-        [80.0, 20.0],
-        0.0,
-    );
+    let mut d = Drive::new(&spec(), vec![papers_block()], vec![papers_block()], [80.0, 20.0], 0.0);
     // The second likeliest cell is that of the source.
     let mut b = belief(Vector3::new(43.75, 50.0, -4.0), 1);
-    let second = b
-        .grid
-        .cell(&Vector3::new(21.25, 50.0, -4.0))
-        .expect("inside");
+    let second = b.grid.cell(&Vector3::new(21.25, 50.0, -4.0)).expect("inside");
     Arc::make_mut(&mut b.p)[second] = 0.1;
     d.belief = Some(b);
     let planned = d.step().planned;
     let end = planned[planned.len() - 1];
-    assert!(
-        (end.xy() - Vector2::new(21.25, 50.0)).norm() < 1e-9,
-        "{end:?}"
-    );
+    assert!((end.xy() - Vector2::new(21.25, 50.0)).norm() < 1e-9, "{end:?}");
 }
 
 #[test]
 fn crossings_run_down_flow_of_the_target_before_it_is_declared() {
-    let spec = MapAndPlanSpec {
-        at_target: AtTarget::Cross(CrossSpec::default()),
-        ..spec()
-    };
+    let spec = MapAndPlanSpec { at_target: AtTarget::Cross(CrossSpec::default()), ..spec() };
     let mut d = Drive::new(&spec, vec![], vec![], [80.0, 20.0], 270.0);
     d.belief = Some(belief(Vector3::new(31.25, 50.0, -4.0), 1));
     let mut sides = [false; 2];
@@ -317,31 +236,19 @@ fn crossings_run_down_flow_of_the_target_before_it_is_declared() {
             break now;
         }
     };
-    assert!(
-        end.declared.is_some() && sides == [true; 2],
-        "{sides:?} at {} s",
-        d.t_s
-    );
+    assert!(end.declared.is_some() && sides == [true; 2], "{sides:?} at {} s", d.t_s);
 }
 
 #[test]
 fn goes_up_and_down_in_a_room_of_space() {
-    let spec = MapAndPlanSpec {
-        room: RoomSpec::Space(SpaceSpec::default()),
-        hull_m: NonNegative::new(0.5),
-        ..spec()
-    };
+    let spec = MapAndPlanSpec { room: RoomSpec::Space(SpaceSpec::default()), hull_m: NonNegative::new(0.5), ..spec() };
     // A sill from side to side, 4 m high on a bed 8 m deep.
     let sill = || vec![block("sill", 50.0, 50.0, [6.0, 100.0, 3.0])];
     let mut d = Drive::new(&spec, sill(), sill(), [90.0, 50.0], 270.0);
     d.belief = Some(belief_of_space(Vector3::new(21.25, 50.0, -5.0)));
     let first = d.step();
     assert_eq!(first.behaviour, Behaviour::FollowPath);
-    let over = first
-        .planned
-        .iter()
-        .filter(|p| (p.x - 50.0).abs() < 3.0)
-        .map(|p| p.z);
+    let over = first.planned.iter().filter(|p| (p.x - 50.0).abs() < 3.0).map(|p| p.z);
     assert!(over.clone().count() == 0 || over.fold(f64::INFINITY, f64::min) > -5.0);
     assert!(matches!(first.goal.vertical, Vertical::Depth(m) if (0.0..8.0).contains(&m)));
 }
@@ -352,11 +259,7 @@ fn a_map_of_space_declares_a_height_and_a_flat_one_does_not() {
     let declared = |belief: Belief| {
         let mut d = Drive::new(&spec(), vec![], vec![], [60.0, 50.0], 270.0);
         d.belief = Some(belief);
-        d.run(300.0, [31.25, 50.0])
-            .0
-            .declared
-            .expect("declared")
-            .z_m
+        d.run(300.0, [31.25, 50.0]).0.declared.expect("declared").z_m
     };
     assert_eq!(declared(belief_of_space(at)), Some(-5.0));
     assert_eq!(declared(belief(at, 1)), None);
@@ -364,24 +267,13 @@ fn a_map_of_space_declares_a_height_and_a_flat_one_does_not() {
 
 #[test]
 fn impossible_missions_are_refused() {
-    let says = |spec: &MapAndPlanSpec, setting: &Setting| {
-        MapAndPlan::new(spec, setting)
-            .expect_err("impossible")
-            .to_string()
-    };
-    let blind = Setting {
-        maps: false,
-        ..setting(vec![])
-    };
+    let says =
+        |spec: &MapAndPlanSpec, setting: &Setting| MapAndPlan::new(spec, setting).expect_err("impossible").to_string();
+    let blind = Setting { maps: false, ..setting(vec![]) };
     assert!(says(&spec(), &blind).contains("add one, for example map: Pomdp()"));
     let full = setting(vec![block("b", 50.0, 50.0, [300.0, 300.0, 8.0])]);
     assert!(says(&spec(), &full).contains("no cell of the planner's room is free"));
     let tiny = world::ranges::Positive::new(0.01);
-    let many = MapAndPlanSpec {
-        room: RoomSpec::Plane(PlaneSpec {
-            cell_m: (tiny, tiny),
-        }),
-        ..spec()
-    };
+    let many = MapAndPlanSpec { room: RoomSpec::Plane(PlaneSpec { cell_m: (tiny, tiny) }), ..spec() };
     assert!(says(&many, &setting(vec![])).contains("100000000"));
 }

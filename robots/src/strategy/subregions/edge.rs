@@ -27,10 +27,7 @@ pub(super) struct Plume {
 
 impl Plume {
     pub(super) fn new(window_s: f64) -> Self {
-        Self {
-            window_s,
-            newest: VecDeque::new(),
-        }
+        Self { window_s, newest: VecDeque::new() }
     }
 
     pub(super) fn forget(&mut self) {
@@ -55,9 +52,7 @@ pub(super) fn crossing(
     within_m: f64,
 ) -> Option<Vector2<f64>> {
     let up = up_flow.unit();
-    let facing = edges(region, detection)
-        .into_iter()
-        .max_by(|a, b| a.1.dot(&up).total_cmp(&b.1.dot(&up)));
+    let facing = edges(region, detection).into_iter().max_by(|a, b| a.1.dot(&up).total_cmp(&b.1.dot(&up)));
     let (from_edge_m, normal) = facing?;
     if from_edge_m >= within_m {
         return None;
@@ -74,12 +69,7 @@ mod tests {
     use super::*;
 
     fn region(axis_deg: f64) -> Area {
-        Area {
-            centre: Vector2::new(100.0, 50.0),
-            length_m: 200.0,
-            width_m: 80.0,
-            axis: Heading::from_deg(axis_deg),
-        }
+        Area { centre: Vector2::new(100.0, 50.0), length_m: 200.0, width_m: 80.0, axis: Heading::from_deg(axis_deg) }
     }
 
     #[test]
@@ -87,21 +77,12 @@ mod tests {
         // North edge at 150 m N, from 60 to 140 m E. Up-flow 330 degrees: 1 m north for 0.577 m west.
         let (r, up) = (region(0.0), Heading::from_deg(330.0));
         let at = |e, n| Vector2::new(e, n);
-        assert_eq!(
-            crossing(&r, up, at(100.0, 130.0), at(100.0, 128.0), 20.0),
-            None
-        );
+        assert_eq!(crossing(&r, up, at(100.0, 130.0), at(100.0, 128.0), 20.0), None);
         let c = crossing(&r, up, at(101.0, 131.0), at(100.0, 128.0), 20.0).expect("19 m off");
-        assert!(
-            (c - at(100.0 - 22.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
-            "{c}"
-        );
+        assert!((c - at(100.0 - 22.0 * 0.577_350_3, 150.0)).norm() < 1e-4, "{c}");
         // Beyond the edge: moved back to it.
         let c = crossing(&r, up, at(90.0, 160.0), at(90.0, 155.0), 20.0).expect("beyond");
-        assert!(
-            (c - at(90.0 + 5.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
-            "{c}"
-        );
+        assert!((c - at(90.0 + 5.0 * 0.577_350_3, 150.0)).norm() < 1e-4, "{c}");
         // Beyond the edge's end: its end.
         let c = crossing(&r, up, at(61.0, 140.0), at(61.0, 140.0), 20.0).expect("10 m off");
         assert!((c - at(60.0, 150.0)).norm() < 1e-9, "{c}");

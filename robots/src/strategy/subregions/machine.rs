@@ -17,8 +17,8 @@ use super::rectangles::areas;
 use super::spec::{EdgeSpec, Entry, SubregionsSpec};
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState,
-    Regions, Setting, UP_FLOW_EDGE, Verdict, Vertical, detects,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Setting,
+    UP_FLOW_EDGE, Verdict, Vertical, detects,
 };
 use crate::places::inside;
 use nalgebra::Vector2;
@@ -81,20 +81,12 @@ impl Subregions {
             });
         }
         let search = |area: &Area| {
-            let setting = Setting {
-                area: *area,
-                ..setting.clone()
-            };
+            let setting = Setting { area: *area, ..setting.clone() };
             spec.search.build(&setting).map_err(within_search)
         };
         let vertical = spec.vertical.into();
         let speed_m_s = spec.speed_m_s.get();
-        let waiting = |area: &Area| Region {
-            area: *area,
-            state: RegionState::Waiting,
-            from_s: None,
-            until_s: None,
-        };
+        let waiting = |area: &Area| Region { area: *area, state: RegionState::Waiting, from_s: None, until_s: None };
         Ok(Self {
             searches: areas.iter().map(search).collect::<Result<_, _>>()?,
             timeout_s: spec.timeout_s.get(),
@@ -117,10 +109,7 @@ impl Subregions {
     fn go_to(&mut self, point: Vector2<f64>) {
         self.goal = Goal {
             id: self.goal.id + 1,
-            manoeuvre: Manoeuvre::GoToPoint {
-                point,
-                radius_m: None,
-            },
+            manoeuvre: Manoeuvre::GoToPoint { point, radius_m: None },
             vertical: self.vertical,
             speed_m_s: self.speed_m_s,
         };
@@ -182,25 +171,15 @@ impl Subregions {
         decision.goal.id += self.goals_from;
         self.goal = decision.goal;
         let behaviour = decision.behaviour;
-        let over = matches!(behaviour, Behaviour::GoHome | Behaviour::Done)
-            || decision.outcome.take().is_some();
+        let over = matches!(behaviour, Behaviour::GoHome | Behaviour::Done) || decision.outcome.take().is_some();
         if let Some(own) = decision.declared {
             decision.declared = Some(self.declare(k, own));
         }
-        let crossing = if over {
-            None
-        } else {
-            self.traced(region, behaviour, seen)
-        };
-        let timed_out = region
-            .from_s
-            .is_some_and(|from| seen.t_s - from >= self.timeout_s);
+        let crossing = if over { None } else { self.traced(region, behaviour, seen) };
+        let timed_out = region.from_s.is_some_and(|from| seen.t_s - from >= self.timeout_s);
         if let (Some(place), None) = (crossing, decision.declared) {
             let number = self.declared.len() as u32;
-            let at_edge = Declaration {
-                number,
-                ..Declaration::first(seen.t_s, place, UP_FLOW_EDGE)
-            };
+            let at_edge = Declaration { number, ..Declaration::first(seen.t_s, place, UP_FLOW_EDGE) };
             decision.declared = Some(self.declare(k, at_edge));
             self.end_search(k, RegionState::UpFlowEdge, seen);
         } else if over || (timed_out && behaviour != Behaviour::Survey) {
@@ -220,20 +199,11 @@ impl Subregions {
     /// Makes a declaration of the search of region `k` one of the mission.
     fn declare(&mut self, k: usize, own: Declaration) -> Declaration {
         own.join(&mut self.declared);
-        Declaration {
-            number: own.number + self.numbers_from,
-            region: Some(k as u32),
-            ..own
-        }
+        Declaration { number: own.number + self.numbers_from, region: Some(k as u32), ..own }
     }
 
     /// Where the plume crosses the region's up-flow edge, if it has been traced there.
-    fn traced(
-        &mut self,
-        region: Region,
-        behaviour: Behaviour,
-        seen: &Observation,
-    ) -> Option<Vector2<f64>> {
+    fn traced(&mut self, region: Region, behaviour: Behaviour, seen: &Observation) -> Option<Vector2<f64>> {
         let tracing = match behaviour {
             Behaviour::Find
             | Behaviour::TrackIn
@@ -340,10 +310,9 @@ fn down_flow_corner(area: &Area, up_flow: Heading) -> Vector2<f64> {
 /// Turns an error of the searching strategy into one of this strategy.
 fn within_search(error: RobotError) -> RobotError {
     match error {
-        RobotError::Invalid { field, problem } => RobotError::Invalid {
-            field: format!("search.{}", field.trim_start_matches("strategy.")),
-            problem,
-        },
+        RobotError::Invalid { field, problem } => {
+            RobotError::Invalid { field: format!("search.{}", field.trim_start_matches("strategy.")), problem }
+        }
         other => other,
     }
 }

@@ -6,9 +6,7 @@ mod rectangles;
 mod spec;
 
 pub use machine::Subregions;
-pub use spec::{
-    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, SubregionsSpec,
-};
+pub use spec::{EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, SubregionsSpec};
 
 #[cfg(test)]
 mod tests;

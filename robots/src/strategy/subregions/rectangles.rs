@@ -12,9 +12,9 @@ const ROUNDING_M: f64 = 1e-6;
 pub(super) fn areas(spec: &RegionsSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
     let areas = match spec {
         RegionsSpec::Grid(grid) => parts(grid, whole)?,
-        RegionsSpec::Rectangles(spec) => (spec.list.iter().enumerate())
-            .map(|(k, r)| rectangle(k, r, whole))
-            .collect::<Result<Vec<_>, _>>()?,
+        RegionsSpec::Rectangles(spec) => {
+            (spec.list.iter().enumerate()).map(|(k, r)| rectangle(k, r, whole)).collect::<Result<Vec<_>, _>>()?
+        }
     };
     if areas.is_empty() {
         return Err(invalid("regions", "must name at least one".into()));
@@ -38,12 +38,7 @@ fn parts(grid: &GridSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
             (f64::from(i) + 0.5) * length_m - whole.length_m / 2.0,
             (f64::from(j) + 0.5) * width_m - whole.width_m / 2.0,
         );
-        Ok(Area {
-            centre: whole.world(at),
-            length_m,
-            width_m,
-            axis: whole.axis,
-        })
+        Ok(Area { centre: whole.world(at), length_m, width_m, axis: whole.axis })
     };
     grid.order.iter().enumerate().map(part).collect()
 }
@@ -52,36 +47,22 @@ fn rectangle(k: usize, r: &RectangleSpec, whole: &Area) -> Result<Area, RobotErr
     let side = |name: &str, (from, to): (f64, f64), half: f64| {
         let field = format!("regions.list[{k}].{name}");
         if from >= to {
-            return Err(invalid(
-                &field,
-                format!("must begin with the smaller number, got ({from}, {to})"),
-            ));
+            return Err(invalid(&field, format!("must begin with the smaller number, got ({from}, {to})")));
         }
         if from < -half - ROUNDING_M || to > half + ROUNDING_M {
             let legal = format!("-{half} to {half} (the operating area)");
-            return Err(invalid(
-                &field,
-                format!("must lie in {legal}, got ({from}, {to})"),
-            ));
+            return Err(invalid(&field, format!("must lie in {legal}, got ({from}, {to})")));
         }
         Ok((0.5 * (from + to), to - from))
     };
     let both = |(from, to): (world::ranges::Finite, world::ranges::Finite)| (from.get(), to.get());
     let (x, length_m) = side("along_m", both(r.along_m), whole.length_m / 2.0)?;
     let (y, width_m) = side("across_m", both(r.across_m), whole.width_m / 2.0)?;
-    Ok(Area {
-        centre: whole.world(Vector2::new(x, y)),
-        length_m,
-        width_m,
-        axis: whole.axis,
-    })
+    Ok(Area { centre: whole.world(Vector2::new(x, y)), length_m, width_m, axis: whole.axis })
 }
 
 fn invalid(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid {
-        field: field.into(),
-        problem,
-    }
+    RobotError::Invalid { field: field.into(), problem }
 }
 
 #[cfg(test)]
@@ -94,25 +75,13 @@ mod tests {
 
     /// 400 m by 100 m, long side to the east-south-east.
     fn whole() -> Area {
-        Area {
-            centre: Vector2::new(30.0, -20.0),
-            length_m: 400.0,
-            width_m: 100.0,
-            axis: Heading::from_deg(120.0),
-        }
+        Area { centre: Vector2::new(30.0, -20.0), length_m: 400.0, width_m: 100.0, axis: Heading::from_deg(120.0) }
     }
 
     fn grid(order: &[(u32, u32)]) -> Result<Vec<Area>, RobotError> {
         let two = NonZeroU32::new(2).expect("2 is not zero");
         let order = order.to_vec();
-        areas(
-            &RegionsSpec::Grid(GridSpec {
-                along: two,
-                across: two,
-                order,
-            }),
-            &whole(),
-        )
+        areas(&RegionsSpec::Grid(GridSpec { along: two, across: two, order }), &whole())
     }
 
     fn rectangles(list: &[[f64; 4]]) -> Result<Vec<Area>, RobotError> {
@@ -133,18 +102,10 @@ mod tests {
         assert_eq!(front_left.axis, whole().axis);
         // By hand: 100 m along 120 degrees (E 86.603, N -50), 25 m to its left, along 30 degrees (E 12.5, N 21.651).
         let by_hand = Vector2::new(30.0 + 86.602_54 + 12.5, -20.0 - 50.0 + 21.650_64);
-        assert!(
-            (front_left.centre - by_hand).norm() < 1e-4,
-            "{front_left:?}"
-        );
+        assert!((front_left.centre - by_hand).norm() < 1e-4, "{front_left:?}");
         // The front left corner of the whole area is also the part's.
         let corner = whole().world(Vector2::new(200.0, -50.0));
-        assert!(
-            front_left
-                .corners()
-                .iter()
-                .any(|c| (c - corner).norm() < 1e-9)
-        );
+        assert!(front_left.corners().iter().any(|c| (c - corner).norm() < 1e-9));
         // Two points close to the line between front and rear, one on each side.
         let beside = |along| whole().world(Vector2::new(along, -30.0));
         assert!(front_left.contains(beside(0.01)) && !front_left.contains(beside(-0.01)));

@@ -165,9 +165,6 @@ pub struct EdgeSpec {
 
 impl Default for EdgeSpec {
     fn default() -> Self {
-        Self {
-            within_m: NonNegative::new(20.0),
-            plume_s: NonNegative::new(10.0),
-        }
+        Self { within_m: NonNegative::new(20.0), plume_s: NonNegative::new(10.0) }
     }
 }

@@ -14,12 +14,7 @@ use world::terrain::Terrain;
 const TIMEOUT_S: f64 = 600.0;
 
 fn setting() -> Setting {
-    Setting {
-        area: area(),
-        bed: Terrain::Level { depth_m: 6.0 },
-        chart: Obstacles::default(),
-        maps: false,
-    }
+    Setting { area: area(), bed: Terrain::Level { depth_m: 6.0 }, chart: Obstacles::default(), maps: false }
 }
 
 /// The area's south half, then its north half.
@@ -132,10 +127,7 @@ fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
     let first = d.quiet(-250.0);
     // South-west corner (-200, -300), 20 m inside.
     assert!((point_of(&first) - Vector2::new(-180.0, -280.0)).norm() < 1e-9);
-    assert_eq!(
-        (first.behaviour, first.regions.now),
-        (Behaviour::GoTo, None)
-    );
+    assert_eq!((first.behaviour, first.regions.now), (Behaviour::GoTo, None));
     for _ in 0..20 {
         let on_the_way = d.smell(-250.0);
         assert_eq!(on_the_way.behaviour, Behaviour::GoTo);
@@ -155,10 +147,7 @@ fn arrival_of_the_transit_is_none_of_the_search() {
     (o.guidance.goal_id, o.guidance.done) = (find.id - 1, true);
     let next = d.mission.step(&o, &mut d.rng);
     assert_eq!((next.behaviour, next.goal), (Behaviour::Find, find));
-    assert_eq!(
-        states(&next),
-        [RegionState::Searching, RegionState::Waiting]
-    );
+    assert_eq!(states(&next), [RegionState::Searching, RegionState::Waiting]);
 }
 
 #[test]
@@ -175,9 +164,7 @@ fn a_time_out_does_not_call_the_region_source_free() {
     assert_eq!(states(&over), [RegionState::TimedOut, RegionState::Waiting]);
     assert_eq!(point_of(&over), Vector2::new(0.0, 150.0));
     assert_eq!(over.goal.id, last.goal.id + 1);
-    let [first, _] = over.regions.all[..] else {
-        panic!("two regions")
-    };
+    let [first, _] = over.regions.all[..] else { panic!("two regions") };
     assert!((first.until_s.unwrap() - first.from_s.unwrap() - TIMEOUT_S).abs() < 0.5);
 }
 
@@ -187,24 +174,15 @@ fn a_declaration_inside_ends_the_search_of_its_region() {
     let end = d.declare(-150.0);
     let first = end.declared.expect("three points within 2 m");
     assert_eq!((first.number, first.region), (0, Some(0)));
-    assert_eq!(
-        (first.rule, first.position),
-        ("AlongFlow", Vector2::new(0.0, -148.0))
-    );
+    assert_eq!((first.rule, first.position), ("AlongFlow", Vector2::new(0.0, -148.0)));
     assert_eq!((end.behaviour, end.regions.now), (Behaviour::GoTo, None));
     assert_eq!(states(&end), [RegionState::Declared, RegionState::Waiting]);
     // It is not declared twice, and no detection counts on the way.
     let transit = d.smell(-100.0);
-    assert_eq!(
-        (transit.declared, transit.behaviour),
-        (None, Behaviour::GoTo)
-    );
+    assert_eq!((transit.declared, transit.behaviour), (None, Behaviour::GoTo));
     // The next search starts afresh; its declarations continue the numbering.
     let begun = d.arrive(150.0);
-    assert_eq!(
-        (begun.behaviour, begun.regions.now),
-        (Behaviour::Find, Some(1))
-    );
+    assert_eq!((begun.behaviour, begun.regions.now), (Behaviour::Find, Some(1)));
     assert!(begun.lost_points.is_empty());
     let second = d.declare(150.0).declared.expect("three points within 2 m");
     assert_eq!((second.number, second.region), (1, Some(1)));
@@ -218,20 +196,11 @@ fn a_plume_traced_to_the_up_flow_edge_is_declared_there() {
     assert_eq!((near.declared, near.behaviour), (None, Behaviour::TrackIn));
     let end = d.smell(-19.0);
     let at = end.declared.expect("19 m from the edge");
-    assert_eq!(
-        (at.rule, at.region, at.number),
-        ("up_flow_edge", Some(0), 0)
-    );
+    assert_eq!((at.rule, at.region, at.number), ("up_flow_edge", Some(0), 0));
     // From the mean of the two detections (0, -20) up-flow: 0.1 m east for each metre north.
-    assert!(
-        (at.position - Vector2::new(2.0, 0.0)).norm() < 1e-9,
-        "{at:?}"
-    );
+    assert!((at.position - Vector2::new(2.0, 0.0)).norm() < 1e-9, "{at:?}");
     assert_eq!(end.behaviour, Behaviour::GoTo);
-    assert_eq!(
-        states(&end),
-        [RegionState::UpFlowEdge, RegionState::Waiting]
-    );
+    assert_eq!(states(&end), [RegionState::UpFlowEdge, RegionState::Waiting]);
 }
 
 #[test]
@@ -253,32 +222,19 @@ fn home_after_the_last_region_and_completed_there() {
     let home = d.quiet(200.0);
     assert_eq!((home.behaviour, home.outcome), (Behaviour::GoHome, None));
     assert_eq!(point_of(&home), Vector2::new(10.0, -250.0));
-    assert_eq!(
-        states(&home),
-        [RegionState::Declared, RegionState::TimedOut]
-    );
+    assert_eq!(states(&home), [RegionState::Declared, RegionState::TimedOut]);
     assert_eq!(d.smell(0.0).behaviour, Behaviour::GoHome);
     let done = d.arrive(-250.0);
-    assert_eq!(
-        (done.behaviour, done.outcome),
-        (Behaviour::Done, Some(Outcome::Completed))
-    );
+    assert_eq!((done.behaviour, done.outcome), (Behaviour::Done, Some(Outcome::Completed)));
     assert_eq!(d.smell(-250.0).outcome, Some(Outcome::Completed));
 }
 
 #[test]
 fn a_cage_abort_ends_the_mission_wherever_it_is() {
     for searching in [false, true] {
-        let mut d = if searching {
-            Desk::searching()
-        } else {
-            Desk::new(&spec(Entry::Centre))
-        };
+        let mut d = if searching { Desk::searching() } else { Desk::new(&spec(Entry::Centre)) };
         let end = d.tick(0.0, true, false, true);
-        assert_eq!(
-            (end.behaviour, end.outcome),
-            (Behaviour::Done, Some(Outcome::Aborted))
-        );
+        assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Aborted)));
         assert_eq!(end.declared, None);
         assert_eq!(d.smell(0.0).outcome, Some(Outcome::Aborted));
     }
@@ -286,18 +242,12 @@ fn a_cage_abort_ends_the_mission_wherever_it_is() {
 
 #[test]
 fn faults_of_the_searching_strategy_name_their_field() {
-    let with = |search| SubregionsSpec {
-        search,
-        ..spec(Entry::Centre)
-    };
+    let with = |search| SubregionsSpec { search, ..spec(Entry::Centre) };
     let said = |spec: &SubregionsSpec| {
         let built = Subregions::new(spec, &setting());
         built.map(drop).expect_err("illegal").to_string()
     };
-    let table = StrategySpec::new(OpenLoopSpec {
-        table: Vec::new(),
-        end_s: Positive::new(1.0),
-    });
+    let table = StrategySpec::new(OpenLoopSpec { table: Vec::new(), end_s: Positive::new(1.0) });
     assert!(said(&with(table)).contains("search."));
     let nested = StrategySpec::new(spec(Entry::Centre));
     assert!(said(&with(nested)).contains("search"));

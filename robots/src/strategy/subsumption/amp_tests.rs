@@ -51,10 +51,7 @@ struct Both {
 
 impl Both {
     fn new(fixes: FixMove) -> Self {
-        let amp = AmpSpec {
-            fixes,
-            ..AmpSpec::default()
-        };
+        let amp = AmpSpec { fixes, ..AmpSpec::default() };
         let mut spec = SubsumptionSpec::of(vec![
             LayerSpec::Find(FindSpec::default()),
             LayerSpec::Maintain(MaintainSpec::default()),
@@ -63,12 +60,8 @@ impl Both {
             LayerSpec::GoHome(GoHomeSpec::default()),
         ]);
         spec.fixes = fixes;
-        let setting = Setting {
-            area: area(),
-            bed: Terrain::Level { depth_m: 8.0 },
-            chart: Obstacles::default(),
-            maps: false,
-        };
+        let setting =
+            Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
         Self {
             amp: Amp::new(&amp).expect("defaults are legal"),
             layers: Subsumption::new(&spec, &setting).expect("Tian's order"),
@@ -164,9 +157,6 @@ fn a_walk_through_all_behaviours() {
         done.push(b.behaviour);
     }
     use Behaviour::{Done, Find, GoHome, Reacquire, TrackIn, TrackOut};
-    let want = [
-        Find, TrackIn, TrackOut, Reacquire, TrackIn, TrackOut, TrackIn, TrackOut, TrackOut, GoHome,
-        Done,
-    ];
+    let want = [Find, TrackIn, TrackOut, Reacquire, TrackIn, TrackOut, TrackIn, TrackOut, TrackOut, GoHome, Done];
     assert_eq!(done, want);
 }

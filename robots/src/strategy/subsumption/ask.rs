@@ -55,18 +55,8 @@ pub(super) struct Ask {
 
 impl Ask {
     /// An ask, if there is a manoeuvre.
-    pub(super) fn of(
-        kind: Kind,
-        behaviour: Behaviour,
-        manoeuvre: Option<Manoeuvre>,
-        anew: bool,
-    ) -> Option<Self> {
-        manoeuvre.map(|manoeuvre| Self {
-            kind,
-            behaviour,
-            manoeuvre,
-            anew,
-        })
+    pub(super) fn of(kind: Kind, behaviour: Behaviour, manoeuvre: Option<Manoeuvre>, anew: bool) -> Option<Self> {
+        manoeuvre.map(|manoeuvre| Self { kind, behaviour, manoeuvre, anew })
     }
 }
 

@@ -36,78 +36,23 @@ pub(super) struct Layers {
 
 /// Which layer must be above which other, and why.
 const ABOVE: &[(Kind, Kind, &str)] = &[
-    (
-        Kind::Maintain,
-        Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never control it",
-    ),
-    (
-        Kind::Reacquire,
-        Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never control it",
-    ),
-    (
-        Kind::PlumeMap,
-        Kind::Find,
-        "PlumeMap's command replaces Find's",
-    ),
-    (
-        Kind::Avoid,
-        Kind::Find,
-        "Avoid changes the commands of the layers below it, and there is none below it",
-    ),
-    (
-        Kind::Reacquire,
-        Kind::Maintain,
-        "Reacquire looks for the plume that Maintain has lost",
-    ),
-    (
-        Kind::Declare,
-        Kind::Find,
-        "a declaration must not wait for a layer that always asks",
-    ),
-    (
-        Kind::Declare,
-        Kind::Maintain,
-        "a declaration must not wait for the end of the tracing",
-    ),
-    (
-        Kind::Declare,
-        Kind::Reacquire,
-        "a declaration must not wait for the end of the search around a lost point",
-    ),
-    (
-        Kind::GoHome,
-        Kind::Find,
-        "Go-Home inhibits the layers below it",
-    ),
-    (
-        Kind::GoHome,
-        Kind::Maintain,
-        "Go-Home inhibits the layers below it",
-    ),
-    (
-        Kind::GoHome,
-        Kind::Reacquire,
-        "Go-Home inhibits the layers below it",
-    ),
-    (
-        Kind::GoHome,
-        Kind::Declare,
-        "Go-Home inhibits the layers below it",
-    ),
-    (
-        Kind::GoHome,
-        Kind::PlumeMap,
-        "Go-Home inhibits the layers below it",
-    ),
+    (Kind::Maintain, Kind::Find, "Find always asks for the vehicle: a layer below it would never control it"),
+    (Kind::Reacquire, Kind::Find, "Find always asks for the vehicle: a layer below it would never control it"),
+    (Kind::PlumeMap, Kind::Find, "PlumeMap's command replaces Find's"),
+    (Kind::Avoid, Kind::Find, "Avoid changes the commands of the layers below it, and there is none below it"),
+    (Kind::Reacquire, Kind::Maintain, "Reacquire looks for the plume that Maintain has lost"),
+    (Kind::Declare, Kind::Find, "a declaration must not wait for a layer that always asks"),
+    (Kind::Declare, Kind::Maintain, "a declaration must not wait for the end of the tracing"),
+    (Kind::Declare, Kind::Reacquire, "a declaration must not wait for the end of the search around a lost point"),
+    (Kind::GoHome, Kind::Find, "Go-Home inhibits the layers below it"),
+    (Kind::GoHome, Kind::Maintain, "Go-Home inhibits the layers below it"),
+    (Kind::GoHome, Kind::Reacquire, "Go-Home inhibits the layers below it"),
+    (Kind::GoHome, Kind::Declare, "Go-Home inhibits the layers below it"),
+    (Kind::GoHome, Kind::PlumeMap, "Go-Home inhibits the layers below it"),
 ];
 
 fn wrong(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid {
-        field: format!("strategy.Subsumption.{field}"),
-        problem,
-    }
+    RobotError::Invalid { field: format!("strategy.Subsumption.{field}"), problem }
 }
 
 /// The order of the layers, after checking it.
@@ -118,29 +63,21 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         let first = place(*kind).unwrap_or(i);
         if first < i {
             let name = kind.variant();
-            let problem =
-                format!("there already is a {name}, layers[{first}]; each layer may occur once");
+            let problem = format!("there already is a {name}, layers[{first}]; each layer may occur once");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
     for (kind, why) in [
-        (
-            Kind::Find,
-            "nothing would move the vehicle before the first detection",
-        ),
+        (Kind::Find, "nothing would move the vehicle before the first detection"),
         (Kind::Maintain, "detections would have no effect"),
     ] {
         if place(kind).is_none() {
             let name = kind.variant();
-            return Err(wrong(
-                "layers",
-                format!("there is no {name}: {why}; add {name}(...)"),
-            ));
+            return Err(wrong("layers", format!("there is no {name}: {why}; add {name}(...)")));
         }
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
-        let problem =
-            "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";
+        let problem = "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";
         return Err(wrong(&format!("layers[{i}]"), problem.into()));
     }
     if spec.eyes.is_some() && place(Kind::Declare).is_none() {

@@ -30,11 +30,7 @@ pub struct EyesSpec {
 
 impl Default for EyesSpec {
     fn default() -> Self {
-        Self {
-            within_m: Positive::new(8.0),
-            period_s: Positive::new(1.0),
-            verifier: VerifierSpec::default(),
-        }
+        Self { within_m: Positive::new(8.0), period_s: Positive::new(1.0), verifier: VerifierSpec::default() }
     }
 }
 
@@ -139,13 +135,8 @@ mod tests {
             o
         };
         assert_eq!(eyes.step(&with(false), &memory), None);
-        let declared = eyes
-            .step(&with(true), &memory)
-            .expect("a source is in the picture");
+        let declared = eyes.step(&with(true), &memory).expect("a source is in the picture");
         assert_eq!(declared.position, Vector2::new(100.0, 0.0));
-        assert_eq!(
-            (declared.rule, declared.verdict),
-            ("Eyes", Verdict::Verified)
-        );
+        assert_eq!((declared.rule, declared.verdict), ("Eyes", Verdict::Verified));
     }
 }

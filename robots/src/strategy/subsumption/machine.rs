@@ -33,8 +33,8 @@ use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation,
-    Outcome, Setting, Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Verdict,
+    Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use std::sync::Arc;
@@ -79,10 +79,7 @@ impl Subsumption {
         if let Some(eyes) = &spec.eyes {
             eyes.verifier.check("strategy.eyes.verifier")?;
         }
-        let silent = |k: &Kind| Layer {
-            name: k.name(),
-            state: LayerState::Silent,
-        };
+        let silent = |k: &Kind| Layer { name: k.name(), state: LayerState::Silent };
         Ok(Self {
             fixes: spec.fixes,
             states: layers.order.iter().map(silent).collect(),
@@ -91,10 +88,7 @@ impl Subsumption {
             declaring: None,
             zone: Arc::default(),
             post: PostDeclaration::new(
-                &spec
-                    .survey
-                    .clone()
-                    .map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
+                &spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
             )?,
             surveying: false,
             eyes: spec.eyes.as_ref().map(Eyes::new),
@@ -132,12 +126,7 @@ impl Subsumption {
     }
 
     /// The way home; `None` at its end.
-    fn go_home(
-        &mut self,
-        seen: &Observation,
-        arrived: Option<Kind>,
-        rng: &mut Stream,
-    ) -> Option<Ask> {
+    fn go_home(&mut self, seen: &Observation, arrived: Option<Kind>, rng: &mut Stream) -> Option<Ask> {
         let home = self.layers.go_home.as_mut()?;
         let stride = home.step(seen, arrived == Some(Kind::GoHome), &mut self.memory, rng);
         let anew = keep(&mut self.home, stride);
@@ -146,11 +135,7 @@ impl Subsumption {
     }
 
     /// One step of the survey: what it asks for, or at its end the declaration again.
-    fn survey(
-        &mut self,
-        seen: &Observation,
-        arrived: Option<Kind>,
-    ) -> (Option<Ask>, Option<Declaration>) {
+    fn survey(&mut self, seen: &Observation, arrived: Option<Kind>) -> (Option<Ask>, Option<Declaration>) {
         match self.post.step(seen, arrived == Some(Kind::Declare)) {
             Progress::Go(stride) => {
                 let anew = keep(&mut self.passes, stride);
@@ -195,20 +180,13 @@ impl Subsumption {
         states[..from].fill(LayerState::Inhibited);
         let mut holder: Option<Ask> = None;
         for (k, kind) in order.iter().enumerate().skip(from) {
-            let of = |behaviour, manoeuvre| Ask {
-                kind: *kind,
-                behaviour,
-                manoeuvre,
-                anew: false,
-            };
+            let of = |behaviour, manoeuvre| Ask { kind: *kind, behaviour, manoeuvre, anew: false };
             let ask = match kind {
                 Kind::Find => asked.find,
                 Kind::Maintain => asked.maintain,
                 Kind::Reacquire => asked.reacquire,
                 Kind::Declare if surveying => above,
-                Kind::Declare => {
-                    (holder.filter(|_| declaring)).map(|h| of(h.behaviour, h.manoeuvre))
-                }
+                Kind::Declare => (holder.filter(|_| declaring)).map(|h| of(h.behaviour, h.manoeuvre)),
                 Kind::Avoid => holder.and_then(|h| {
                     self.under_avoid = Some(h.kind);
                     let away = avoid.as_mut()?.step(seen, &h.manoeuvre)?;
@@ -238,12 +216,7 @@ impl Subsumption {
         let same = self.states.iter().zip(states).all(|(l, s)| l.state == *s);
         if !same {
             let now = self.states.iter().zip(states);
-            self.states = now
-                .map(|(l, state)| Layer {
-                    state: *state,
-                    ..*l
-                })
-                .collect();
+            self.states = now.map(|(l, state)| Layer { state: *state, ..*l }).collect();
         }
     }
 
@@ -263,10 +236,7 @@ impl Subsumption {
         let declared = self.declaring.take()?;
         self.holder = Some(Kind::Declare);
         let along = self.memory.up_flow_or_nose(seen);
-        let now = Declaration {
-            t_s: seen.t_s,
-            ..declared
-        };
+        let now = Declaration { t_s: seen.t_s, ..declared };
         let (now, next) = self.post.enter(now, seen, along);
         if next == Behaviour::Survey {
             (self.surveying, self.passes) = (true, None);
@@ -278,11 +248,7 @@ impl Subsumption {
 
     fn wants_picture(&self) -> bool {
         let at_point = !self.homing && self.eyes.as_ref().is_some_and(Eyes::asks);
-        if self.surveying {
-            self.post.picture()
-        } else {
-            at_point
-        }
+        if self.surveying { self.post.picture() } else { at_point }
     }
 
     fn end(&mut self, outcome: Outcome) {

@@ -115,9 +115,6 @@ impl Maintain {
 
     fn lose(&mut self) -> Contact {
         self.phase = Phase::Off;
-        Contact {
-            out_ended: true,
-            lost: true,
-        }
+        Contact { out_ended: true, lost: true }
     }
 }

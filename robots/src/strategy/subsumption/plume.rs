@@ -114,13 +114,7 @@ impl PlumeLayers {
                 map.drop_target();
             }
         }
-        asked.find = self.search(
-            alone && asked.plume_map.is_none(),
-            seen,
-            arrived,
-            memory,
-            rng,
-        );
+        asked.find = self.search(alone && asked.plume_map.is_none(), seen, arrived, memory, rng);
         asked
     }
 
@@ -144,9 +138,7 @@ impl PlumeLayers {
             anew = keep(&mut self.found, stride);
         }
         // As long as nothing was asked for, it continues in the vehicle's direction.
-        let ahead = Manoeuvre::Course {
-            course: seen.estimate.attitude.heading,
-        };
+        let ahead = Manoeuvre::Course { course: seen.estimate.attitude.heading };
         let found = self.found.or(Some(ahead));
         Ask::of(Kind::Find, Behaviour::Find, found, anew)
     }

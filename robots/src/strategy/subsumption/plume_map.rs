@@ -36,11 +36,7 @@ pub struct PlumeMapSpec {
 
 impl Default for PlumeMapSpec {
     fn default() -> Self {
-        Self {
-            most_share: Fraction::new(0.25),
-            down_m: NonNegative::new(30.0),
-            again_m: Positive::new(40.0),
-        }
+        Self { most_share: Fraction::new(0.25), down_m: NonNegative::new(30.0), again_m: Positive::new(40.0) }
     }
 }
 
@@ -55,11 +51,7 @@ pub(super) struct PlumeMap {
 
 impl PlumeMap {
     pub(super) fn new(spec: &PlumeMapSpec) -> Self {
-        Self {
-            params: spec.clone(),
-            target: None,
-            visited: None,
-        }
+        Self { params: spec.clone(), target: None, visited: None }
     }
 
     /// After a detection: what the map knows is new.
@@ -75,8 +67,7 @@ impl PlumeMap {
         memory: &PlumeMemory,
     ) -> Option<(Manoeuvre, bool)> {
         let again_m = self.params.again_m.get();
-        let apart =
-            |a: Option<Vector2<f64>>, b: Vector2<f64>| a.is_none_or(|a| (a - b).norm() >= again_m);
+        let apart = |a: Option<Vector2<f64>>, b: Vector2<f64>| a.is_none_or(|a| (a - b).norm() >= again_m);
         if arrived && let Some((place, _)) = self.target.take() {
             self.visited = Some(place);
         }

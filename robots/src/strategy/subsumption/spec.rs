@@ -166,10 +166,7 @@ pub struct MaintainSpec {
 
 impl Default for MaintainSpec {
     fn default() -> Self {
-        Self {
-            track_in: TrackInSpec::default(),
-            track_out: Some(TrackOutSpec::default()),
-        }
+        Self { track_in: TrackInSpec::default(), track_out: Some(TrackOutSpec::default()) }
     }
 }
 

@@ -11,40 +11,20 @@ use nalgebra::Vector2;
 fn find_holds_until_a_detection_and_maintain_until_the_loss() {
     let mut d = Desk::new(all());
     let names: Vec<_> = d.quiet(0.0).layers.iter().map(|l| l.name).collect();
-    let want = [
-        "find",
-        "maintain",
-        "reacquire",
-        "declare",
-        "avoid",
-        "plume_map",
-        "go_home",
-    ];
+    let want = ["find", "maintain", "reacquire", "declare", "avoid", "plume_map", "go_home"];
     assert_eq!(names, want);
     let first = d.quiet(0.0);
-    assert_eq!(
-        (said(&first).as_str(), first.behaviour),
-        ("H......", Behaviour::Find)
-    );
+    assert_eq!((said(&first).as_str(), first.behaviour), ("H......", Behaviour::Find));
     let tracked = d.smell(1.0);
-    assert_eq!(
-        (said(&tracked).as_str(), tracked.behaviour),
-        ("sH.....", Behaviour::TrackIn)
-    );
+    assert_eq!((said(&tracked).as_str(), tracked.behaviour), ("sH.....", Behaviour::TrackIn));
     assert_eq!(tracked.goal.id, first.goal.id + 1);
     // The course changes under one id.
     assert_eq!(d.smell(2.0).goal.id, tracked.goal.id);
     d.t_s += 5.0;
     let out = d.quiet(12.0);
-    assert_eq!(
-        (said(&out).as_str(), out.behaviour),
-        ("sH.....", Behaviour::TrackOut)
-    );
+    assert_eq!((said(&out).as_str(), out.behaviour), ("sH.....", Behaviour::TrackOut));
     let lost = d.arrive(20.0);
-    assert_eq!(
-        (said(&lost).as_str(), lost.behaviour),
-        ("s.H....", Behaviour::Reacquire)
-    );
+    assert_eq!((said(&lost).as_str(), lost.behaviour), ("s.H....", Behaviour::Reacquire));
 }
 
 #[test]
@@ -61,32 +41,18 @@ fn a_detection_interrupts_the_reacquisition_and_its_end_gives_the_search_back() 
         assert_eq!(said(&d.arrive(40.0)), "s.H....", "line {line}");
     }
     let again = d.arrive(40.0);
-    assert_eq!(
-        (said(&again).as_str(), again.behaviour),
-        ("H......", Behaviour::Find)
-    );
+    assert_eq!((said(&again).as_str(), again.behaviour), ("H......", Behaviour::Find));
     assert!(again.lost_points.is_empty());
 }
 
 #[test]
 fn without_a_track_out_the_silence_is_it() {
-    let silent = MaintainSpec {
-        track_out: None,
-        ..MaintainSpec::default()
-    };
-    let mut d = Desk::new(vec![
-        find(),
-        LayerSpec::Maintain(silent),
-        reacquire(),
-        declare(),
-    ]);
+    let silent = MaintainSpec { track_out: None, ..MaintainSpec::default() };
+    let mut d = Desk::new(vec![find(), LayerSpec::Maintain(silent), reacquire(), declare()]);
     assert_eq!(d.smell(0.0).behaviour, Behaviour::TrackIn);
     // Tian's Fig. 4a: without detections the vehicle is in Track-Out, on the same course.
     let silence = d.quiet(1.0);
-    assert_eq!(
-        (said(&silence).as_str(), silence.behaviour),
-        ("sH..", Behaviour::TrackOut)
-    );
+    assert_eq!((said(&silence).as_str(), silence.behaviour), ("sH..", Behaviour::TrackOut));
     assert_eq!(d.smell(2.0).behaviour, Behaviour::TrackIn);
     d.t_s += 5.0;
     let lost = d.quiet(12.0);
@@ -100,25 +66,16 @@ fn declare_beats_reacquire_and_go_home_inhibits_all() {
     let end = d.arrive(20.0);
     assert_eq!(said(&end), "s.sH...");
     let declared = end.declared.expect("three points within 2.5 m");
-    assert_eq!(
-        (declared.position, declared.rule),
-        (Vector2::new(0.0, 2.5), "AlongFlow")
-    );
+    assert_eq!((declared.position, declared.rule), (Vector2::new(0.0, 2.5), "AlongFlow"));
     for smells in [false, true] {
         d.obstacle = smells;
         let home = d.tick(20.0, smells, false);
-        assert_eq!(
-            (said(&home).as_str(), home.behaviour),
-            ("iiiiiiH", Behaviour::GoHome)
-        );
+        assert_eq!((said(&home).as_str(), home.behaviour), ("iiiiiiH", Behaviour::GoHome));
         assert_eq!((home.declared, home.outcome), (None, None));
         assert!(matches!(home.goal.manoeuvre, Manoeuvre::GoToPoint { .. }));
     }
     let done = d.arrive(-250.0);
-    assert_eq!(
-        (done.behaviour, done.outcome),
-        (Behaviour::Done, Some(Outcome::Completed))
-    );
+    assert_eq!((done.behaviour, done.outcome), (Behaviour::Done, Some(Outcome::Completed)));
     assert_eq!(said(&d.smell(-250.0)), ".......");
 }
 
@@ -127,10 +84,7 @@ fn declare_beats_maintain_when_a_detection_ends_track_out() {
     let mut d = Desk::new(all());
     d.near_the_source();
     let end = d.smell(15.0);
-    assert_eq!(
-        (said(&end).as_str(), end.declared.is_some()),
-        ("ss.H...", true)
-    );
+    assert_eq!((said(&end).as_str(), end.declared.is_some()), ("ss.H...", true));
 }
 
 #[test]
@@ -140,10 +94,7 @@ fn avoid_beats_declare_for_the_time_of_the_obstacle() {
     d.obstacle = true;
     let before = d.goal.expect("under way").id;
     let away = d.quiet(15.0);
-    assert_eq!(
-        (said(&away).as_str(), away.behaviour),
-        ("ss..H..", Behaviour::Avoid)
-    );
+    assert_eq!((said(&away).as_str(), away.behaviour), ("ss..H..", Behaviour::Avoid));
     assert_eq!(away.goal.id, before + 1);
     assert!(matches!(away.goal.manoeuvre, Manoeuvre::Course { .. }));
     // A detection ends Track-Out: Declare asks, and waits.
@@ -169,10 +120,7 @@ fn layers_under_avoid_go_on_watching_and_get_their_goal_back() {
     d.obstacle = false;
     d.t_s += 20.0;
     let back = d.quiet(0.0);
-    assert_eq!(
-        (said(&back).as_str(), back.goal.manoeuvre),
-        ("H......", search)
-    );
+    assert_eq!((said(&back).as_str(), back.goal.manoeuvre), ("H......", search));
     d.obstacle = true;
     assert_eq!(said(&d.smell(0.0)), "ss..H..");
     d.t_s += 5.0;
@@ -187,10 +135,7 @@ fn above_go_home_avoid_is_heeded_on_the_way_home() {
     assert_eq!(said(&d.quiet(20.0)), "iiiH.");
     d.obstacle = true;
     let away = d.quiet(20.0);
-    assert_eq!(
-        (said(&away).as_str(), away.behaviour),
-        ("iiisH", Behaviour::Avoid)
-    );
+    assert_eq!((said(&away).as_str(), away.behaviour), ("iiisH", Behaviour::Avoid));
 }
 
 #[test]
@@ -199,10 +144,7 @@ fn without_go_home_the_declaration_is_the_end() {
     d.near_the_source();
     let end = d.arrive(20.0);
     assert!(end.declared.is_some());
-    assert_eq!(
-        (end.behaviour, end.outcome),
-        (Behaviour::Done, Some(Outcome::Completed))
-    );
+    assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)));
 }
 
 #[test]
@@ -212,10 +154,7 @@ fn a_cage_abort_ends_the_mission() {
     let mut o = d.seen(0.0, true);
     o.guidance.aborted = true;
     let end = d.planner.step(&o, &mut d.rng);
-    assert_eq!(
-        (end.behaviour, end.outcome),
-        (Behaviour::Done, Some(Outcome::Aborted))
-    );
+    assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Aborted)));
     assert_eq!(d.smell(0.0).outcome, Some(Outcome::Aborted));
 }
 

@@ -4,9 +4,7 @@ use super::{GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, Subs
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::testing::{area, seen, smelling};
-use crate::handoff::{
-    Beam, Belief, BeliefGrid, Decision, Goal, LayerState, Observation, RangeScan, Setting,
-};
+use crate::handoff::{Beam, Belief, BeliefGrid, Decision, Goal, LayerState, Observation, RangeScan, Setting};
 use crate::strategy::Strategy;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
@@ -15,12 +13,7 @@ use world::seeds::Stream;
 use world::terrain::Terrain;
 
 pub(super) fn setting(maps: bool) -> Setting {
-    Setting {
-        area: area(),
-        bed: Terrain::Level { depth_m: 8.0 },
-        chart: Obstacles::default(),
-        maps,
-    }
+    Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps }
 }
 
 pub(super) fn find() -> LayerSpec {
@@ -46,15 +39,7 @@ pub(super) fn go_home() -> LayerSpec {
 }
 
 pub(super) fn all() -> Vec<LayerSpec> {
-    vec![
-        find(),
-        maintain(),
-        reacquire(),
-        declare(),
-        avoid(),
-        plume_map(),
-        go_home(),
-    ]
+    vec![find(), maintain(), reacquire(), declare(), avoid(), plume_map(), go_home()]
 }
 
 /// A planner and its last goal; the flow goes south, so up-flow is north. On request there is an obstacle ahead, and
@@ -93,16 +78,9 @@ impl Desk {
         // 15 m away in every direction: in the way on any course.
         let beams = (0..36).map(|k| {
             let (s, c) = world::math::sin_cos(f64::from(k * 10).to_radians());
-            Beam {
-                dir_B: Vector3::new(c, s, 0.0),
-                echo_m: self.obstacle.then_some(15.0),
-            }
+            Beam { dir_B: Vector3::new(c, s, 0.0), echo_m: self.obstacle.then_some(15.0) }
         });
-        o.ranging = Some(RangeScan {
-            p_BS: Vector3::zeros(),
-            max_m: 40.0,
-            beams: beams.collect(),
-        });
+        o.ranging = Some(RangeScan { p_BS: Vector3::zeros(), max_m: 40.0, beams: beams.collect() });
         o.belief = self.map.map(belief);
         o.estimate.fix_jump = self.jump;
         o

@@ -9,9 +9,7 @@ use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::guide::{Guidance, GuidanceSpec};
 use crate::handoff::testing::{area, seen, smelling, steered};
-use crate::handoff::{
-    Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan, Setting,
-};
+use crate::handoff::{Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan, Setting};
 use crate::strategy::Strategy;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -63,16 +61,9 @@ fn ping(p: Vector2<f64>, heading: Heading) -> RangeScan {
         let (s, c) = math::sin_cos(off);
         let way = to_wall(p, heading.turned(off).unit()).filter(|w| *w < 40.0);
         // Right of the nose is the negative of FLU's left.
-        Beam {
-            dir_B: Vector3::new(c, -s, 0.0),
-            echo_m: way,
-        }
+        Beam { dir_B: Vector3::new(c, -s, 0.0), echo_m: way }
     });
-    RangeScan {
-        p_BS: Vector3::zeros(),
-        max_m: 40.0,
-        beams: beams.collect(),
-    }
+    RangeScan { p_BS: Vector3::zeros(), max_m: 40.0, beams: beams.collect() }
 }
 
 #[derive(Debug)]
@@ -101,27 +92,17 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
         // Above Go-Home: the wall stands on the way back, too.
         layers.push(LayerSpec::Avoid(AvoidParams::default()));
     }
-    let setting = Setting {
-        area: area(),
-        bed: Terrain::Level { depth_m: 8.0 },
-        chart: Obstacles::default(),
-        maps: false,
-    };
+    let setting =
+        Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
     let spec = SubsumptionSpec::of(layers);
     let mut planner = Subsumption::new(&spec, &setting).expect("these layers make sense");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
-    let [mut rng, mut patches, mut noise] =
-        ["layers", "patches", "noise"].map(|what| Stream::new(seed, "a", what));
+    let [mut rng, mut patches, mut noise] = ["layers", "patches", "noise"].map(|what| Stream::new(seed, "a", what));
     let home = Vector2::new(150.0, -260.0);
     let mut o = seen(0.0, home, 270.0, None);
     o.home = home;
-    let mut report = Report {
-        declared: None,
-        outcome: None,
-        seen: Vec::new(),
-        nearest_m: f64::INFINITY,
-        avoided_s: 0.0,
-    };
+    let mut report =
+        Report { declared: None, outcome: None, seen: Vec::new(), nearest_m: f64::INFINITY, avoided_s: 0.0 };
     let (mut patch, mut status) = (false, GuidanceStatus::default());
     for tick in 0..(limit_s / DT_S) as u32 {
         o.t_s = f64::from(tick) * DT_S;
@@ -140,8 +121,7 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
         if report.seen.last() != Some(&d.behaviour) {
             report.seen.push(d.behaviour);
         }
-        let avoiding =
-            |l: &crate::handoff::Layer| l.name == "avoid" && l.state == LayerState::Holds;
+        let avoiding = |l: &crate::handoff::Layer| l.name == "avoid" && l.state == LayerState::Holds;
         report.avoided_s += f64::from(u8::from(d.layers.iter().any(avoiding))) * DT_S;
         report.declared = report.declared.or(d.declared.map(|d| d.position));
         report.nearest_m = report.nearest_m.min(wall_m(p));
@@ -168,23 +148,11 @@ fn finds_traces_declares_and_goes_home_round_the_wall() {
         let declared = r.declared.unwrap_or_else(|| panic!("seed {seed}: {r:?}"));
         // As for the switching diagram: λ without a detection (5 s at 2 m/s) and the plume's width there.
         let error = (declared - SOURCE).norm();
-        assert!(
-            error < 13.0,
-            "seed {seed}: {error:.1} m off at {declared:?}"
-        );
+        assert!(error < 13.0, "seed {seed}: {error:.1} m off at {declared:?}");
         assert_eq!(r.outcome, Some(Outcome::Completed), "seed {seed}");
         // Clear of it by more than a hull's length of 1.6 m.
-        assert!(
-            r.nearest_m > 1.6,
-            "seed {seed}: {:.1} m from the wall",
-            r.nearest_m
-        );
-        for wanted in [
-            Behaviour::Find,
-            Behaviour::TrackIn,
-            Behaviour::TrackOut,
-            Behaviour::GoHome,
-        ] {
+        assert!(r.nearest_m > 1.6, "seed {seed}: {:.1} m from the wall", r.nearest_m);
+        for wanted in [Behaviour::Find, Behaviour::TrackIn, Behaviour::TrackOut, Behaviour::GoHome] {
             assert!(r.seen.contains(&wanted), "seed {seed}: never in {wanted:?}");
         }
         avoided_s += r.avoided_s;
@@ -195,17 +163,12 @@ fn finds_traces_declares_and_goes_home_round_the_wall() {
 #[test]
 fn the_wall_is_in_the_way() {
     // Without Avoid some of the same runs pass through the wall: otherwise the test above would show nothing.
-    let through = (1..=12)
-        .filter(|seed| run(*seed, false, 7200.0).nearest_m == 0.0)
-        .count();
+    let through = (1..=12).filter(|seed| run(*seed, false, 7200.0).nearest_m == 0.0).count();
     assert!(through >= 3, "{through} of 12");
 }
 
 #[test]
 fn the_same_seed_gives_the_same_run() {
     let (a, b) = (run(3, true, 7200.0), run(3, true, 7200.0));
-    assert_eq!(
-        (a.declared, a.nearest_m.to_bits()),
-        (b.declared, b.nearest_m.to_bits())
-    );
+    assert_eq!((a.declared, a.nearest_m.to_bits()), (b.declared, b.nearest_m.to_bits()));
 }

@@ -17,42 +17,20 @@ struct Desk {
 
 impl Desk {
     fn new() -> Self {
-        let spec = AmpSpec {
-            after_declaration: AfterDeclaration::Survey(Box::default()),
-            ..AmpSpec::default()
-        };
-        Self {
-            amp: Amp::new(&spec).unwrap(),
-            rng: Stream::new(1, "a", "strategy"),
-            t_s: 0.0,
-            goal_id: 0,
-        }
+        let spec = AmpSpec { after_declaration: AfterDeclaration::Survey(Box::default()), ..AmpSpec::default() };
+        Self { amp: Amp::new(&spec).unwrap(), rng: Stream::new(1, "a", "strategy"), t_s: 0.0, goal_id: 0 }
     }
 
     /// A tick at a place, on a heading; during a survey the sidescan hears a bare bed if `sonar`.
-    fn tick(
-        &mut self,
-        p: Vector2<f64>,
-        heading: Heading,
-        smells: bool,
-        arrived: bool,
-        sonar: bool,
-    ) -> Decision {
+    fn tick(&mut self, p: Vector2<f64>, heading: Heading, smells: bool, arrived: bool, sonar: bool) -> Decision {
         self.t_s += 0.1;
-        let mut o = smelling(
-            seen(self.t_s, p, heading.deg(), Some(Vector2::new(0.0, -0.2))),
-            smells,
-        );
+        let mut o = smelling(seen(self.t_s, p, heading.deg(), Some(Vector2::new(0.0, -0.2))), smells);
         o.guidance.goal_id = self.goal_id;
         o.guidance.done = arrived;
         if sonar {
             let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
-            o.sidescan = Some(SidescanPing {
-                p_BS: Vector3::zeros(),
-                max_m: 20.0,
-                port_db: level.clone(),
-                starboard_db: level,
-            });
+            o.sidescan =
+                Some(SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level });
         }
         let d = self.amp.step(&o, &mut self.rng);
         self.goal_id = d.goal.id;
@@ -102,10 +80,7 @@ fn a_declaration_is_surveyed_and_rejected_where_there_is_nothing() {
     assert_eq!((declared.number, declared.verdict), (0, Verdict::Unchecked));
     let end = desk.survey(first, true);
     let again = end.declared.unwrap();
-    assert_eq!(
-        (again.number, again.verdict, again.surveyed),
-        (0, Verdict::Rejected, None)
-    );
+    assert_eq!((again.number, again.verdict, again.surveyed), (0, Verdict::Rejected, None));
     assert_eq!(again.position, declared.position);
     // The points are forgotten, and the search continues at the mission's own height.
     assert_eq!((end.behaviour, end.outcome), (Behaviour::Find, None));
@@ -123,12 +98,6 @@ fn unheard_it_goes_home_and_completes() {
     let end = desk.survey(first, false);
     assert_eq!(end.declared.unwrap().verdict, Verdict::Unchecked);
     assert_eq!((end.behaviour, end.picture), (Behaviour::GoHome, false));
-    let home = desk.tick(
-        Vector2::new(10.0, -250.0),
-        Heading::from_deg(180.0),
-        false,
-        true,
-        false,
-    );
+    let home = desk.tick(Vector2::new(10.0, -250.0), Heading::from_deg(180.0), false, true, false);
     assert_eq!(home.outcome, Some(Outcome::Completed));
 }

@@ -50,13 +50,7 @@ pub(super) struct Holds {
 
 impl Holds {
     pub(super) fn new(points: Vec<Vector2<f64>>, how: Holding) -> Self {
-        Self {
-            how,
-            points,
-            begun: 0,
-            since_s: None,
-            taken: 0,
-        }
+        Self { how, points, begun: 0, since_s: None, taken: 0 }
     }
 
     /// One tick. `arrived` says whether the guidance has reached the last goal.
@@ -68,10 +62,7 @@ impl Holds {
                     return Stride::Keep;
                 }
                 self.since_s = Some(t_s);
-                return Stride::Start(Manoeuvre::Hold {
-                    point,
-                    heading: Some(self.how.heading),
-                });
+                return Stride::Start(Manoeuvre::Hold { point, heading: Some(self.how.heading) });
             }
             (Some(_), Some(since_s)) => {
                 let most_s = 3.0 * f64::from(self.how.pictures) * self.how.period_s + PATIENCE_S;
@@ -87,10 +78,7 @@ impl Holds {
         self.begun += 1;
         self.since_s = None;
         self.taken = 0;
-        Stride::Start(Manoeuvre::GoToPoint {
-            point,
-            radius_m: Some(REACHED_M),
-        })
+        Stride::Start(Manoeuvre::GoToPoint { point, radius_m: Some(REACHED_M) })
     }
 
     /// Number (from 0) of the point, if it is being held.
@@ -164,14 +152,9 @@ pub(super) fn best_point(
     points.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
     let shown = |off: &Vector2<f64>| -> f64 {
         let at = middle + off;
-        (unseen.iter())
-            .filter(|(p, _)| (p - at).norm() <= half_m)
-            .map(|(_, weight)| weight)
-            .sum()
+        (unseen.iter()).filter(|(p, _)| (p - at).norm() <= half_m).map(|(_, weight)| weight).sum()
     };
-    let best = (points.into_iter())
-        .map(|off| (off, shown(&off)))
-        .reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
+    let best = (points.into_iter()).map(|off| (off, shown(&off))).reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
     best.map_or(middle, |(off, _)| middle + off)
 }
 
@@ -181,11 +164,7 @@ mod tests {
     use crate::handoff::testing::seen;
 
     fn holds(points: &[[f64; 2]]) -> Holds {
-        let how = Holding {
-            pictures: 2,
-            period_s: 1.0,
-            heading: Heading::from_deg(30.0),
-        };
+        let how = Holding { pictures: 2, period_s: 1.0, heading: Heading::from_deg(30.0) };
         Holds::new(points.iter().map(|p| Vector2::from(*p)).collect(), how)
     }
 
@@ -196,18 +175,12 @@ mod tests {
         let wanted = Some(Vertical::Altitude(2.0));
         for (number, north) in [0.0, 4.0].into_iter().enumerate() {
             let point = Vector2::new(5.0, north);
-            let go = Manoeuvre::GoToPoint {
-                point,
-                radius_m: Some(REACHED_M),
-            };
+            let go = Manoeuvre::GoToPoint { point, radius_m: Some(REACHED_M) };
             assert_eq!(flown.step(&o, true), Stride::Start(go));
             o.estimate.position = point;
             assert_eq!(flown.on(&o, wanted), None, "it is not held yet");
             assert_eq!(flown.step(&o, false), Stride::Keep);
-            let hold = Manoeuvre::Hold {
-                point,
-                heading: Some(Heading::from_deg(30.0)),
-            };
+            let hold = Manoeuvre::Hold { point, heading: Some(Heading::from_deg(30.0)) };
             assert_eq!(flown.step(&o, true), Stride::Start(hold));
             assert_eq!(flown.on(&o, wanted), Some(number));
             o.estimate.position.x += 1.2;

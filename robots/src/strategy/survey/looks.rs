@@ -128,13 +128,7 @@ impl Added {
     }
 
     /// Begins with a told place; lines lie along `along`, against the flow. Points are `held` instead of lines.
-    pub(super) fn begin(
-        &mut self,
-        told: Vector2<f64>,
-        along: Heading,
-        seen: &Observation,
-        held: bool,
-    ) {
+    pub(super) fn begin(&mut self, told: Vector2<f64>, along: Heading, seen: &Observation, held: bool) {
         let flow = seen.estimate.flow.map(|f| f.heading());
         let down_flow = flow.unwrap_or_else(|| along.opposite());
         *self = Self::new(&self.spec, self.highest_m);
@@ -199,11 +193,8 @@ impl Added {
         let (Some(picture), Some(bed_m)) = (&seen.picture, beds.get(beds.len() / 2)) else {
             return;
         };
-        let stand = Stand {
-            position: at,
-            altitude_m: bed_m - seen.estimate.depth_m,
-            R_WB: seen.estimate.attitude.R_WB(),
-        };
+        let stand =
+            Stand { position: at, altitude_m: bed_m - seen.estimate.depth_m, R_WB: seen.estimate.attitude.R_WB() };
         if let Some(place) = &mut self.place {
             self.view_rad = picture.view_rad;
             let axis = picture.R_BC * Vector3::z();
@@ -285,21 +276,15 @@ impl Added {
         };
         let n = (self.spec.within_m.get() / STRIPS_M).floor() as i32;
         // From the middle outwards, so that of equal strips the nearest one is flown.
-        let strips = (0..=n)
-            .flat_map(|k| [k, -k])
-            .map(|k| f64::from(k) * STRIPS_M);
-        let best = strips
-            .map(|offset| (offset, mass(offset)))
-            .reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
+        let strips = (0..=n).flat_map(|k| [k, -k]).map(|k| f64::from(k) * STRIPS_M);
+        let best = strips.map(|offset| (offset, mass(offset))).reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
         best.map_or(0.0, |(offset, _)| offset)
     }
 
     /// The likeliest place of the source as the vehicle believes now, if the pictures verify one.
     pub(super) fn found(&self) -> Option<Vector2<f64>> {
         let weighed = self.weighed.as_ref()?;
-        let best = weighed
-            .best
-            .filter(|_| weighed.answer == Answer::Verified)?;
+        let best = weighed.best.filter(|_| weighed.answer == Answer::Verified)?;
         // From where the pictures lie to the mean of the fixes.
         Some(best + self.fixes.1)
     }

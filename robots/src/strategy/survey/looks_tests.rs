@@ -25,10 +25,7 @@ fn lines_go_to_and_fro_over_the_place_and_end() {
     for n in 0..8 {
         let (from, to) = line(added.next_line(14.0, &o));
         let north = if n % 2 == 0 { 14.0 } else { -14.0 };
-        assert!(
-            (from - Vector2::new(10.0, 20.0 - north)).norm() < 1e-9,
-            "{n}"
-        );
+        assert!((from - Vector2::new(10.0, 20.0 - north)).norm() < 1e-9, "{n}");
         assert!((to - Vector2::new(10.0, 20.0 + north)).norm() < 1e-9, "{n}");
         assert_eq!(added.altitude_m(), 2.5);
     }
@@ -45,10 +42,7 @@ fn jumps_of_the_navigation_do_not_tear_the_place() {
         o.estimate.fix_jump = Vector2::new(jump, 0.0);
         o.estimate.position.x += jump;
         added.follow(&o, false);
-        assert!(
-            added.at(&o).norm() < 1e-12,
-            "where the pictures lie, it did not move"
-        );
+        assert!(added.at(&o).norm() < 1e-12, "where the pictures lie, it did not move");
         assert!((added.middle() - Vector2::new(10.0 - mean, 20.0)).norm() < 1e-12);
     }
 }
@@ -73,9 +67,7 @@ fn murky_water_is_looked_at_from_as_low_as_the_limits_allow() {
         o.estimate.altitude_m = Some(over_m);
         o.estimate.depth_m = bed_m - over_m;
         added.follow(&o, true);
-        added.choose(Some(SeenClarity {
-            attenuation_per_m: 4.8 / visibility_m,
-        }));
+        added.choose(Some(SeenClarity { attenuation_per_m: 4.8 / visibility_m }));
         added.altitude_m()
     };
     assert_eq!(altitude(30.0, 2.5, 10.0), 2.5);

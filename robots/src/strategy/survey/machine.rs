@@ -109,16 +109,8 @@ impl PostDeclaration {
 
     /// Takes in a declared source; `along` is the direction of the lines, up-flow. Returns the declaration with its
     /// number, and what the vehicle does next: [`Behaviour::Survey`], or the mission's end.
-    pub fn enter(
-        &mut self,
-        declaration: Declaration,
-        seen: &Observation,
-        along: Heading,
-    ) -> (Declaration, Behaviour) {
-        let declaration = Declaration {
-            number: self.made,
-            ..declaration
-        };
+    pub fn enter(&mut self, declaration: Declaration, seen: &Observation, along: Heading) -> (Declaration, Behaviour) {
+        let declaration = Declaration { number: self.made, ..declaration };
         self.made += 1;
         let next = match &self.after {
             AfterDeclaration::GoHome => Behaviour::GoHome,
@@ -191,15 +183,12 @@ impl PostDeclaration {
     fn fly_on(&mut self, seen: &Observation) -> bool {
         let holding = self.holding(seen);
         let half = self.spec().and_then(|s| s.camera.as_ref());
-        let (Some(half_m), Some(Looks::Added(added))) =
-            (half.map(|c| c.half_length_m.get()), &mut self.looks)
-        else {
+        let (Some(half_m), Some(Looks::Added(added))) = (half.map(|c| c.half_length_m.get()), &mut self.looks) else {
             return false;
         };
         let next = match holding {
             None => added.next_line(half_m, seen).map(Flown::Lines),
-            Some(holding) => (added.next_point(seen))
-                .map(|point| Flown::Points(Holds::new(vec![point], holding))),
+            Some(holding) => (added.next_point(seen)).map(|point| Flown::Points(Holds::new(vec![point], holding))),
         };
         let some = next.is_some();
         self.flown = next.unwrap_or_else(Flown::nothing);
@@ -221,13 +210,8 @@ impl PostDeclaration {
         let mut arrived = arrived;
         loop {
             // The camera has seen enough.
-            let enough =
-                self.phase == SurveyPhase::Camera && self.looks.as_ref().is_some_and(Looks::enough);
-            let stride = if enough {
-                Stride::Over
-            } else {
-                self.flown.step(seen, arrived)
-            };
+            let enough = self.phase == SurveyPhase::Camera && self.looks.as_ref().is_some_and(Looks::enough);
+            let stride = if enough { Stride::Over } else { self.flown.step(seen, arrived) };
             if stride != Stride::Over {
                 return Progress::Go(stride);
             }
@@ -248,9 +232,7 @@ impl PostDeclaration {
                 SurveyPhase::Camera | SurveyPhase::None => {
                     self.phase = SurveyPhase::None;
                     let verdict = self.verdict();
-                    if let (Some(Looks::Added(added)), Some(d)) =
-                        (&self.looks, &mut self.declaration)
-                    {
+                    if let (Some(Looks::Added(added)), Some(d)) = (&self.looks, &mut self.declaration) {
                         d.looked = added.evidence();
                         d.surveyed = added.found().or(d.surveyed);
                     }
@@ -304,9 +286,7 @@ impl PostDeclaration {
         let (Some(number), Some(ping)) = (on, &seen.sidescan) else {
             return;
         };
-        let (_, picture) = self
-            .line
-            .get_or_insert_with(|| (number, Waterfall::new(CELL_M)));
+        let (_, picture) = self.line.get_or_insert_with(|| (number, Waterfall::new(CELL_M)));
         picture.push(ping, &seen.estimate);
     }
 
@@ -336,11 +316,7 @@ impl PostDeclaration {
     }
 
     fn look(&mut self, seen: &Observation, on: Option<usize>) {
-        let Some(period_s) = self
-            .spec()
-            .and_then(|s| s.camera.as_ref())
-            .map(|c| c.period_s.get())
-        else {
+        let Some(period_s) = self.spec().and_then(|s| s.camera.as_ref()).map(|c| c.period_s.get()) else {
             return;
         };
         if seen.picture.is_some() {

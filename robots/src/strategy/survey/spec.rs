@@ -72,11 +72,7 @@ impl SurveySpec {
         let far = "never knows how far the bed is that it looks at";
         let mut needs = Vec::new();
         if self.sidescan.is_some() {
-            needs.push(Need::vital(
-                "sidescan",
-                "sidescan",
-                "hears nothing on the passes for it",
-            ));
+            needs.push(Need::vital("sidescan", "sidescan", "hears nothing on the passes for it"));
             needs.push(Need::vital("sidescan", "altimeter", far));
         }
         if let Some(camera) = &self.camera {
@@ -192,12 +188,8 @@ impl SurveySpec {
     /// # Errors
     /// Names the field below `path` and the legal values.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
-        let wrong = |field: &str, problem: String| {
-            Err(RobotError::Invalid {
-                field: format!("{path}.{field}"),
-                problem,
-            })
-        };
+        let wrong =
+            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
         let offsets = [
             ("sidescan", self.sidescan.as_ref().map(|p| &p.offsets_m)),
             ("camera", self.camera.as_ref().map(|p| &p.offsets_m)),
@@ -216,10 +208,8 @@ impl SurveySpec {
             Verify::Both => sonar && eyes,
         };
         if !flown {
-            let problem = format!(
-                "{:?} needs passes that are not flown: add them, or choose another `verify`",
-                self.verify
-            );
+            let problem =
+                format!("{:?} needs passes that are not flown: add them, or choose another `verify`", self.verify);
             return wrong("verify", problem);
         }
         match &self.camera {
@@ -229,9 +219,7 @@ impl SurveySpec {
                     return wrong("camera.held_pictures", problem);
                 }
                 c.verifier.check(&format!("{path}.camera.verifier"))?;
-                c.add_up.as_ref().map_or(Ok(()), |a| {
-                    a.check(&format!("{path}.camera.add_up"), c.altitude_m.get())
-                })
+                c.add_up.as_ref().map_or(Ok(()), |a| a.check(&format!("{path}.camera.add_up"), c.altitude_m.get()))
             }
             None => Ok(()),
         }

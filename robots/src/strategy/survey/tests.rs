@@ -30,12 +30,7 @@ fn picture(source: bool) -> Picture {
         (40..60, 50..80) if source => Rgb([20, 25, 60]),
         _ => Rgb([110, 170, 175]),
     });
-    Picture {
-        image: Arc::new(image),
-        p_BC: Vector3::zeros(),
-        R_BC: UnitQuaternion::identity(),
-        view_rad: 1.0,
-    }
+    Picture { image: Arc::new(image), p_BC: Vector3::zeros(), R_BC: UnitQuaternion::identity(), view_rad: 1.0 }
 }
 
 /// What the world holds for a survey.
@@ -58,41 +53,24 @@ struct Flown {
 fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> Flown {
     let after = AfterDeclaration::Survey(Box::new(spec.clone()));
     let mut post = PostDeclaration::new(&after).unwrap();
-    let mut sonar = Sidescan::new(
-        &SidescanSpec::default(),
-        Vector3::zeros(),
-        &OnBoard::new("a", 3, PERIOD_S),
-    )
-    .unwrap();
+    let mut sonar = Sidescan::new(&SidescanSpec::default(), Vector3::zeros(), &OnBoard::new("a", 3, PERIOD_S)).unwrap();
     let mut clock = Clock::new(PERIOD_S);
     let mut o = seen(0.0, declared, 0.0, None);
     let first = Declaration::first(0.0, declared, "test");
     let (stamped, next) = post.enter(first, &o, Heading::from_deg(30.0));
     assert_eq!((stamped, next), (first, Behaviour::Survey));
-    let mut flown = Flown {
-        last: first,
-        lines: Vec::new(),
-        altitudes: Vec::new(),
-        pictures: 0,
-    };
+    let mut flown = Flown { last: first, lines: Vec::new(), altitudes: Vec::new(), pictures: 0 };
     let mut left = 0.0;
     let mut step = |o: &mut Observation, flown: &mut Flown, arrived: bool| {
         o.t_s = clock.t_s();
         o.estimate.t_s = o.t_s;
-        let Some(Vertical::Altitude(altitude)) =
-            flown.altitudes.last().map(|a| Vertical::Altitude(*a))
-        else {
+        let Some(Vertical::Altitude(altitude)) = flown.altitudes.last().map(|a| Vertical::Altitude(*a)) else {
             return post.step(o, arrived);
         };
         o.estimate.altitude_m = Some(altitude);
         let p = o.estimate.position - off;
-        let truth = Truth::at_rest(Pose::level(
-            Vector3::new(p.x, p.y, altitude - 8.0),
-            o.estimate.attitude.heading,
-        ));
-        o.sidescan = (sea.sonar)
-            .then(|| sonar.read(&clock, &truth, &sea.solids, &BED, true))
-            .flatten();
+        let truth = Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, altitude - 8.0), o.estimate.attitude.heading));
+        o.sidescan = (sea.sonar).then(|| sonar.read(&clock, &truth, &sea.solids, &BED, true)).flatten();
         let progress = post.step(o, arrived);
         o.picture = None;
         if post.picture() {
@@ -136,11 +114,7 @@ fn place() -> Vector2<f64> {
 }
 
 fn sea(at: Option<Vector2<f64>>) -> Sea {
-    Sea {
-        solids: at.map(block).unwrap_or_default(),
-        sonar: true,
-        camera: None,
-    }
+    Sea { solids: at.map(block).unwrap_or_default(), sonar: true, camera: None }
 }
 
 #[test]
@@ -160,16 +134,9 @@ fn a_block_near_the_declared_place_is_fixed_in_believed_coordinates() {
 #[test]
 fn no_strip_between_the_lines_is_left_unseen() {
     let right = Heading::from_deg(120.0).unit();
-    for across in [
-        -24.0, -16.0, -12.0, -10.0, -8.0, -6.0, -3.0, 0.0, 4.0, 8.0, 11.0, 14.0, 20.0,
-    ] {
+    for across in [-24.0, -16.0, -12.0, -10.0, -8.0, -6.0, -3.0, 0.0, 4.0, 8.0, 11.0, 14.0, 20.0] {
         let truth = place() + right * across;
-        let got = fly(
-            &SurveySpec::default(),
-            &sea(Some(truth)),
-            place(),
-            Vector2::zeros(),
-        );
+        let got = fly(&SurveySpec::default(), &sea(Some(truth)), place(), Vector2::zeros());
         let error = got.last.surveyed.map(|p| (p - truth).norm());
         assert!(error.is_some_and(|e| e < 0.9), "{across}: {error:?}");
     }
@@ -179,28 +146,19 @@ fn no_strip_between_the_lines_is_left_unseen() {
 fn without_an_object_or_with_one_too_far_off_it_is_rejected() {
     let away = place() + Vector2::new(0.0, -29.0);
     let near = SurveySpec {
-        sidescan: Some(SidescanPasses {
-            within_m: Positive::new(20.0),
-            ..SidescanPasses::default()
-        }),
+        sidescan: Some(SidescanPasses { within_m: Positive::new(20.0), ..SidescanPasses::default() }),
         ..SurveySpec::default()
     };
     for (spec, at) in [(SurveySpec::default(), None), (near, Some(away))] {
         let got = fly(&spec, &sea(at), place(), Vector2::zeros());
-        assert_eq!(
-            (got.last.verdict, got.last.surveyed),
-            (Verdict::Rejected, None)
-        );
+        assert_eq!((got.last.verdict, got.last.surveyed), (Verdict::Rejected, None));
     }
     assert_eq!(PostDeclaration::next(Verdict::Rejected), Behaviour::Find);
 }
 
 #[test]
 fn an_instrument_that_never_reported_has_no_say() {
-    let deaf = Sea {
-        sonar: false,
-        ..sea(Some(place()))
-    };
+    let deaf = Sea { sonar: false, ..sea(Some(place())) };
     let got = fly(&SurveySpec::default(), &deaf, place(), Vector2::zeros());
     assert_eq!(got.last.verdict, Verdict::Unchecked);
     assert_eq!(PostDeclaration::next(Verdict::Unchecked), Behaviour::GoHome);
@@ -210,15 +168,8 @@ fn an_instrument_that_never_reported_has_no_say() {
 fn the_camera_flies_over_what_the_sidescan_found_and_the_two_agree_as_told() {
     let truth = place() + Vector2::new(-9.0, 6.0);
     let verdict = |verify: Verify, object: bool, source: Option<bool>| {
-        let spec = SurveySpec {
-            camera: Some(CameraPasses::default()),
-            verify,
-            ..SurveySpec::default()
-        };
-        let there = Sea {
-            camera: source,
-            ..sea(object.then_some(truth))
-        };
+        let spec = SurveySpec { camera: Some(CameraPasses::default()), verify, ..SurveySpec::default() };
+        let there = Sea { camera: source, ..sea(object.then_some(truth)) };
         let got = fly(&spec, &there, place(), Vector2::zeros());
         let (from, to) = got.lines[2];
         let target = if object { truth } else { place() };
@@ -237,12 +188,7 @@ fn the_camera_flies_over_what_the_sidescan_found_and_the_two_agree_as_told() {
         (true, None, [Verified, Unchecked, Verified, Unchecked]),
         (false, None, [Rejected, Unchecked, Rejected, Rejected]),
     ] {
-        let ways = [
-            Verify::Sidescan,
-            Verify::Camera,
-            Verify::Either,
-            Verify::Both,
-        ];
+        let ways = [Verify::Sidescan, Verify::Camera, Verify::Either, Verify::Both];
         let got = ways.map(|v| verdict(v, object, source));
         assert_eq!(got, want, "{object} {source:?}");
     }
@@ -251,24 +197,15 @@ fn the_camera_flies_over_what_the_sidescan_found_and_the_two_agree_as_told() {
 /// Black pictures, added up, say nothing: neither verified nor rejected, and the lines come to an end.
 #[test]
 fn pictures_that_show_nothing_leave_the_place_open() {
-    let add_up = AddUpSpec {
-        most_lines: 3,
-        ..AddUpSpec::default()
-    };
+    let add_up = AddUpSpec { most_lines: 3, ..AddUpSpec::default() };
     let spec = |verify| SurveySpec {
         sidescan: (verify == Verify::Both).then(SidescanPasses::default),
-        camera: Some(CameraPasses {
-            add_up: Some(add_up.clone()),
-            ..CameraPasses::default()
-        }),
+        camera: Some(CameraPasses { add_up: Some(add_up.clone()), ..CameraPasses::default() }),
         verify,
         ..SurveySpec::default()
     };
     // Levels of one colour throughout: the camera did not see.
-    let blind = Sea {
-        camera: Some(false),
-        ..sea(Some(place()))
-    };
+    let blind = Sea { camera: Some(false), ..sea(Some(place())) };
     for (verify, lines) in [(Verify::Camera, 3), (Verify::Both, 5)] {
         let got = fly(&spec(verify), &blind, place(), Vector2::zeros());
         assert_eq!(got.last.verdict, Verdict::CannotTell, "{verify:?}");
@@ -278,20 +215,14 @@ fn pictures_that_show_nothing_leave_the_place_open() {
         assert!(looked.useless > 10, "{looked:?}");
         assert_eq!(PostDeclaration::next(got.last.verdict), Behaviour::GoHome);
     }
-    let without = Sea {
-        camera: None,
-        ..sea(None)
-    };
+    let without = Sea { camera: None, ..sea(None) };
     let got = fly(&spec(Verify::Camera), &without, place(), Vector2::zeros());
     assert_eq!(got.last.verdict, Verdict::Unchecked);
 }
 
 #[test]
 fn declarations_are_numbered_and_the_plain_ends_stay() {
-    for (after, next) in [
-        (AfterDeclaration::GoHome, Behaviour::GoHome),
-        (AfterDeclaration::Stop, Behaviour::Done),
-    ] {
+    for (after, next) in [(AfterDeclaration::GoHome, Behaviour::GoHome), (AfterDeclaration::Stop, Behaviour::Done)] {
         let mut post = PostDeclaration::new(&after).unwrap();
         let o = seen(0.0, place(), 0.0, None);
         for number in 0..3 {
@@ -307,20 +238,12 @@ fn declarations_are_numbered_and_the_plain_ends_stay() {
 #[test]
 fn parts_that_do_not_go_together_are_named() {
     let says = |spec: SurveySpec| {
-        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec)))
-            .expect_err("must not be")
-            .to_string()
+        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec))).expect_err("must not be").to_string()
     };
-    let blind = SurveySpec {
-        verify: Verify::Both,
-        ..SurveySpec::default()
-    };
+    let blind = SurveySpec { verify: Verify::Both, ..SurveySpec::default() };
     assert!(says(blind).starts_with("strategy.after_declaration.verify: Both needs passes"));
     let none = SurveySpec {
-        sidescan: Some(SidescanPasses {
-            offsets_m: Vec::new(),
-            ..SidescanPasses::default()
-        }),
+        sidescan: Some(SidescanPasses { offsets_m: Vec::new(), ..SidescanPasses::default() }),
         ..SurveySpec::default()
     };
     assert!(says(none).contains("sidescan.offsets_m: must have from 1 to 32 lines, got 0"));
@@ -328,12 +251,7 @@ fn parts_that_do_not_go_together_are_named() {
 
 /// What the camera's part of a survey begins with, for a vehicle that hovers or not.
 fn first_of_the_camera(hovers: bool, camera: CameraPasses) -> Manoeuvre {
-    let spec = SurveySpec {
-        sidescan: None,
-        camera: Some(camera),
-        verify: Verify::Camera,
-        ..SurveySpec::default()
-    };
+    let spec = SurveySpec { sidescan: None, camera: Some(camera), verify: Verify::Camera, ..SurveySpec::default() };
     let after = AfterDeclaration::Survey(Box::new(spec));
     let mut post = PostDeclaration::new(&after).unwrap();
     let place = Vector2::new(10.0, 20.0);
@@ -350,22 +268,12 @@ fn first_of_the_camera(hovers: bool, camera: CameraPasses) -> Manoeuvre {
 
 #[test]
 fn over_a_declared_place_a_vehicle_that_hovers_holds_for_pictures_that_add_up() {
-    let added = || CameraPasses {
-        add_up: Some(AddUpSpec::default()),
-        ..CameraPasses::default()
-    };
+    let added = || CameraPasses { add_up: Some(AddUpSpec::default()), ..CameraPasses::default() };
     let holds = first_of_the_camera(true, added());
     assert!(matches!(holds, Manoeuvre::GoToPoint { .. }), "{holds:?}");
-    let not_asked = CameraPasses {
-        held_pictures: 0,
-        ..added()
-    };
+    let not_asked = CameraPasses { held_pictures: 0, ..added() };
     // Each picture by itself, or a vehicle that cannot hover, or one that is told to fly lines.
-    for (hovers, camera) in [
-        (true, CameraPasses::default()),
-        (false, added()),
-        (true, not_asked),
-    ] {
+    for (hovers, camera) in [(true, CameraPasses::default()), (false, added()), (true, not_asked)] {
         let flies = first_of_the_camera(hovers, camera);
         assert!(matches!(flies, Manoeuvre::FollowLine { .. }), "{flies:?}");
     }

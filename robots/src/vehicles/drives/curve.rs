@@ -22,9 +22,7 @@ pub(in crate::vehicles) fn table(spec: &CurveSpec) -> Result<ThrustTable, String
         CurveSpec::Newtons((astern, ahead)) => {
             let (astern, ahead) = (astern.get(), ahead.get());
             if !(astern <= 0.0 && ahead >= 0.0 && ahead > astern) {
-                return Err(format!(
-                    "Newtons: must go from a thrust <= 0 to a thrust >= 0, got {astern} to {ahead}"
-                ));
+                return Err(format!("Newtons: must go from a thrust <= 0 to a thrust >= 0, got {astern} to {ahead}"));
             }
             vec![(astern, astern), (ahead, ahead)]
         }
@@ -32,9 +30,7 @@ pub(in crate::vehicles) fn table(spec: &CurveSpec) -> Result<ThrustTable, String
         CurveSpec::Polynomial((c_1, c_2, from, to)) => {
             let (from, to) = (from.get(), to.get());
             if !(from <= 0.0 && to >= 0.0 && to > from) {
-                return Err(format!(
-                    "Polynomial: must go from an input <= 0 to an input >= 0, got {from} to {to}"
-                ));
+                return Err(format!("Polynomial: must go from an input <= 0 to an input >= 0, got {from} to {to}"));
             }
             let at = |n: f64| (n, c_1.get() * n * n.abs() + c_2.get() * n);
             let share = |k: usize| k as f64 / PIECES as f64;
@@ -52,17 +48,13 @@ pub(in crate::vehicles) fn table(spec: &CurveSpec) -> Result<ThrustTable, String
     for pair in points.windows(2) {
         let [(i, n), (j, m)] = [pair[0], pair[1]];
         if j <= i || m < n {
-            return Err(format!(
-                "inputs must rise and thrusts must not fall, but {i} gives {n} N and {j} gives {m} N"
-            ));
+            return Err(format!("inputs must rise and thrusts must not fall, but {i} gives {n} N and {j} gives {m} N"));
         }
     }
     let table = ThrustTable(points);
     let [least, most] = table.thrusts_n();
     if least > 0.0 || most < 0.0 || most == least {
-        return Err(format!(
-            "thrusts must include zero, got {least} to {most} N"
-        ));
+        return Err(format!("thrusts must include zero, got {least} to {most} N"));
     }
     Ok(table)
 }
@@ -78,12 +70,7 @@ mod tests {
 
     #[test]
     fn a_table_with_a_dead_band() {
-        let pairs = [
-            (1100.0, -40.0),
-            (1464.0, 0.0),
-            (1536.0, 0.0),
-            (1900.0, 51.0),
-        ];
+        let pairs = [(1100.0, -40.0), (1464.0, 0.0), (1536.0, 0.0), (1900.0, 51.0)];
         let pairs = pairs.map(|(i, n)| (f(i), f(n))).to_vec();
         let curve = table(&CurveSpec::Table(pairs)).unwrap();
         assert_eq!(curve.thrust_n(1500.0), 0.0);
@@ -106,9 +93,7 @@ mod tests {
 
     #[test]
     fn curves_that_fall_or_push_only_one_way_round_zero_are_refused() {
-        let pairs = |pairs: &[(f64, f64)]| {
-            CurveSpec::Table(pairs.iter().map(|&(i, n)| (f(i), f(n))).collect())
-        };
+        let pairs = |pairs: &[(f64, f64)]| CurveSpec::Table(pairs.iter().map(|&(i, n)| (f(i), f(n))).collect());
         for (spec, why) in [
             (pairs(&[(0.0, 0.0)]), "at least two pairs"),
             (pairs(&[(0.0, 0.0), (1.0, -1.0)]), "must not fall"),

@@ -69,12 +69,7 @@ impl Drive {
     }
 
     /// Force and moment about the body's origin.
-    pub(in crate::vehicles) fn force(
-        &self,
-        state: f64,
-        body: &Body,
-        at: &Relative,
-    ) -> (Vector3<f64>, Vector3<f64>) {
+    pub(in crate::vehicles) fn force(&self, state: f64, body: &Body, at: &Relative) -> (Vector3<f64>, Vector3<f64>) {
         match &self.kind {
             Kind::Thruster(thruster) => thruster.force(state, at),
             Kind::Fin(fin) => fin.force(state, at),
@@ -135,9 +130,6 @@ mod tests {
         let pumping = of(Follows::Rate(0.1));
         assert_eq!(pumping.after(0.0, 1.0, 2.0), 0.2);
         assert!((pumping.after(0.9, -1.0, 100.0) + 1.0).abs() < 1e-12);
-        assert_eq!(
-            (pumping.power_w(0.0, 1.0), pumping.power_w(1.0, 0.0)),
-            (10.0, 0.0)
-        );
+        assert_eq!((pumping.power_w(0.0, 1.0), pumping.power_w(1.0, 0.0)), (10.0, 0.0));
     }
 }

@@ -61,8 +61,7 @@ impl Fin {
         // Sine of the angle between the stream and the plate: positive if the water comes from the lift's back.
         let sin_alpha = -(across * cos + ahead * sin) / speed;
         let k = 0.5 * at.rho * squared * self.area_m2 * wet(at, &self.r);
-        let stalled = ((math::asin(sin_alpha.abs().min(1.0)) - self.stall_rad) / BLEND_RAD + 0.5)
-            .clamp(0.0, 1.0);
+        let stalled = ((math::asin(sin_alpha.abs().min(1.0)) - self.stall_rad) / BLEND_RAD + 0.5).clamp(0.0, 1.0);
         let c_n = self.slope + (self.plate - self.slope) * stalled;
         let stream = (self.chord * ahead + self.lift * across) / speed;
         let force = normal * (k * c_n * sin_alpha) - stream * (k * self.drag_0);
@@ -90,16 +89,7 @@ mod tests {
     }
 
     fn at(v: Vector3<f64>, w: Vector3<f64>) -> Relative {
-        Relative {
-            v_ground: v,
-            v,
-            w,
-            along: Vector3::zeros(),
-            rho: 1025.0,
-            down: Vector3::z(),
-            z_m: -10.0,
-            wet: 1.0,
-        }
+        Relative { v_ground: v, v, w, along: Vector3::zeros(), rho: 1025.0, down: Vector3::z(), z_m: -10.0, wet: 1.0 }
     }
 
     #[test]

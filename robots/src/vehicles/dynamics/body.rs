@@ -23,43 +23,26 @@ pub(in crate::vehicles) struct Mass {
 
 impl Mass {
     /// From the inertia about the centre of gravity.
-    pub(in crate::vehicles) fn about_centre(
-        kg: f64,
-        r_G: Vector3<f64>,
-        inertia_kg_m2: &Matrix3<f64>,
-    ) -> Self {
+    pub(in crate::vehicles) fn about_centre(kg: f64, r_G: Vector3<f64>, inertia_kg_m2: &Matrix3<f64>) -> Self {
         let arm = r_G.cross_matrix();
-        Self {
-            kg,
-            r_G,
-            inertia_kg_m2: inertia_kg_m2 - arm * arm * kg,
-        }
+        Self { kg, r_G, inertia_kg_m2: inertia_kg_m2 - arm * arm * kg }
     }
 
     /// M_RB.
     pub(in crate::vehicles) fn matrix(&self) -> Matrix6<f64> {
         let mut M = Matrix6::zeros();
         let arm = self.r_G.cross_matrix() * self.kg;
-        M.fixed_view_mut::<3, 3>(0, 0)
-            .copy_from(&(Matrix3::identity() * self.kg));
+        M.fixed_view_mut::<3, 3>(0, 0).copy_from(&(Matrix3::identity() * self.kg));
         M.fixed_view_mut::<3, 3>(0, 3).copy_from(&-arm);
         M.fixed_view_mut::<3, 3>(3, 0).copy_from(&arm);
-        M.fixed_view_mut::<3, 3>(3, 3)
-            .copy_from(&self.inertia_kg_m2);
+        M.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.inertia_kg_m2);
         M
     }
 
     /// Linear and angular momentum.
     #[inline]
-    pub(super) fn momentum(
-        &self,
-        v: &Vector3<f64>,
-        w: &Vector3<f64>,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        (
-            (v + w.cross(&self.r_G)) * self.kg,
-            self.r_G.cross(v) * self.kg + self.inertia_kg_m2 * w,
-        )
+    pub(super) fn momentum(&self, v: &Vector3<f64>, w: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        ((v + w.cross(&self.r_G)) * self.kg, self.r_G.cross(v) * self.kg + self.inertia_kg_m2 * w)
     }
 }
 
@@ -98,10 +81,7 @@ pub(in crate::vehicles) fn added_coriolis(
     w: &Vector3<f64>,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let part = |row, column| added.fixed_view::<3, 3>(row, column).into_owned();
-    let momenta = (
-        part(0, 0) * v + part(0, 3) * w,
-        part(3, 0) * v + part(3, 3) * w,
-    );
+    let momenta = (part(0, 0) * v + part(0, 3) * w, part(3, 0) * v + part(3, 3) * w);
     coriolis(v, w, momenta)
 }
 
@@ -120,10 +100,7 @@ mod tests {
         let (l, h) = mass.momentum(&v, &w);
         let both = mass.matrix() * nu;
         assert!((both - Vector6::new(l.x, l.y, l.z, h.x, h.y, h.z)).norm() < 1e-12);
-        for (f, m) in [
-            coriolis(&v, &w, (l, h)),
-            added_coriolis(&mass.matrix(), &v, &w),
-        ] {
+        for (f, m) in [coriolis(&v, &w, (l, h)), added_coriolis(&mass.matrix(), &v, &w)] {
             assert!((f.dot(&v) + m.dot(&w)).abs() < 1e-12);
             assert!(f.norm() > 1.0);
         }

@@ -76,13 +76,7 @@ pub(in crate::vehicles) trait Terms {
     type Drives: super::motion::Carried;
 
     /// Force and moment about the origin, FRD, with those of the added mass's Coriolis term.
-    fn forces(
-        &self,
-        body: &Body,
-        at: &Relative,
-        drives: &Self::Drives,
-        stage: Stage,
-    ) -> (Vector3<f64>, Vector3<f64>);
+    fn forces(&self, body: &Body, at: &Relative, drives: &Self::Drives, stage: Stage) -> (Vector3<f64>, Vector3<f64>);
 
     /// Change of the drives' state per second.
     fn rate(&self, drives: &Self::Drives) -> Self::Drives;
@@ -104,13 +98,7 @@ pub(in crate::vehicles) fn flip(v: Vector3<f64>) -> Vector3<f64> {
 /// A block of FLU in FRD, and back. A zero stays +0.
 pub(in crate::vehicles) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
     let turns = |k: usize| !k.is_multiple_of(3);
-    Matrix6::from_fn(|i, j| {
-        if turns(i) == turns(j) {
-            block[(i, j)]
-        } else {
-            0.0 - block[(i, j)]
-        }
-    })
+    Matrix6::from_fn(|i, j| if turns(i) == turns(j) { block[(i, j)] } else { 0.0 - block[(i, j)] })
 }
 
 impl Equation {
@@ -126,10 +114,7 @@ impl Equation {
     }
 
     /// (v̇, ω̇) in body axes (FLU) of velocity over ground `v` and angular velocity `w` (FLU).
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "the state, the water and the drives of one instant"
-    )]
+    #[allow(clippy::too_many_arguments, reason = "the state, the water and the drives of one instant")]
     #[inline]
     pub(in crate::vehicles) fn acceleration<T: Terms>(
         &self,
@@ -155,11 +140,7 @@ impl Equation {
         if body.current_by_yaw_only {
             let bow = R_WB.matrix().fixed_view::<2, 1>(0, 0).normalize();
             let starboard = Vector3::new(bow.y, -bow.x, 0.0);
-            current = Vector3::new(
-                bow.x * water.u_W.x + bow.y * water.u_W.y,
-                starboard.dot(&water.u_W),
-                0.0,
-            );
+            current = Vector3::new(bow.x * water.u_W.x + bow.y * water.u_W.y, starboard.dot(&water.u_W), 0.0);
             current_rate = Vector3::new(w.z * current.y, -w.z * current.x, 0.0);
         } else {
             current = to_body(&water.u_W);
@@ -185,16 +166,8 @@ impl Equation {
         force -= f;
         moment -= m;
 
-        let at = Relative {
-            v_ground: v,
-            v: v_r,
-            w,
-            along,
-            rho: water.density_kg_m3,
-            down,
-            z_m: water.z_m,
-            wet: water.wet,
-        };
+        let at =
+            Relative { v_ground: v, v: v_r, w, along, rho: water.density_kg_m3, down, z_m: water.z_m, wet: water.wet };
         let (f, m) = terms.forces(body, &at, drives, stage);
         force += f;
         moment += m;
@@ -209,9 +182,6 @@ impl Equation {
         let tau = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
         let nu_dot = self.inverse_mass * tau;
         current_rate += nu_dot.fixed_rows::<3>(0);
-        (
-            flip(current_rate),
-            flip(nu_dot.fixed_rows::<3>(3).into_owned()),
-        )
+        (flip(current_rate), flip(nu_dot.fixed_rows::<3>(3).into_owned()))
     }
 }

@@ -56,11 +56,7 @@ impl Equation {
         h: f64,
     ) -> (Truth, T::Drives) {
         let body = &self.body;
-        let carried = if body.current_by_yaw_only {
-            Vector3::zeros()
-        } else {
-            sample.velocity
-        };
+        let carried = if body.current_by_yaw_only { Vector3::zeros() } else { sample.velocity };
         let start = State {
             p: truth.pose.p_WB,
             q: truth.pose.R_WB.into_inner(),
@@ -93,30 +89,17 @@ impl Equation {
                 z_m,
             };
             let (v, w) = self.acceleration(terms, &R_WB, &s.v, &s.w, &water, &s.drives, stage);
-            State {
-                p: R_WB * s.v,
-                q: s.q * Quaternion::from_imag(s.w * 0.5),
-                v,
-                w,
-                drives: terms.rate(&s.drives),
-            }
+            State { p: R_WB * s.v, q: s.q * Quaternion::from_imag(s.w * 0.5), v, w, drives: terms.rate(&s.drives) }
         };
         let k1 = rate(&start, Stage::Start);
         let k2 = rate(&start.moved(&k1, h / 2.0), Stage::Middle);
         let k3 = rate(&start.moved(&k2, h / 2.0), Stage::Middle);
         let k4 = rate(&start.moved(&k3, h), Stage::End);
-        let end = start
-            .moved(&k1, h / 6.0)
-            .moved(&k2, h / 3.0)
-            .moved(&k3, h / 3.0)
-            .moved(&k4, h / 6.0);
+        let end = start.moved(&k1, h / 6.0).moved(&k2, h / 3.0).moved(&k3, h / 3.0).moved(&k4, h / 6.0);
 
         let R_WB = UnitQuaternion::new_normalize(end.q);
         let truth = Truth {
-            pose: Pose {
-                p_WB: end.p + carried * h,
-                R_WB,
-            },
+            pose: Pose { p_WB: end.p + carried * h, R_WB },
             v_WB_B: end.v + R_WB.inverse() * carried,
             w_WB_B: end.w,
         };

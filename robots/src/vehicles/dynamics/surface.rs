@@ -99,20 +99,11 @@ pub(in crate::vehicles) fn cells_of(shapes: &[(Pose, Shape)]) -> Envelope {
     }
     let middle = at.iter().sum::<Vector3<f64>>() / at.len() as f64;
     let reach_m = at.iter().map(|p| p.norm()).fold(0.0, f64::max) + half_m;
-    Envelope::Boxes(Boxes {
-        at,
-        half_m,
-        reach_m,
-        middle,
-    })
+    Envelope::Boxes(Boxes { at, half_m, reach_m, middle })
 }
 
 /// Middles of the boxes within shapes, on a grid between two corners, and half their side.
-fn filled(
-    shapes: &[(Pose, Shape)],
-    low: &Vector3<f64>,
-    high: &Vector3<f64>,
-) -> (Vec<Vector3<f64>>, f64) {
+fn filled(shapes: &[(Pose, Shape)], low: &Vector3<f64>, high: &Vector3<f64>) -> (Vec<Vector3<f64>>, f64) {
     let inside: Vec<_> = shapes.iter().map(|(pose, s)| (pose, s.inside())).collect();
     let size = high - low;
     let side = (size.max() / BOXES as f64).max(1e-3);
@@ -124,9 +115,7 @@ fn filled(
         for j in 0..n.y {
             for k in 0..n.z {
                 let p = from + Vector3::new(i as f64 + 0.5, j as f64 + 0.5, k as f64 + 0.5) * side;
-                if (inside.iter())
-                    .any(|(pose, within)| within(&(pose.R_WB.inverse() * (p - pose.p_WB))))
-                {
+                if (inside.iter()).any(|(pose, within)| within(&(pose.R_WB.inverse() * (p - pose.p_WB)))) {
                     at.push(p);
                 }
             }
@@ -177,10 +166,7 @@ mod tests {
     }
 
     fn float(y: f64) -> (Pose, Shape) {
-        let pose = Pose {
-            p_WB: Vector3::new(0.0, y, 0.0),
-            R_WB: UnitQuaternion::identity(),
-        };
+        let pose = Pose { p_WB: Vector3::new(0.0, y, 0.0), R_WB: UnitQuaternion::identity() };
         let size_m = Vector3::new(2.0, 0.2, 0.3);
         (pose, Shape::Box { size_m })
     }
@@ -189,9 +175,7 @@ mod tests {
     #[test]
     fn two_floats_are_filled_and_right_themselves() {
         let craft = cells_of(&[float(0.4), float(-0.4)]);
-        let Envelope::Boxes(boxes) = &craft else {
-            panic!("boxes")
-        };
+        let Envelope::Boxes(boxes) = &craft else { panic!("boxes") };
         assert!(boxes.at.len() > 20 && boxes.middle.norm() < 1e-12);
         let level = Vector3::z();
         assert_eq!(craft.wet(-3.0, &level), (1.0, Vector3::zeros()));

@@ -54,12 +54,9 @@ fn term(name: &str) -> Option<Term> {
 pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBlocks, String> {
     let plugin = the_plugin(plugins, report)?;
     let all = report.sorted(plugin, |name| match name {
-        "link_name" | "water_density" | "waterDensity" | "disable_coriolis"
-        | "disable_added_mass" => Use::Read,
+        "link_name" | "water_density" | "waterDensity" | "disable_coriolis" | "disable_added_mass" => Use::Read,
         "namespace" => Use::Skip,
-        "default_current" | "lookup_current_x" | "lookup_current_y" | "lookup_current_z" => {
-            Use::Doubt(CURRENT)
-        }
+        "default_current" | "lookup_current_x" | "lookup_current_y" | "lookup_current_z" => Use::Doubt(CURRENT),
         _ if term(name).is_some() => Use::Read,
         _ => Use::Doubt(IGNORED),
     })?;
@@ -67,9 +64,7 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
     if let Some(node) = plugin.document().descendants().find(native) {
         report.doubt(node, "ignored: only the plugin's added mass is read");
     }
-    let link = *all
-        .get("link_name")
-        .ok_or_else(|| report.fault(plugin, "<link_name> is missing"))?;
+    let link = *all.get("link_name").ok_or_else(|| report.fault(plugin, "<link_name> is missing"))?;
     let link_name = report.words(link, None)?;
     if link_name.is_empty() {
         return Err(report.fault(link, "is empty"));
@@ -86,10 +81,7 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
         None => Ok(None),
     };
     if let Some(node) = switch("disable_coriolis", report)? {
-        report.doubt(
-            node,
-            "ignored: the Coriolis force of the added mass acts here",
-        );
+        report.doubt(node, "ignored: the Coriolis force of the added mass acts here");
     }
     let without = switch("disable_added_mass", report)?;
     if let Some(node) = without {
@@ -121,10 +113,7 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
 
 /// The plugin with coefficients.
 fn the_plugin<'a>(plugins: &[Node<'a>], report: &mut Report) -> Result<Node<'a>, String> {
-    let is_model = |n: &Node<'_>| {
-        n.children()
-            .any(|c| c.is_element() && term(name(c)).is_some())
-    };
+    let is_model = |n: &Node<'_>| n.children().any(|c| c.is_element() && term(name(c)).is_some());
     let mut found: Option<Node<'a>> = None;
     for plugin in plugins {
         match found {
@@ -135,17 +124,13 @@ fn the_plugin<'a>(plugins: &[Node<'a>], report: &mut Report) -> Result<Node<'a>,
                 let first = report.line(first);
                 return Err(report.fault(
                     *plugin,
-                    &format!(
-                        "has coefficients, and so has the plugin on line {first}: a vehicle can have one"
-                    ),
+                    &format!("has coefficients, and so has the plugin on line {first}: a vehicle can have one"),
                 ));
             }
             None => found = Some(*plugin),
         }
     }
-    found
-        .filter(is_model)
-        .ok_or_else(|| report.fault(plugins[0], "has no coefficient, such as <xDotU> or <xU>"))
+    found.filter(is_model).ok_or_else(|| report.fault(plugins[0], "has no coefficient, such as <xDotU> or <xU>"))
 }
 
 /// The coefficients as matrices, with their signs as in the file.
@@ -179,16 +164,10 @@ impl Sums {
             Term::Plain(i, 0, j) | Term::Plain(i, j, 0) => self.forward[(i, j)] += value,
             Term::Abs(..) | Term::Plain(..) if value == 0.0 => {}
             Term::Abs(..) => {
-                return Err(report.fault(
-                    node,
-                    "products of one speed and the amount of another are not supported",
-                ));
+                return Err(report.fault(node, "products of one speed and the amount of another are not supported"));
             }
             Term::Plain(..) => {
-                return Err(report.fault(
-                    node,
-                    "products of two speeds are supported only if one is U",
-                ));
+                return Err(report.fault(node, "products of two speeds are supported only if one is U"));
             }
         }
         Ok(())
@@ -196,16 +175,9 @@ impl Sums {
 }
 
 /// The added mass, positive.
-fn added_mass(
-    plugin: Node<'_>,
-    m: &Matrix6<f64>,
-    report: &mut Report,
-) -> Result<Matrix6<f64>, String> {
+fn added_mass(plugin: Node<'_>, m: &Matrix6<f64>, report: &mut Report) -> Result<Matrix6<f64>, String> {
     if let Some(odd) = asymmetric(m) {
-        report.doubt(
-            plugin,
-            &format!("added mass is not symmetric in {odd}: read as it stands"),
-        );
+        report.doubt(plugin, &format!("added mass is not symmetric in {odd}: read as it stands"));
     }
     let positive = entries(m, |i, j, v| i == j && v > 0.0);
     let negative = entries(m, |i, j, v| i == j && v < 0.0);
@@ -221,10 +193,9 @@ fn added_mass(
             );
             Ok(*m)
         }
-        (Some(some), Some(others)) => Err(report.fault(
-            plugin,
-            &format!("added mass is positive in {some} but negative in {others}"),
-        )),
+        (Some(some), Some(others)) => {
+            Err(report.fault(plugin, &format!("added mass is positive in {some} but negative in {others}")))
+        }
     }
 }
 

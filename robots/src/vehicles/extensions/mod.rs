@@ -59,14 +59,10 @@ pub(super) struct FossenBlocks {
 
 /// Simulators that are read: part of the plugin's file name, and a reader of all its plugins in a file.
 const KINDS: [Kind; 2] = [
-    Kind {
-        is_file: |file| file.contains("uuv_underwater_object"),
-        read: uuv::read,
-    },
+    Kind { is_file: |file| file.contains("uuv_underwater_object"), read: uuv::read },
     Kind {
         is_file: |file| {
-            file.contains("hydrodynamics-system")
-                && (file.contains("gz-sim") || file.contains("ignition-gazebo"))
+            file.contains("hydrodynamics-system") && (file.contains("gz-sim") || file.contains("ignition-gazebo"))
         },
         read: gz::read,
     },
@@ -94,10 +90,7 @@ pub(super) fn read(text: &str) -> Result<Option<FossenBlocks>, String> {
         return Err(report.fault(node, "is for xacro: run xacro first"));
     }
     let gazebo = elements(document.root_element()).filter(|n| name(*n) == "gazebo");
-    let plugins: Vec<Node<'_>> = gazebo
-        .flat_map(elements)
-        .filter(|n| name(*n) == "plugin")
-        .collect();
+    let plugins: Vec<Node<'_>> = gazebo.flat_map(elements).filter(|n| name(*n) == "plugin").collect();
     let of = |kind: &Kind| -> Vec<Node<'_>> {
         let file = |n: &Node<'_>| n.attribute("filename").is_some_and(kind.is_file);
         plugins.iter().copied().filter(file).collect()

@@ -151,10 +151,7 @@ fn a_neutral_body_says_no_volume() {
     let b = blocks(&with(UUV, told, "<neutrally_buoyant>true"));
     assert!(b.neutral);
     assert_eq!(b.volume_m3, None);
-    assert_eq!(
-        b.doubts,
-        ["line 11, <volume>: ignored, because <neutrally_buoyant> is true"]
-    );
+    assert_eq!(b.doubts, ["line 11, <volume>: ignored, because <neutrally_buoyant> is true"]);
 }
 
 #[test]
@@ -164,19 +161,12 @@ fn odd_signs_are_told_and_read_as_there() {
     assert_eq!((b.linear[(0, 0)], b.linear[(1, 1)]), (-1.0, 2.0));
     assert_eq!(
         b.doubts,
-        [
-            "line 28, <linear_damping>: is positive in X_u = 1, Z_w = 3: read as uuv_simulator does, so it drives the \
-             body on; what resists is negative"
-        ]
+        ["line 28, <linear_damping>: is positive in X_u = 1, Z_w = 3: read as uuv_simulator does, so it drives the \
+             body on; what resists is negative"]
     );
     let b = blocks(&with(UUV, "0 30 0 0 0 -2", "0 -30 0 0 0 -2"));
     assert_eq!(b.added_mass[(1, 1)], -30.0);
-    assert_eq!(
-        b.doubts,
-        [
-            "line 20, <added_mass>: is negative in Y_v = -30: read as it stands, so it takes mass away"
-        ]
-    );
+    assert_eq!(b.doubts, ["line 20, <added_mass>: is negative in Y_v = -30: read as it stands, so it takes mass away"]);
 }
 
 #[test]
@@ -186,39 +176,25 @@ fn odd_matrices_are_told() {
         ["line 20, <added_mass>: is not symmetric in Y_r = -2, N_v = -3: read as it stands"]
     );
     // As rounded in a table.
-    assert_eq!(
-        doubts(UUV, "0 -2 0 0 0 5", "0 -2.001 0 0 0 5"),
-        Vec::<String>::new()
-    );
+    assert_eq!(doubts(UUV, "0 -2 0 0 0 5", "0 -2.001 0 0 0 5"), Vec::<String>::new());
     let start = UUV.find("1.0 0 0 0").expect("there");
     let end = UUV.find("</added_mass>").expect("there");
     let b = blocks(&format!("{}1 2 3 4 5 6{}", &UUV[..start], &UUV[end..]));
     assert_eq!(b.added_mass[(5, 5)], 6.0);
-    assert_eq!(
-        b.doubts,
-        [
-            "line 20, <added_mass>: 6 numbers are taken as the diagonal; uuv_simulator itself needs 36"
-        ]
-    );
+    assert_eq!(b.doubts, ["line 20, <added_mass>: 6 numbers are taken as the diagonal; uuv_simulator itself needs 36"]);
     let mut full = [0.0; 36];
     (full[0], full[5]) = (-3.0, 4.0);
     let b = blocks(&with(UUV, "-11 -12 -13 -14 -15 -16", &row(&full)));
     assert_eq!(b.quadratic[(0, 0)], 3.0);
     assert_eq!(b.quadratic[(0, 5)], 0.0);
-    assert_eq!(
-        b.doubts,
-        ["line 37, <quadratic_damping>: X_r = 4 off the diagonal: ignored, as in uuv_simulator"]
-    );
+    assert_eq!(b.doubts, ["line 37, <quadratic_damping>: X_r = 4 off the diagonal: ignored, as in uuv_simulator"]);
 }
 
 #[test]
 fn what_is_ignored_is_told() {
     let box_end = "        </box>\n";
     for (more, why) in [
-        (
-            "<bounding_box>1 1 1</bounding_box>",
-            "<bounding_box>: ignored: uuv_simulator has no such element",
-        ),
+        ("<bounding_box>1 1 1</bounding_box>", "<bounding_box>: ignored: uuv_simulator has no such element"),
         (
             "<metacentric_width>0.3</metacentric_width>",
             "<metacentric_width>: ignored: the body is taken as under water; `floats: true` takes it as a craft on the \
@@ -237,10 +213,7 @@ fn what_is_ignored_is_told() {
         ["line 8, <depth>: ignored: uuv_simulator has no such element"]
     );
     let arm = r#"<debug>0</debug><link name="arm"><volume>1</volume></link>"#;
-    assert_eq!(
-        doubts(UUV, "<debug>0</debug>", arm),
-        ["line 8, <link>: ignored: it has no <hydrodynamic_model>"]
-    );
+    assert_eq!(doubts(UUV, "<debug>0</debug>", arm), ["line 8, <link>: ignored: it has no <hydrodynamic_model>"]);
 }
 
 /// Numbers for an element.

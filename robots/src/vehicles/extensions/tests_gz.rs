@@ -92,10 +92,8 @@ fn positive_added_mass_is_of_former_versions() {
     assert_eq!(b.added_mass, blocks(GZ).added_mass);
     assert_eq!(
         b.doubts,
-        [
-            "line 4, <plugin>: added mass is positive (X_u = 1, Y_v = 30, Z_w = 31, M_q = 4, N_r = 5), as until July \
-             2022: read as the mass itself; later versions have it negative"
-        ]
+        ["line 4, <plugin>: added mass is positive (X_u = 1, Y_v = 30, Z_w = 31, M_q = 4, N_r = 5), as until July \
+             2022: read as the mass itself; later versions have it negative"]
     );
 }
 
@@ -115,9 +113,7 @@ fn plain_squares_are_read_as_drag() {
     assert_eq!(b.quadratic, blocks(GZ).quadratic);
     assert_eq!(
         b.doubts,
-        [
-            "line 20, <xUU>: read as <xUabsU>, as until November 2022; later versions do not reverse it with the speed"
-        ]
+        ["line 20, <xUU>: read as <xUabsU>, as until November 2022; later versions do not reverse it with the speed"]
     );
     // The force Z of u² is a forward term with u twice.
     let b = blocks(&with(GZ, "<yUV>-7</yUV>", "<zUU>-7</zUU>"));
@@ -133,11 +129,7 @@ fn other_products_are_refused_unless_zero() {
             "<yRabsV>6</yRabsV>",
             "line 21, <yRabsV>: products of one speed and the amount of another are not supported",
         ),
-        (
-            "<yUV>-7</yUV>",
-            "<yVR>-7</yVR>",
-            "line 22, <yVR>: products of two speeds are supported only if one is U",
-        ),
+        ("<yUV>-7</yUV>", "<yVR>-7</yVR>", "line 22, <yVR>: products of two speeds are supported only if one is U"),
     ] {
         assert_eq!(read(&with(GZ, from, to)), Err(error.into()));
         let zero = to.replace("6<", "0<").replace("-7<", "0<");
@@ -149,10 +141,7 @@ fn other_products_are_refused_unless_zero() {
 fn what_is_doubtful_is_told() {
     let line_8 = "<water_density>1025</water_density>";
     for (to, doubt) in [
-        (
-            "<waterDensity>1025</waterDensity>",
-            "<waterDensity>: is the former name of <water_density>",
-        ),
+        ("<waterDensity>1025</waterDensity>", "<waterDensity>: is the former name of <water_density>"),
         (
             "<disable_coriolis>true</disable_coriolis>",
             "<disable_coriolis>: ignored: the Coriolis force of the added mass acts here",
@@ -161,37 +150,22 @@ fn what_is_doubtful_is_told() {
             "<disable_added_mass>1</disable_added_mass>",
             "<disable_added_mass>: is true: the added mass is taken as zero",
         ),
-        (
-            "<default_current>0 1 0</default_current>",
-            "<default_current>: ignored: the current is part of the scenario",
-        ),
-        (
-            "<xAbsU>1</xAbsU>",
-            "<xAbsU>: ignored: the plugin has no such element",
-        ),
-        (
-            "<xDotu>1</xDotu>",
-            "<xDotu>: ignored: the plugin has no such element",
-        ),
+        ("<default_current>0 1 0</default_current>", "<default_current>: ignored: the current is part of the scenario"),
+        ("<xAbsU>1</xAbsU>", "<xAbsU>: ignored: the plugin has no such element"),
+        ("<xDotu>1</xDotu>", "<xDotu>: ignored: the plugin has no such element"),
     ] {
         assert_eq!(doubts(GZ, line_8, to), [format!("line 8, {doubt}")]);
     }
     let quiet = "<namespace>a</namespace><disable_coriolis>0</disable_coriolis>";
     assert_eq!(doubts(GZ, line_8, quiet), Vec::<String>::new());
-    let none = blocks(&with(
-        GZ,
-        line_8,
-        "<disable_added_mass>1</disable_added_mass>",
-    ));
+    let none = blocks(&with(GZ, line_8, "<disable_added_mass>1</disable_added_mass>"));
     assert_eq!(none.added_mass, Matrix6::zeros());
     let old = blocks(&with(GZ, line_8, "<waterDensity>998</waterDensity>"));
     assert_eq!(old.density_kg_m3, Some(998.0));
     assert_eq!(
         doubts(GZ, "<xU>-1.5", "<xU>1.5"),
-        [
-            "line 4, <plugin>: linear damping is positive in X_u = 1.5: read as gz-sim does, so it drives the body on; \
-             what resists is negative"
-        ]
+        ["line 4, <plugin>: linear damping is positive in X_u = 1.5: read as gz-sim does, so it drives the body on; \
+             what resists is negative"]
     );
     assert_eq!(
         doubts(GZ, "<nDotV>2</nDotV>", ""),
@@ -210,10 +184,7 @@ fn one_plugin_of_several_may_have_coefficients() {
     let text = with(GZ, PLUGIN, &format!("{other}{PLUGIN}"));
     let b = blocks(&text);
     assert_eq!(b.link, "base_link");
-    assert_eq!(
-        b.doubts,
-        ["line 4, <plugin>: ignored: it has no coefficient"]
-    );
+    assert_eq!(b.doubts, ["line 4, <plugin>: ignored: it has no coefficient"]);
     let other = other.replace("</plugin>", "<xU>-1</xU></plugin>");
     assert_eq!(
         read(&with(GZ, PLUGIN, &format!("{other}\n{PLUGIN}"))).expect_err("two"),

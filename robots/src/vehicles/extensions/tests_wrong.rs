@@ -34,29 +34,17 @@ fn a_text_without_extension_has_none() {
 fn numbers_are_checked() {
     let six = "-1 -2 -3 -4 -5 -6";
     let long = format!("-1 -2 -3 -4 -5 -6.{}", "0".repeat(70));
-    let too_long = format!(
-        "\"-6.{}\" is no number of at most 64 characters",
-        "0".repeat(70)
-    );
+    let too_long = format!("\"-6.{}\" is no number of at most 64 characters", "0".repeat(70));
     for (to, why) in [
         ("-1 -2 -3 -4 -5 -6 -7", "needs 6 or 36 numbers, got 7"),
         ("", "needs 6 or 36 numbers, got 0"),
         ("-1 -2 -3 -4 -5 six", "\"six\" is not a number"),
         ("-1,-2,-3,-4,-5,-6", "\"-1,-2,-3,-4,-5,-6\" is not a number"),
         ("-1 -2 -3 -4 -5 nan", "must be from -1e12 to 1e12, got nan"),
-        (
-            "-1 -2 -3 -4 -5 -inf",
-            "must be from -1e12 to 1e12, got -inf",
-        ),
-        (
-            "-1 -2 -3 -4 -5 1e999",
-            "must be from -1e12 to 1e12, got 1e999",
-        ),
+        ("-1 -2 -3 -4 -5 -inf", "must be from -1e12 to 1e12, got -inf"),
+        ("-1 -2 -3 -4 -5 1e999", "must be from -1e12 to 1e12, got 1e999"),
         (&long, &too_long),
-        (
-            "${-1 * a} -2 -3 -4 -5 -6",
-            "\"${-1 * a} -2 -3 -4 -5 -6\" is for xacro: run xacro first",
-        ),
+        ("${-1 * a} -2 -3 -4 -5 -6", "\"${-1 * a} -2 -3 -4 -5 -6\" is for xacro: run xacro first"),
         ("$(arg d)", "\"$(arg d)\" is for xacro: run xacro first"),
     ] {
         let error = format!("line 28, <linear_damping>: {why}");
@@ -65,16 +53,8 @@ fn numbers_are_checked() {
     for (from, to, error) in [
         ("0.031", "0", "line 11, <volume>: must be > 0, got 0"),
         ("0.031", "1 2", "line 11, <volume>: needs 1 number, got 2"),
-        (
-            "1025.0",
-            "-1",
-            "line 6, <fluid_density>: must be > 0, got -1",
-        ),
-        (
-            "0.01 -0.02 0.03",
-            "0.01",
-            "line 17, <center_of_buoyancy>: needs 3 numbers, got 1",
-        ),
+        ("1025.0", "-1", "line 6, <fluid_density>: must be > 0, got -1"),
+        ("0.01 -0.02 0.03", "0.01", "line 17, <center_of_buoyancy>: needs 3 numbers, got 1"),
         (
             "<neutrally_buoyant>0",
             "<neutrally_buoyant>maybe",
@@ -83,14 +63,8 @@ fn numbers_are_checked() {
     ] {
         assert_eq!(fails(UUV, from, to), error);
     }
-    assert_eq!(
-        fails(GZ, "<xU>-1.5", "<xU>"),
-        "line 17, <xU>: needs 1 number, got 0"
-    );
-    assert_eq!(
-        fails(GZ, ">1025<", ">0<"),
-        "line 8, <water_density>: must be > 0, got 0"
-    );
+    assert_eq!(fails(GZ, "<xU>-1.5", "<xU>"), "line 17, <xU>: needs 1 number, got 0");
+    assert_eq!(fails(GZ, ">1025<", ">0<"), "line 8, <water_density>: must be > 0, got 0");
 }
 
 #[test]
@@ -109,10 +83,7 @@ fn other_models_are_refused_by_name() {
         fails(UUV, fossen, "<type>cube</type>"),
         "line 19, <type>: \"cube\" is not a type of uuv_simulator: only \"fossen\" is read"
     );
-    assert_eq!(
-        fails(UUV, fossen, ""),
-        "line 18, <hydrodynamic_model>: <type> is missing"
-    );
+    assert_eq!(fails(UUV, fossen, ""), "line 18, <hydrodynamic_model>: <type> is missing");
 }
 
 #[test]
@@ -126,18 +97,8 @@ fn what_is_missing_or_double_is_told() {
             "<volume>1</volume>\n<volume>2</volume>",
             "line 12, <volume>: occurs twice; the first is on line 11",
         ),
-        (
-            UUV,
-            base,
-            "<link>",
-            "line 9, <link>: attribute \"name\" is missing",
-        ),
-        (
-            UUV,
-            base,
-            "<link name=' '>",
-            "line 9, <link>: its name is empty",
-        ),
+        (UUV, base, "<link>", "line 9, <link>: attribute \"name\" is missing"),
+        (UUV, base, "<link name=' '>", "line 9, <link>: its name is empty"),
         (
             UUV,
             base,
@@ -150,46 +111,25 @@ fn what_is_missing_or_double_is_told() {
             "<link name='a'><hydrodynamic_model/></link><link name='b'>",
             "line 9, <link>: has a <hydrodynamic_model>, and so has the link on line 9: a vehicle can have one",
         ),
-        (
-            GZ,
-            "<link_name>base_link</link_name>",
-            "",
-            "line 4, <plugin>: <link_name> is missing",
-        ),
+        (GZ, "<link_name>base_link</link_name>", "", "line 4, <plugin>: <link_name> is missing"),
         (GZ, ">base_link<", "><", "line 7, <link_name>: is empty"),
-        (
-            GZ,
-            "<nV>3</nV>",
-            "<xU>3</xU>",
-            "line 18, <xU>: occurs twice; the first is on line 17",
-        ),
+        (GZ, "<nV>3</nV>", "<xU>3</xU>", "line 18, <xU>: occurs twice; the first is on line 17"),
     ] {
         assert_eq!(fails(text, from, to), error);
     }
-    let empty = |file: &str| {
-        read(&format!(
-            "<robot><gazebo><plugin filename='{file}'/></gazebo></robot>"
-        ))
-        .expect_err("empty")
-    };
+    let empty =
+        |file: &str| read(&format!("<robot><gazebo><plugin filename='{file}'/></gazebo></robot>")).expect_err("empty");
     assert_eq!(
         empty("libuuv_underwater_object_ros_plugin.so"),
         "line 1, <plugin>: has no <link> with a <hydrodynamic_model>"
     );
-    assert_eq!(
-        empty("gz-sim-hydrodynamics-system"),
-        "line 1, <plugin>: has no coefficient, such as <xDotU> or <xU>"
-    );
+    assert_eq!(empty("gz-sim-hydrodynamics-system"), "line 1, <plugin>: has no coefficient, such as <xDotU> or <xU>");
 }
 
 #[test]
 fn one_simulator_at_a_time() {
     let both = "</robot><gazebo><plugin filename='gz-sim-hydrodynamics-system'/></gazebo></robot>";
-    let both = with(
-        UUV,
-        "</robot>",
-        both.strip_prefix("</robot>").expect("there"),
-    );
+    let both = with(UUV, "</robot>", both.strip_prefix("</robot>").expect("there"));
     assert_eq!(
         read(&both).expect_err("two"),
         "there is a plugin of uuv_simulator on line 5 and one of gz-sim on line 42: remove one"
@@ -204,24 +144,15 @@ fn xacro_has_to_be_run() {
     );
     // Also where it hides the whole extension.
     let text = "<robot xmlns:xacro='http://ros.org/wiki/xacro'>\n<xacro:include filename='a.xacro'/></robot>";
-    assert_eq!(
-        read(text),
-        Err("line 2, <xacro:include>: is for xacro: run xacro first".into())
-    );
+    assert_eq!(read(text), Err("line 2, <xacro:include>: is for xacro: run xacro first".into()));
 }
 
 #[test]
 fn what_is_no_xml_is_told() {
     let error = fails(UUV, "</gazebo>", "</gazelle>");
-    assert_eq!(
-        error,
-        "line 41: not XML: expected 'gazebo' tag, not 'gazelle' at 41:3"
-    );
+    assert_eq!(error, "line 41: not XML: expected 'gazebo' tag, not 'gazelle' at 41:3");
     let types = "<!DOCTYPE robot [<!ENTITY a 'b'>]><robot name=\"fish\">";
-    assert_eq!(
-        fails(GZ, "<robot name=\"fish\">", types),
-        "a document type (<!DOCTYPE ...>) is not read: remove it"
-    );
+    assert_eq!(fails(GZ, "<robot name=\"fish\">", types), "a document type (<!DOCTYPE ...>) is not read: remove it");
     for end in 0..UUV.len() {
         let _ = read(&UUV[..end]);
     }
@@ -233,33 +164,20 @@ fn what_is_no_xml_is_told() {
 #[test]
 fn made_to_hang_is_refused_soon() {
     let mention = "<!-- uuv_underwater_object -->";
-    let deep = format!(
-        "{mention}{}{}",
-        "<a>".repeat(200_000),
-        "</a>".repeat(200_000)
-    );
+    let deep = format!("{mention}{}{}", "<a>".repeat(200_000), "</a>".repeat(200_000));
     assert_eq!(read(&deep), Ok(None));
     let wide = format!("{mention}<a>{}</a>", "<b/>".repeat(600_000));
-    assert_eq!(
-        read(&wide),
-        Err("has more than 500000 elements and texts".into())
-    );
+    assert_eq!(read(&wide), Err("has more than 500000 elements and texts".into()));
     let mut attributes = String::new();
     for i in 0..300_000 {
         attributes.push_str(&format!(" a{i}=''"));
     }
-    assert_eq!(
-        read(&format!("{mention}\n<a{attributes}/>")),
-        Err("line 2: a tag has more than 200 attributes".into())
-    );
+    assert_eq!(read(&format!("{mention}\n<a{attributes}/>")), Err("line 2: a tag has more than 200 attributes".into()));
     let mut namespaces = String::new();
     for i in 0..60_000 {
         namespaces.push_str(&format!("<a xmlns:b{i}='c{i}'>"));
     }
-    assert_eq!(
-        read(&format!("{mention}{namespaces}")),
-        Err("\"xmlns\" occurs more than 100 times".into())
-    );
+    assert_eq!(read(&format!("{mention}{namespaces}")), Err("\"xmlns\" occurs more than 100 times".into()));
     // Signs in comments are no attributes.
     let comment = format!("<!--{}-->\n</robot>", "=".repeat(1000));
     assert_eq!(blocks(&with(UUV, "</robot>", &comment)), blocks(UUV));

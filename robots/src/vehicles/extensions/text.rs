@@ -35,15 +35,10 @@ const LONGEST_QUOTE: usize = 80;
 /// If it is not XML, or beyond a limit; with the line.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
     if text.matches("xmlns").count() > MOST_NAMESPACES {
-        return Err(format!(
-            "\"xmlns\" occurs more than {MOST_NAMESPACES} times"
-        ));
+        return Err(format!("\"xmlns\" occurs more than {MOST_NAMESPACES} times"));
     }
     check_tags(text)?;
-    let limits = ParsingOptions {
-        nodes_limit: MOST_NODES,
-        ..ParsingOptions::default()
-    };
+    let limits = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text, limits).map_err(|e| match e {
         Error::DtdDetected => "a document type (<!DOCTYPE ...>) is not read: remove it".to_string(),
         Error::NodesLimitReached => format!("has more than {MOST_NODES} elements and texts"),
@@ -68,9 +63,7 @@ fn check_tags(text: &str) -> Result<(), String> {
         let tag = &rest[..1 + rest[1..].find('<').unwrap_or(rest.len() - 1)];
         if tag.matches('=').count() > MOST_ATTRIBUTES {
             let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
-            return Err(format!(
-                "line {line}: a tag has more than {MOST_ATTRIBUTES} attributes"
-            ));
+            return Err(format!("line {line}: a tag has more than {MOST_ATTRIBUTES} attributes"));
         }
         rest = &rest[tag.len()..];
     }
@@ -116,11 +109,7 @@ pub(super) struct Report {
 impl Report {
     /// An empty report about a text.
     pub(super) fn new(text: &str) -> Self {
-        Self {
-            starts: text.match_indices('\n').map(|(i, _)| i + 1).collect(),
-            doubts: Vec::new(),
-            untold: 0,
-        }
+        Self { starts: text.match_indices('\n').map(|(i, _)| i + 1).collect(), doubts: Vec::new(), untold: 0 }
     }
 
     /// Line in which an element begins.
@@ -167,10 +156,7 @@ impl Report {
                 Use::Read => {
                     if let Some(first) = read.insert(name(child), child) {
                         let first = self.line(first);
-                        return Err(self.fault(
-                            child,
-                            &format!("occurs twice; the first is on line {first}"),
-                        ));
+                        return Err(self.fault(child, &format!("occurs twice; the first is on line {first}")));
                     }
                 }
                 Use::Skip => {}
@@ -207,16 +193,11 @@ impl Report {
     pub(super) fn numbers(&self, node: Node<'_>) -> Result<Vec<f64>, String> {
         let number = |word: &str| {
             if word.len() > LONGEST_NUMBER {
-                return Err(format!(
-                    "\"{}\" is no number of at most {LONGEST_NUMBER} characters",
-                    quote(word)
-                ));
+                return Err(format!("\"{}\" is no number of at most {LONGEST_NUMBER} characters", quote(word)));
             }
             let value: f64 = (word.parse()).map_err(|_| format!("\"{word}\" is not a number"))?;
             if !(value.abs() <= GREATEST) {
-                return Err(format!(
-                    "must be from -{GREATEST:e} to {GREATEST:e}, got {word}"
-                ));
+                return Err(format!("must be from -{GREATEST:e} to {GREATEST:e}, got {word}"));
             }
             Ok(value)
         };

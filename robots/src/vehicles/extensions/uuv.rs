@@ -41,24 +41,17 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
         "volume" | "center_of_buoyancy" | "neutrally_buoyant" | "hydrodynamic_model" => Use::Read,
         // Lets the volume fall near the surface.
         "box" => Use::Skip,
-        "metacentric_width"
-        | "metacentric_length"
-        | "water_level_plane_area"
-        | "submerged_height" => Use::Doubt(SURFACE),
+        "metacentric_width" | "metacentric_length" | "water_level_plane_area" | "submerged_height" => {
+            Use::Doubt(SURFACE)
+        }
         _ => Use::Doubt(unknown(name)),
     })?;
     let model = body["hydrodynamic_model"];
     let terms = report.sorted(model, |name| match name {
-        "type"
-        | "added_mass"
-        | "linear_damping"
-        | "linear_damping_forward_speed"
-        | "quadratic_damping" => Use::Read,
+        "type" | "added_mass" | "linear_damping" | "linear_damping_forward_speed" | "quadratic_damping" => Use::Read,
         _ => Use::Doubt(unknown(name)),
     })?;
-    let kind = *terms
-        .get("type")
-        .ok_or_else(|| report.fault(model, "<type> is missing"))?;
+    let kind = *terms.get("type").ok_or_else(|| report.fault(model, "<type> is missing"))?;
     check_type(kind, report)?;
 
     let neutral = match body.get("neutrally_buoyant") {
@@ -109,9 +102,7 @@ fn the_link<'a>(plugins: &[Node<'a>], report: &mut Report) -> Result<(Node<'a>, 
                 let first = report.line(first);
                 return Err(report.fault(
                     link,
-                    &format!(
-                        "has a <hydrodynamic_model>, and so has the link on line {first}: a vehicle can have one"
-                    ),
+                    &format!("has a <hydrodynamic_model>, and so has the link on line {first}: a vehicle can have one"),
                 ));
             } else {
                 found = Some((*plugin, link));
@@ -154,33 +145,20 @@ fn place(node: Node<'_>, report: &Report) -> Result<Vector3<f64>, String> {
 }
 
 /// The added mass; the axes are turned.
-fn added_mass(
-    model: Node<'_>,
-    node: Option<Node<'_>>,
-    report: &mut Report,
-) -> Result<Matrix6<f64>, String> {
+fn added_mass(model: Node<'_>, node: Option<Node<'_>>, report: &mut Report) -> Result<Matrix6<f64>, String> {
     let Some(node) = node else {
         report.doubt(model, "has no <added_mass>: taken as zero");
         return Ok(Matrix6::zeros());
     };
     let (m, full) = report.matrix(node)?;
     if !full {
-        report.doubt(
-            node,
-            "6 numbers are taken as the diagonal; uuv_simulator itself needs 36",
-        );
+        report.doubt(node, "6 numbers are taken as the diagonal; uuv_simulator itself needs 36");
     }
     if let Some(odd) = entries(&m, |i, j, v| i == j && v < 0.0) {
-        report.doubt(
-            node,
-            &format!("is negative in {odd}: read as it stands, so it takes mass away"),
-        );
+        report.doubt(node, &format!("is negative in {odd}: read as it stands, so it takes mass away"));
     }
     if let Some(odd) = asymmetric(&m) {
-        report.doubt(
-            node,
-            &format!("is not symmetric in {odd}: read as it stands"),
-        );
+        report.doubt(node, &format!("is not symmetric in {odd}: read as it stands"));
     }
     Ok(turned(&m))
 }
@@ -208,10 +186,7 @@ fn damping(
     }
     if only_diagonal {
         if let Some(odd) = entries(&m, |i, j, v| i != j && v != 0.0) {
-            report.doubt(
-                node,
-                &format!("{odd} off the diagonal: ignored, as in uuv_simulator"),
-            );
+            report.doubt(node, &format!("{odd} off the diagonal: ignored, as in uuv_simulator"));
         }
         m = Matrix6::from_diagonal(&m.diagonal());
     }

@@ -47,13 +47,7 @@ pub(super) struct Step<'a> {
 impl Terms for Step<'_> {
     type Drives = ();
 
-    fn forces(
-        &self,
-        body: &Body,
-        at: &Relative,
-        (): &(),
-        stage: Stage,
-    ) -> (Vector3<f64>, Vector3<f64>) {
+    fn forces(&self, body: &Body, at: &Relative, (): &(), stage: Stage) -> (Vector3<f64>, Vector3<f64>) {
         let (mut force, mut moment) = added_coriolis(&body.added, &at.v, &at.w);
         force = -force;
         moment = -moment;

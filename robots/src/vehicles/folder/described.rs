@@ -128,10 +128,7 @@ impl Described {
                 Kind::Buoyancy(r, _) => (*r, -Vector3::z()),
                 Kind::Mass(way, _, _) => (Vector3::zeros(), *way),
             };
-            (
-                Vector3::new(r.x, -r.y, -r.z),
-                Vector3::new(way.x, -way.y, -way.z),
-            )
+            (Vector3::new(r.x, -r.y, -r.z), Vector3::new(way.x, -way.y, -way.z))
         })
     }
 
@@ -208,13 +205,7 @@ impl Described {
     }
 
     /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`; also moves the drives.
-    pub fn step(
-        &mut self,
-        truth: &Truth,
-        water: &WaterSample,
-        command: &DriveCommand,
-        dt_s: f64,
-    ) -> Truth {
+    pub fn step(&mut self, truth: &Truth, water: &WaterSample, command: &DriveCommand, dt_s: f64) -> Truth {
         let n = self.drives.len();
         self.asked[..n].copy_from_slice(command.all());
         let parts = self.parts(truth, water, dt_s);
@@ -228,10 +219,7 @@ impl Described {
             }
             let t_s = h * f64::from(part);
             let moved = now.pose.p_WB - truth.pose.p_WB;
-            let sample = WaterSample {
-                velocity: water.velocity + water.gradient * moved + water.rate * t_s,
-                ..*water
-            };
+            let sample = WaterSample { velocity: water.velocity + water.gradient * moved + water.rate * t_s, ..*water };
             let terms = Step {
                 damping: &self.damping,
                 drives: &self.drives,

@@ -22,10 +22,7 @@ const TRIMMED: f64 = 0.05;
 const DIRECTIONS: [&str; 6] = ["surge", "sway", "heave", "roll", "pitch", "yaw"];
 
 /// The average of an added mass and its transpose.
-pub(super) fn symmetric(
-    added: &Matrix6<f64>,
-    told: &mut Vec<String>,
-) -> Result<Matrix6<f64>, String> {
+pub(super) fn symmetric(added: &Matrix6<f64>, told: &mut Vec<String>) -> Result<Matrix6<f64>, String> {
     for i in 0..6 {
         for j in 0..i {
             let apart = (added[(i, j)] - added[(j, i)]).abs();
@@ -45,7 +42,10 @@ pub(super) fn symmetric(
             if apart > ROUNDING * scale {
                 told.push(format!(
                     "hydrodynamics.added_mass is not quite symmetric ({} against {}, {} and {}): the mean is used",
-                    added[(i, j)], added[(j, i)], DIRECTIONS[i], DIRECTIONS[j]
+                    added[(i, j)],
+                    added[(j, i)],
+                    DIRECTIONS[i],
+                    DIRECTIONS[j]
                 ));
             }
         }
@@ -79,11 +79,7 @@ pub(super) fn resists(damping: &Damping, told: &mut Vec<String>) -> Result<(), S
             ));
         }
     }
-    if (damping.linear + damping.quadratic + damping.forward)
-        .diagonal()
-        .min()
-        == 0.0
-    {
+    if (damping.linear + damping.quadratic + damping.forward).diagonal().min() == 0.0 {
         told.push("hydrodynamics: there is a direction in which nothing resists".into());
     }
     Ok(())

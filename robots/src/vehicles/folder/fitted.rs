@@ -16,16 +16,9 @@ use world::frames::Pose;
 use world::spelling::choose;
 
 /// The drives on their links.
-pub(super) fn drives(
-    specs: &[DriveSpec],
-    shell: &Shell,
-    told: &mut Vec<String>,
-) -> Result<Vec<Drive>, String> {
+pub(super) fn drives(specs: &[DriveSpec], shell: &Shell, told: &mut Vec<String>) -> Result<Vec<Drive>, String> {
     if specs.len() > MOST_DRIVES {
-        return Err(format!(
-            "drives: at most {MOST_DRIVES}, got {}",
-            specs.len()
-        ));
+        return Err(format!("drives: at most {MOST_DRIVES}, got {}", specs.len()));
     }
     let mut all = Vec::new();
     for (k, spec) in specs.iter().enumerate() {
@@ -120,12 +113,7 @@ fn drive(spec: &DriveSpec, shell: &Shell, doubts: &mut Vec<String>) -> Result<Dr
 }
 
 /// Axis of a drive in the axes of its link: that of the joint that carries it, or `still` if that joint does not move.
-fn axle(
-    link: &str,
-    still: Vector3<f64>,
-    shell: &Shell,
-    doubts: &mut Vec<String>,
-) -> Result<Vector3<f64>, String> {
+fn axle(link: &str, still: Vector3<f64>, shell: &Shell, doubts: &mut Vec<String>) -> Result<Vector3<f64>, String> {
     let Some(carrier) = shell.carriers.get(link) else {
         return Ok(still);
     };
@@ -133,10 +121,7 @@ fn axle(
     let is_unit = (unit.norm() - 1.0).abs() < 1e-9;
     match carrier.moves {
         true if is_unit => Ok(unit),
-        true => Err(format!(
-            "link: {}: <axis> must be a direction",
-            carried(link, shell)
-        )),
+        true => Err(format!("link: {}: <axis> must be a direction", carried(link, shell))),
         false => {
             // Who writes no axis, or writes none of all, or the link's own, means nothing by it.
             let meant = is_unit && unit != Vector3::x() && unit.dot(&still) < ALONG;

@@ -64,17 +64,11 @@ pub(super) fn given(
             wet: 1.0,
         },
         volume_m3: spec.volume_m3.map(|v| v.get()),
-        centre_of_buoyancy: spec
-            .centre_of_buoyancy_m
-            .map(|(x, y, z)| Vector3::new(x.get(), y.get(), z.get())),
+        centre_of_buoyancy: spec.centre_of_buoyancy_m.map(|(x, y, z)| Vector3::new(x.get(), y.get(), z.get())),
         gravity_m_s2: spec.gravity_m_s2.get(),
         floats: spec.floats,
     };
-    let mut damping = [
-        block(&spec.linear_damping),
-        block(&spec.quadratic_damping),
-        block(&spec.forward_damping),
-    ];
+    let mut damping = [block(&spec.linear_damping), block(&spec.quadratic_damping), block(&spec.forward_damping)];
     let extension = extensions::read(&urdf.text).map_err(|problem| urdf.fault(problem))?;
     match (spec.from_urdf, extension) {
         (true, None) => {
@@ -117,11 +111,8 @@ pub(super) fn given(
         )),
         (false, None) => {}
     }
-    [
-        given.damping.linear,
-        given.damping.quadratic,
-        given.damping.forward,
-    ] = damping.map(|block| block.unwrap_or_else(Matrix6::zeros));
+    [given.damping.linear, given.damping.quadratic, given.damping.forward] =
+        damping.map(|block| block.unwrap_or_else(Matrix6::zeros));
     Ok(given)
 }
 
@@ -158,9 +149,7 @@ mod tests {
             };
             let mut told = Vec::new();
             given(&spec, &text, 50.0, &BTreeMap::new(), &mut told).expect("legal");
-            told.into_iter()
-                .filter(|t| t.contains("metacentric"))
-                .count()
+            told.into_iter().filter(|t| t.contains("metacentric")).count()
         };
         assert_eq!((told(false), told(true)), (1, 0));
     }

@@ -32,14 +32,8 @@ impl Described {
     /// # Errors
     /// If a file cannot be read, or if the vehicle cannot be one.
     pub fn load(folder: &Path, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
-        let path = files
-            .path(&folder.join("vehicle.ron"))
-            .display()
-            .to_string();
-        let wrong = |problem: String| RobotError::File {
-            path: path.clone(),
-            problem,
-        };
+        let path = files.path(&folder.join("vehicle.ron")).display().to_string();
+        let wrong = |problem: String| RobotError::File { path: path.clone(), problem };
         let urdf_path = folder.join(&file.urdf);
         let text = UrdfText::open_at(&urdf_path, files)?;
         let shell = urdf::shell(&text)?;
@@ -48,9 +42,8 @@ impl Described {
         let given = given(&file.hydrodynamics, &text, mass.kg, &shell.links, &mut told)?;
         let (body, mut damping) = hull(&given, &mass, &shell, &mut told).map_err(wrong)?;
         let drives = drives(&file.drives, &shell, &mut told).map_err(wrong)?;
-        let equation = Equation::new(body).ok_or_else(|| {
-            wrong("hydrodynamics: mass and added mass are singular together".into())
-        })?;
+        let equation = Equation::new(body)
+            .ok_or_else(|| wrong("hydrodynamics: mass and added mass are singular together".into()))?;
         if file.hydrodynamics.floats {
             let body = &equation.body;
             let share = body.mass.kg / (damping.density_kg_m3 * body.volume_m3);
@@ -69,13 +62,7 @@ impl Described {
         for (state, drive) in states.iter_mut().zip(&drives) {
             *state = drive.idle();
         }
-        let plant = plant::of(
-            &equation,
-            &damping,
-            &drives,
-            &file.autopilot,
-            file.hydrodynamics.floats,
-        );
+        let plant = plant::of(&equation, &damping, &drives, &file.autopilot, file.hydrodynamics.floats);
         let capabilities = plant::capabilities(&plant, &file.autopilot);
         plant::doubts(&file.autopilot, &plant, &capabilities, &mut told).map_err(wrong)?;
         debug_assert!(n <= MOST_DRIVES);
@@ -123,26 +110,15 @@ fn rigid(shell: &Shell) -> Result<Mass, String> {
         ));
     }
     let half_turn = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
-    Ok(Mass::about_centre(
-        kg,
-        flip(p_BG),
-        &(half_turn * inertia * half_turn),
-    ))
+    Ok(Mass::about_centre(kg, flip(p_BG), &(half_turn * inertia * half_turn)))
 }
 
-fn hull(
-    given: &Given,
-    mass: &Mass,
-    shell: &Shell,
-    told: &mut Vec<String>,
-) -> Result<(Body, Damping), String> {
+fn hull(given: &Given, mass: &Mass, shell: &Shell, told: &mut Vec<String>) -> Result<(Body, Damping), String> {
     let Some(volume_m3) = given.volume_m3 else {
         return Err("hydrodynamics.volume_m3: is missing; give the displaced volume, m3".into());
     };
     if given.added.is_none() {
-        told.push(
-            "hydrodynamics.added_mass is not given: the water that moves along has no mass".into(),
-        );
+        told.push("hydrodynamics.added_mass is not given: the water that moves along has no mass".into());
     }
     let added = symmetric(&given.added.unwrap_or_else(Matrix6::zeros), told)?;
     let whole = mass.matrix() + added;
@@ -182,8 +158,7 @@ fn rates(equation: &Equation, damping: &Damping) -> Rates {
     let root = eigen.eigenvectors * roots * eigen.eigenvectors.transpose();
     let size = |block: Matrix6<f64>| (root * block * root).norm();
     let arm = (body.mass.r_G - body.r_B).norm();
-    let swing =
-        (body.mass.kg * body.gravity_m_s2 * arm).sqrt() * root.fixed_view::<3, 3>(3, 3).norm();
+    let swing = (body.mass.kg * body.gravity_m_s2 * arm).sqrt() * root.fixed_view::<3, 3>(3, 3).norm();
     let mut by_speed = [0.0; 6];
     for (k, rate) in by_speed.iter_mut().enumerate() {
         let mut column = Matrix6::zeros();
@@ -193,9 +168,5 @@ fn rates(equation: &Equation, damping: &Damping) -> Rates {
     }
     by_speed[0] += size(damping.forward);
     let half_turn = turned(&root);
-    Rates {
-        mass: [equation.whole_mass_flu(), half_turn],
-        rest: swing + size(damping.linear),
-        by_speed,
-    }
+    Rates { mass: [equation.whole_mass_flu(), half_turn], rest: swing + size(damping.linear), by_speed }
 }

@@ -26,13 +26,7 @@ fn wrench((force, moment): (Vector3<f64>, Vector3<f64>)) -> Vector6<f64> {
 }
 
 /// What the autopilot knows.
-pub(super) fn of(
-    equation: &Equation,
-    damping: &Damping,
-    drives: &[Drive],
-    pilot: &PilotSpec,
-    floats: bool,
-) -> Plant {
+pub(super) fn of(equation: &Equation, damping: &Damping, drives: &[Drive], pilot: &PilotSpec, floats: bool) -> Plant {
     let body = &equation.body;
     let flu = |r: &Vector3<f64>| Vector3::new(r.x, -r.y, -r.z);
     let weight = body.mass.kg * body.gravity_m_s2;
@@ -86,9 +80,7 @@ fn top_speed_m_s(plant: &Plant, drives: &[Drive]) -> f64 {
             // Used in the direction in which it pushes ahead.
             let full = if t.axis.x > 0.0 { ahead } else { astern };
             let inflow = (t.axis.x.abs() * u).max(0.0);
-            let left = t
-                .runs_free_m_s
-                .map_or(1.0, |free| (1.0 - inflow / free).max(0.0));
+            let left = t.runs_free_m_s.map_or(1.0, |free| (1.0 - inflow / free).max(0.0));
             full * t.axis.x * left
         })
         .sum()
@@ -154,11 +146,7 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
         PilotSpec::Torpedo(spec) => Capabilities {
             least_speed_m_s: spec.least_speed_m_s(),
             top_speed_m_s,
-            turning_radius_m: turning_m(
-                spec.turn_radius_m,
-                spec.design_speed_m_s.get(),
-                spec.heading_rate_deg_s,
-            ),
+            turning_radius_m: turning_m(spec.turn_radius_m, spec.design_speed_m_s.get(), spec.heading_rate_deg_s),
             hovers: false,
             sideways: false,
             dives: true,

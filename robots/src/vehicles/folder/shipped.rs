@@ -33,13 +33,7 @@ macro_rules! shipped {
 }
 
 /// All of them.
-pub const SHIPPED: &[Shipped] = shipped![
-    "bluerov2",
-    "bluerov2_heavy",
-    "lauv",
-    "glider",
-    "surface_craft"
-];
+pub const SHIPPED: &[Shipped] = shipped!["bluerov2", "bluerov2_heavy", "lauv", "glider", "surface_craft"];
 
 impl Shipped {
     /// The one of a name.
@@ -86,18 +80,12 @@ const LONGEST: u64 = 1 << 20;
 fn file_of(folder: &Path, files: &dyn Files) -> Result<VehicleFile, RobotError> {
     let name = folder.join("vehicle.ron");
     let path = files.path(&name).display().to_string();
-    let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File {
-        path: path.clone(),
-        problem,
-    })?;
+    let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File { path: path.clone(), problem })?;
     files.vehicle(&path, &text)
 }
 
 /// The vehicle of a folder.
-pub(in crate::vehicles) fn of_folder(
-    folder: &str,
-    files: &dyn Files,
-) -> Result<Described, RobotError> {
+pub(in crate::vehicles) fn of_folder(folder: &str, files: &dyn Files) -> Result<Described, RobotError> {
     let folder = Path::new(folder);
     Described::load(folder, &file_of(folder, files)?, files)
 }
@@ -113,10 +101,7 @@ fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotE
         let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
         return Err(RobotError::Invalid {
             field: "vehicle".into(),
-            problem: format!(
-                "no vehicle \"{name}\" comes with the program; there are {}",
-                names.join(", ")
-            ),
+            problem: format!("no vehicle \"{name}\" comes with the program; there are {}", names.join(", ")),
         });
     };
     Ok(BuiltIn { shipped, reader })

@@ -75,13 +75,7 @@ impl Drive {
     }
 
     /// A new target within the travel, at a speed within the axis's; draws where the move will actually end.
-    pub(super) fn go(
-        &mut self,
-        target_m: f64,
-        speed_m_s: f64,
-        spec: &CrabGantrySpec,
-        rng: &mut Stream,
-    ) {
+    pub(super) fn go(&mut self, target_m: f64, speed_m_s: f64, spec: &CrabGantrySpec, rng: &mut Stream) {
         let [low, high] = self.limits.travel_m;
         let draw = rng.normal().clamp(-CUT, CUT);
         self.error_from_m = self.error();
@@ -91,8 +85,7 @@ impl Drive {
         let way = self.target_m - self.at_m;
         if way != 0.0 {
             self.direction = way.signum();
-            self.error_to_m =
-                draw * spec.repeatability_m.get() - self.direction * spec.backlash_m.get() / 2.0;
+            self.error_to_m = draw * spec.repeatability_m.get() - self.direction * spec.backlash_m.get() / 2.0;
         } else {
             self.error_to_m = self.error_from_m;
         }
@@ -127,11 +120,7 @@ impl Drive {
     /// The carriage's present error, m; it never moves the carriage out of its travel.
     fn error(&self) -> f64 {
         let whole = self.target_m - self.began_m;
-        let done = if whole == 0.0 {
-            1.0
-        } else {
-            ((self.at_m - self.began_m) / whole).clamp(0.0, 1.0)
-        };
+        let done = if whole == 0.0 { 1.0 } else { ((self.at_m - self.began_m) / whole).clamp(0.0, 1.0) };
         let error = self.error_from_m + (self.error_to_m - self.error_from_m) * done;
         let [low, high] = self.limits.travel_m;
         error.clamp(low - self.at_m, high - self.at_m)
@@ -174,12 +163,7 @@ impl Drive {
     }
 
     /// One step; `None` if the axis has lagged for too long.
-    pub(super) fn step(
-        &mut self,
-        joint: &JointState,
-        spec: &CrabGantrySpec,
-        dt_s: f64,
-    ) -> Option<AxisDrive> {
+    pub(super) fn step(&mut self, joint: &JointState, spec: &CrabGantrySpec, dt_s: f64) -> Option<AxisDrive> {
         self.encoder_m = self.encoder(joint, spec);
         self.dt_s = dt_s;
         let lag_m = self.at_m - self.encoder_m;
@@ -208,10 +192,6 @@ impl Drive {
 
     /// Holds without moving.
     pub(super) fn hold(&self, spec: &CrabGantrySpec) -> AxisDrive {
-        AxisDrive {
-            speed_m_s: 0.0,
-            max_force_N: self.limits.effort_N,
-            response_s: spec.response_s.get(),
-        }
+        AxisDrive { speed_m_s: 0.0, max_force_N: self.limits.effort_N, response_s: spec.response_s.get() }
     }
 }

@@ -10,9 +10,7 @@
 //! the point that is steered. A probe is any link fixed to the head whose name begins with `probe_`; its origin is
 //! the tip. Only the slides' own links need mass. `visual`, `dynamics` and `mimic` are not read.
 
-use super::super::urdf_parts::{
-    UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape,
-};
+use super::super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use super::drive::AxisLimits;
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeMount};
@@ -69,14 +67,7 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
     let slide = |k: usize| -> Result<Slide, String> {
         let joint = moving[k];
         let (axis, sign) = along(joint, &links[&joint.child.link])?;
-        Ok(Slide {
-            joint: joint.name.clone(),
-            axis,
-            sign,
-            limits: limits(joint)?,
-            mass_kg: 0.0,
-            shapes: Vec::new(),
-        })
+        Ok(Slide { joint: joint.name.clone(), axis, sign, limits: limits(joint)?, mass_kg: 0.0, shapes: Vec::new() })
     };
     let mut slides = [slide(0)?, slide(1)?];
     if slides[0].axis == slides[1].axis {
@@ -95,9 +86,7 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
         let own = on > 0 && moving[on - 1].child.link == *name;
         if !(mass.is_finite() && (mass > 0.0 || (mass == 0.0 && !own))) {
             let least = if own { "> 0" } else { ">= 0" };
-            return Err(format!(
-                "link \"{name}\": <mass> must be {least} kg, got {mass}"
-            ));
+            return Err(format!("link \"{name}\": <mass> must be {least} kg, got {mass}"));
         }
         if on > 0 {
             slides[on - 1].mass_kg += mass;
@@ -114,38 +103,23 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
         }
         if name.starts_with(PROBE) {
             if on != 2 {
-                return Err(format!(
-                    "link \"{name}\" is a probe, but not fixed to the head \"{head}\""
-                ));
+                return Err(format!("link \"{name}\" is a probe, but not fixed to the head \"{head}\""));
             }
-            probes.push(ProbeMount {
-                name: name.clone(),
-                offset_m: at.p_WB - head_B,
-            });
+            probes.push(ProbeMount { name: name.clone(), offset_m: at.p_WB - head_B });
         }
     }
     if probes.is_empty() {
-        return Err(format!(
-            "no probe: no link whose name begins with \"{PROBE}\" is fixed to the head \"{head}\""
-        ));
+        return Err(format!("no probe: no link whose name begins with \"{PROBE}\" is fixed to the head \"{head}\""));
     }
     if probes.len() > MAX_PROBES {
-        return Err(format!(
-            "{} probes, but at most {MAX_PROBES} are possible",
-            probes.len()
-        ));
+        return Err(format!("{} probes, but at most {MAX_PROBES} are possible", probes.len()));
     }
     if slides[1].shapes.is_empty() {
         return Err(format!(
             "link \"{head}\" has no <collision>, nor has any link fixed to it: it could not touch anything"
         ));
     }
-    Ok(Frame {
-        base_shapes,
-        slides,
-        head_B,
-        probes,
-    })
+    Ok(Frame { base_shapes, slides, head_B, probes })
 }
 
 /// The part to which a link belongs: 0 the base, 1 and 2 the slides.
@@ -184,9 +158,7 @@ fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
             0 => "none is".to_string(),
             n => format!("{n} are: {}", names.join(", ")),
         };
-        return Err(format!(
-            "two joints must be prismatic, one on the base and one on the first; {found}"
-        ));
+        return Err(format!("two joints must be prismatic, one on the base and one on the first; {found}"));
     };
     // If `b` lies between the base and `a`, it comes first.
     let mut link = a.parent.link.as_str();
@@ -227,21 +199,12 @@ fn limits(joint: &Joint) -> Result<AxisLimits, String> {
         return Err(format!("joint \"{name}\" has no <limit>"));
     }
     if !(l.lower.is_finite() && l.upper.is_finite() && l.lower < l.upper) {
-        return Err(format!(
-            "joint \"{name}\", limit: lower must be less than upper, got {} and {}",
-            l.lower, l.upper
-        ));
+        return Err(format!("joint \"{name}\", limit: lower must be less than upper, got {} and {}", l.lower, l.upper));
     }
     for (what, v, unit) in [("velocity", l.velocity, "m/s"), ("effort", l.effort, "N")] {
         if !(v > 0.0 && v.is_finite()) {
-            return Err(format!(
-                "joint \"{name}\", limit: {what} must be > 0 {unit}, got {v}"
-            ));
+            return Err(format!("joint \"{name}\", limit: {what} must be > 0 {unit}, got {v}"));
         }
     }
-    Ok(AxisLimits {
-        travel_m: [l.lower, l.upper],
-        speed_m_s: l.velocity,
-        effort_N: l.effort,
-    })
+    Ok(AxisLimits { travel_m: [l.lower, l.upper], speed_m_s: l.velocity, effort_N: l.effort })
 }

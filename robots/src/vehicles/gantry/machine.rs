@@ -21,10 +21,7 @@ use world::physics::{AxisDrive, AxisSpec, GantryBodySpec, JointState};
 use world::seeds::Stream;
 
 /// Name and text of the built-in URDF.
-pub const CRAB_GANTRY: (&str, &str) = (
-    "crab_gantry.urdf",
-    include_str!("../../../urdf/crab_gantry.urdf"),
-);
+pub const CRAB_GANTRY: (&str, &str) = ("crab_gantry.urdf", include_str!("../../../urdf/crab_gantry.urdf"));
 /// Greatest product of position gain and step: beyond it the loop begins to oscillate.
 const MAX_GAIN_STEP: f64 = 0.5;
 
@@ -48,10 +45,7 @@ impl Gantry {
     pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
         let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
-        let invalid = |field: &str, problem: String| RobotError::Invalid {
-            field: field.into(),
-            problem,
-        };
+        let invalid = |field: &str, problem: String| RobotError::Invalid { field: field.into(), problem };
         if spec.settle_m.get() < spec.encoder_m.get() {
             return Err(invalid(
                 "settle_m",
@@ -63,10 +57,7 @@ impl Gantry {
             ));
         }
         let [first, second] = &frame.slides;
-        for (slide, mass_kg) in [
-            (first, first.mass_kg + second.mass_kg),
-            (second, second.mass_kg),
-        ] {
+        for (slide, mass_kg) in [(first, first.mass_kg + second.mass_kg), (second, second.mass_kg)] {
             let (a, effort_N) = (spec.acceleration_m_s2.get(), slide.limits.effort_N);
             if a * mass_kg > effort_N {
                 return Err(invalid(
@@ -80,15 +71,7 @@ impl Gantry {
             }
         }
         let drives = [Drive::new(first.limits), Drive::new(second.limits)];
-        Ok(Self {
-            spec: spec.clone(),
-            frame,
-            drives,
-            homed: false,
-            latest: None,
-            blocked: false,
-            halted: false,
-        })
+        Ok(Self { spec: spec.clone(), frame, drives, homed: false, latest: None, blocked: false, halted: false })
     }
 
     /// Checks that the drives' loops can run at a step.
@@ -114,12 +97,7 @@ impl Gantry {
     ///
     /// # Errors
     /// If the start lies outside the travel.
-    pub fn body_spec(
-        &self,
-        id: &str,
-        base: &Pose,
-        start_m: Vector2<f64>,
-    ) -> Result<GantryBodySpec, RobotError> {
+    pub fn body_spec(&self, id: &str, base: &Pose, start_m: Vector2<f64>) -> Result<GantryBodySpec, RobotError> {
         let travel_m = self.travel_m();
         for (k, [low, high]) in travel_m.into_iter().enumerate() {
             if !(low..=high).contains(&start_m[k]) {
@@ -133,12 +111,7 @@ impl Gantry {
             let slide = &self.frame.slides[k];
             let mut along_B = Vector3::zeros();
             along_B[slide.axis] = slide.sign;
-            AxisSpec {
-                along_B,
-                travel_m: slide.limits.travel_m,
-                mass_kg: slide.mass_kg,
-                shapes: slide.shapes.clone(),
-            }
+            AxisSpec { along_B, travel_m: slide.limits.travel_m, mass_kg: slide.mass_kg, shapes: slide.shapes.clone() }
         };
         Ok(GantryBodySpec {
             id: id.into(),
@@ -156,13 +129,7 @@ impl Gantry {
         for slide in &self.frame.slides {
             max_speed_m_s[slide.axis] = slide.limits.speed_m_s;
         }
-        GantryLayout {
-            travel_m: self.travel_m(),
-            max_speed_m_s,
-            probes: self.frame.probes.clone(),
-            range_v,
-            scan_hz,
-        }
+        GantryLayout { travel_m: self.travel_m(), max_speed_m_s, probes: self.frame.probes.clone(), range_v, scan_hz }
     }
 
     /// Names of the joints, in the order of the joint states.
@@ -191,8 +158,7 @@ impl Gantry {
         }
         let (target, speed) = (decision.target_m, decision.speed_m_s);
         assert!(
-            target.iter().all(|v| v.is_finite())
-                && speed.iter().all(|v| v.is_finite() && *v >= 0.0),
+            target.iter().all(|v| v.is_finite()) && speed.iter().all(|v| v.is_finite() && *v >= 0.0),
             "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher must give finite places and speeds >= 0"
         );
         if decision.stopped.is_some() {
@@ -224,11 +190,7 @@ impl Gantry {
     /// What encoders and drives report.
     #[must_use]
     pub fn readings(&self, joints: &[JointState; 2]) -> JointReadings {
-        let mut readings = JointReadings {
-            arrived: !self.blocked,
-            blocked: self.blocked,
-            ..JointReadings::default()
-        };
+        let mut readings = JointReadings { arrived: !self.blocked, blocked: self.blocked, ..JointReadings::default() };
         for (k, slide) in self.frame.slides.iter().enumerate() {
             let (drive, joint) = (&self.drives[k], &joints[k]);
             readings.position_m[slide.axis] = slide.sign * drive.encoder(joint, &self.spec);
@@ -255,16 +217,9 @@ impl Gantry {
     }
 
     /// True places of the probes' tips in the world, in the order of the layout, m.
-    pub fn tips_W(
-        &self,
-        base: &Pose,
-        joints: &[JointState; 2],
-    ) -> impl Iterator<Item = Vector3<f64>> {
+    pub fn tips_W(&self, base: &Pose, joints: &[JointState; 2]) -> impl Iterator<Item = Vector3<f64>> {
         let head_B = self.frame.head_B + self.head_m(joints).push(0.0);
-        self.frame
-            .probes
-            .iter()
-            .map(move |p| base.point(head_B + p.offset_m))
+        self.frame.probes.iter().map(move |p| base.point(head_B + p.offset_m))
     }
 
     /// Travel (forward, left), m.
@@ -272,19 +227,12 @@ impl Gantry {
         let mut travel_m = [[0.0; 2]; 2];
         for slide in &self.frame.slides {
             let [low, high] = slide.limits.travel_m;
-            travel_m[slide.axis] = if slide.sign > 0.0 {
-                [low, high]
-            } else {
-                [-high, -low]
-            };
+            travel_m[slide.axis] = if slide.sign > 0.0 { [low, high] } else { [-high, -low] };
         }
         travel_m
     }
 
     fn joint_of(&self, place_m: Vector2<f64>) -> [f64; 2] {
-        self.frame
-            .slides
-            .each_ref()
-            .map(|s| s.sign * place_m[s.axis])
+        self.frame.slides.each_ref().map(|s| s.sign * place_m[s.axis])
     }
 }

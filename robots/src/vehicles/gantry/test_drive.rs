@@ -69,24 +69,16 @@ impl Bench {
 
     fn step(&mut self) -> JointReadings {
         let joints = self.physics.joints(self.id);
-        let drives = self
-            .gantry
-            .drive(&self.decision, &joints, STEP_S, &mut self.rng);
+        let drives = self.gantry.drive(&self.decision, &joints, STEP_S, &mut self.rng);
         self.physics.drive(self.id, drives);
         self.physics.step();
         let joints = self.physics.joints(self.id);
         for (joint, drive) in joints.iter().zip(drives) {
-            assert!(
-                joint.force_N.abs() <= drive.max_force_N * (1.0 + 1e-9),
-                "{joint:?}"
-            );
+            assert!(joint.force_N.abs() <= drive.max_force_N * (1.0 + 1e-9), "{joint:?}");
         }
         let layout = self.gantry.layout(20.0, [-5.0, 5.0]);
         for (at, [low, high]) in self.head().iter().zip(layout.travel_m) {
-            assert!(
-                (low..=high).contains(at),
-                "{at} m is outside {low} to {high} m"
-            );
+            assert!((low..=high).contains(at), "{at} m is outside {low} to {high} m");
         }
         let deep_m = self.head().x - self.stop_m;
         assert!(deep_m <= PRESS_M, "{deep_m} m into the block");
@@ -106,10 +98,7 @@ impl Bench {
                 return (readings, i as f64 * STEP_S);
             }
         }
-        panic!(
-            "neither arrived nor blocked within {at_most_s} s: {:?}",
-            self.head()
-        );
+        panic!("neither arrived nor blocked within {at_most_s} s: {:?}", self.head());
     }
 
     /// A block of 2 cm thickness on the bed, its near face at `forward` m, from y = -0.5 to 0.5 m.
@@ -117,20 +106,13 @@ impl Bench {
         let spec = ObstacleSpec {
             surface: Default::default(),
             id: "block".into(),
-            shape: ShapeSpec::Box(BoxShape {
-                size_m: (Positive::new(0.02), Positive::new(1.0), Positive::new(0.3)),
-            }),
+            shape: ShapeSpec::Box(BoxShape { size_m: (Positive::new(0.02), Positive::new(1.0), Positive::new(0.3)) }),
             east_m: Finite::new(forward + 0.01),
             north_m: Finite::new(0.0),
             base: Base::Z(Finite::new(0.0)),
             heading_deg: HeadingDeg::new(90.0),
         };
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m: 10.0,
-            width_m: 10.0,
-            axis: Heading::from_deg(90.0),
-        };
+        let area = Area { centre: Vector2::zeros(), length_m: 10.0, width_m: 10.0, axis: Heading::from_deg(90.0) };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(0.0), 1.0, 1.0);
         let block = Obstacle::build(&spec, &bed, "".as_ref()).expect("a block");
         self.physics.add_obstacle(&block);
@@ -152,10 +134,7 @@ fn a_step_takes_the_time_of_its_profile_and_ends_where_it_should() {
         bench.step();
     }
     let joints = bench.physics.joints(bench.id);
-    assert!(
-        joints.iter().all(|j| j.speed_m_s.abs() < 1e-4),
-        "{joints:?}"
-    );
+    assert!(joints.iter().all(|j| j.speed_m_s.abs() < 1e-4), "{joints:?}");
 }
 
 #[test]
@@ -176,10 +155,7 @@ fn steps_on_both_axes_run_at_once() {
 #[test]
 fn ends_of_moves_scatter_as_stated_and_the_encoder_does_not_see_it() {
     let mut bench = Bench::with(
-        CrabGantrySpec {
-            repeatability_m: NonNegative::new(1e-3),
-            ..CrabGantrySpec::default()
-        },
+        CrabGantrySpec { repeatability_m: NonNegative::new(1e-3), ..CrabGantrySpec::default() },
         (0.5, 0.0),
         &InMemory::default(),
     );
@@ -233,12 +209,7 @@ fn a_block_in_the_way_is_reported_and_left_again() {
     let stuck = bench.head();
     assert!((stuck.x - 0.885).abs() < PRESS_M, "{stuck}");
     let joints = bench.physics.joints(bench.id);
-    assert!(
-        joints
-            .iter()
-            .all(|j| j.force_N.abs() < 1.0 && j.speed_m_s.abs() < 1e-3),
-        "{joints:?}"
-    );
+    assert!(joints.iter().all(|j| j.force_N.abs() < 1.0 && j.speed_m_s.abs() < 1e-3), "{joints:?}");
     // The same again: blocked again. Away: free.
     bench.go(1.5, 0.1, (0.15, 0.03));
     assert!(bench.until_done(5.0).0.blocked);
@@ -278,10 +249,7 @@ fn a_place_that_is_none_is_named() {
 #[test]
 fn another_gantry_moves_where_it_is_told() {
     let files = InMemory::default().with("other.urdf", OTHER.as_bytes());
-    let spec = CrabGantrySpec {
-        urdf: Some("other.urdf".into()),
-        ..CrabGantrySpec::default()
-    };
+    let spec = CrabGantrySpec { urdf: Some("other.urdf".into()), ..CrabGantrySpec::default() };
     let mut bench = Bench::with(spec, (-2.0, 0.1), &files);
     bench.go(-1.5, -0.4, (0.3, 0.2));
     let (readings, _) = bench.until_done(10.0);

@@ -47,10 +47,7 @@ fn fails(from: &str, to: &str, message: &str) {
 }
 
 fn at(a: f64, b: f64) -> [JointState; 2] {
-    [a, b].map(|position_m| JointState {
-        position_m,
-        ..JointState::default()
-    })
+    [a, b].map(|position_m| JointState { position_m, ..JointState::default() })
 }
 
 #[test]
@@ -77,14 +74,8 @@ fn the_built_in_gantry_is_the_paper_s() {
 fn another_gantry_with_axes_swapped_and_turned_is_understood() {
     let frame = parse(OTHER).expect("another gantry");
     let [bridge, cart] = &frame.slides;
-    assert_eq!(
-        (bridge.joint.as_str(), bridge.axis, bridge.sign),
-        ("bridge_slide", 1, -1.0)
-    );
-    assert_eq!(
-        (cart.joint.as_str(), cart.axis, cart.sign),
-        ("cart_slide", 0, -1.0)
-    );
+    assert_eq!((bridge.joint.as_str(), bridge.axis, bridge.sign), ("bridge_slide", 1, -1.0));
+    assert_eq!((cart.joint.as_str(), cart.axis, cart.sign), ("cart_slide", 0, -1.0));
     assert_eq!((bridge.mass_kg, cart.mass_kg), (9.5, 2.0));
     assert!((frame.head_B - Vector3::new(0.2, 0.0, 0.4)).norm() < 1e-9);
     // Turned by a quarter, x of the stalk points to the left.
@@ -93,50 +84,27 @@ fn another_gantry_with_axes_swapped_and_turned_is_understood() {
     assert_eq!(frame.base_shapes.len(), 1);
 
     let files = InMemory::default().with("other.urdf", OTHER.as_bytes());
-    let spec = GantrySpec::CrabGantry(CrabGantrySpec {
-        urdf: Some("other.urdf".into()),
-        ..CrabGantrySpec::default()
-    });
+    let spec = GantrySpec::CrabGantry(CrabGantrySpec { urdf: Some("other.urdf".into()), ..CrabGantrySpec::default() });
     let gantry = Gantry::load(&spec, &files).expect("another gantry");
     let layout = gantry.layout(20.0, [-5.0, 5.0]);
     assert_eq!(layout.travel_m, [[-3.0, 1.0], [-0.6, 0.2]]);
     assert_eq!(layout.max_speed_m_s, [0.3, 0.2]);
     let base = Pose::level(Vector3::zeros(), Heading::from_deg(90.0));
-    let body = gantry
-        .body_spec("g", &base, Vector2::new(-2.0, 0.1))
-        .expect("inside");
+    let body = gantry.body_spec("g", &base, Vector2::new(-2.0, 0.1)).expect("inside");
     assert_eq!(body.start_m, [-0.1, 2.0]);
     let head = gantry.head_W(&base, &at(-0.1, 2.0));
-    assert!(
-        (head - Vector3::new(-1.8, 0.1, 0.4)).norm() < 1e-9,
-        "{head}"
-    );
-    let error = gantry
-        .body_spec("g", &base, Vector2::new(0.0, 0.3))
-        .expect_err("outside");
-    assert_eq!(
-        error.to_string(),
-        "start.left_m: must be from -0.6 to 0.2 m, got 0.3"
-    );
+    assert!((head - Vector3::new(-1.8, 0.1, 0.4)).norm() < 1e-9, "{head}");
+    let error = gantry.body_spec("g", &base, Vector2::new(0.0, 0.3)).expect_err("outside");
+    assert_eq!(error.to_string(), "start.left_m: must be from -0.6 to 0.2 m, got 0.3");
 }
 
 #[test]
 fn broken_trees_are_told() {
     let error = parse("<robot name=\"x\"><link").expect_err("broken");
-    assert!(
-        error.starts_with("/no/such/place/g.urdf: not a URDF file: "),
-        "{error}"
-    );
+    assert!(error.starts_with("/no/such/place/g.urdf: not a URDF file: "), "{error}");
     let error = parse("no xml at all").expect_err("broken");
-    assert!(
-        error.starts_with("/no/such/place/g.urdf: not a URDF file: "),
-        "{error}"
-    );
-    fails(
-        "<parent link=\"beam\"/>",
-        "<parent link=\"boom\"/>",
-        "joint \"across_stream\": no link \"boom\"",
-    );
+    assert!(error.starts_with("/no/such/place/g.urdf: not a URDF file: "), "{error}");
+    fails("<parent link=\"beam\"/>", "<parent link=\"boom\"/>", "joint \"across_stream\": no link \"boom\"");
     fails(
         "<child link=\"probe_left\"/>",
         "<child link=\"head\"/>",
@@ -147,11 +115,7 @@ fn broken_trees_are_told() {
         "<link name=\"base\"/><link name=\"bench\"/>",
         "link \"bench\" is not joined to \"base\"",
     );
-    fails(
-        "<link name=\"base\"/>",
-        "<link name=\"base\"/><link name=\"beam\"/>",
-        "link \"beam\" occurs twice",
-    );
+    fails("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"beam\"/>", "link \"beam\" occurs twice");
     fails(
         "<origin xyz=\"0 0 0.6\"/>",
         "<origin xyz=\"0 NaN 0.6\"/>",
@@ -168,11 +132,7 @@ fn broken_axes_are_told() {
         &to("fixed"),
         "two joints must be prismatic, one on the base and one on the first; 1 are: \"along_stream\"",
     );
-    fails(
-        across,
-        &to("revolute"),
-        "joint \"across_stream\" is revolute, but a gantry's joints are prismatic or fixed",
-    );
+    fails(across, &to("revolute"), "joint \"across_stream\" is revolute, but a gantry's joints are prismatic or fixed");
     fails(
         across,
         &to("continuous"),
@@ -222,34 +182,18 @@ fn broken_limits_are_told() {
         &with("upper=\"2\"", "upper=\"NaN\""),
         "joint \"along_stream\", limit: lower must be less than upper, got 0 and NaN",
     );
-    fails(
-        FIRST,
-        &with("0.15", "0"),
-        "joint \"along_stream\", limit: velocity must be > 0 m/s, got 0",
-    );
-    fails(
-        FIRST,
-        &with("200", "-1"),
-        "joint \"along_stream\", limit: effort must be > 0 N, got -1",
-    );
+    fails(FIRST, &with("0.15", "0"), "joint \"along_stream\", limit: velocity must be > 0 m/s, got 0");
+    fails(FIRST, &with("200", "-1"), "joint \"along_stream\", limit: effort must be > 0 N, got -1");
 }
 
 #[test]
 fn broken_masses_and_shapes_are_told() {
     for mass in ["0", "-2", "NaN"] {
         let to = format!("<mass value=\"{mass}\"/>");
-        fails(
-            "<mass value=\"4\"/>",
-            &to,
-            &format!("link \"head\": <mass> must be > 0 kg, got {mass}"),
-        );
+        fails("<mass value=\"4\"/>", &to, &format!("link \"head\": <mass> must be > 0 kg, got {mass}"));
     }
     let light = "<link name=\"probe_left\"><inertial><mass value=\"-1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>";
-    fails(
-        "<link name=\"probe_left\">",
-        light,
-        "link \"probe_left\": <mass> must be >= 0 kg, got -1",
-    );
+    fails("<link name=\"probe_left\">", light, "link \"probe_left\": <mass> must be >= 0 kg, got -1");
     fails(
         "<cylinder radius=\"0.004\"",
         "<cylinder radius=\"0\"",
@@ -278,11 +222,7 @@ fn missing_and_too_many_probes_are_told() {
     let more: String = (0..6)
         .map(|i| format!("<link name=\"probe_{i}\"/><joint name=\"j{i}\" type=\"fixed\"><parent link=\"head\"/><child link=\"probe_{i}\"/></joint>"))
         .collect();
-    fails(
-        "</robot>",
-        &format!("{more}</robot>"),
-        "9 probes, but at most 8 are possible",
-    );
+    fails("</robot>", &format!("{more}</robot>"), "9 probes, but at most 8 are possible");
 }
 
 #[test]
@@ -294,24 +234,15 @@ fn drives_that_cannot_do_it_are_told() {
     };
     let base = CrabGantrySpec::default;
     assert_eq!(
-        told(CrabGantrySpec {
-            acceleration_m_s2: Positive::new(10.0),
-            ..base()
-        }),
+        told(CrabGantrySpec { acceleration_m_s2: Positive::new(10.0), ..base() }),
         "acceleration_m_s2: must be at most 8.333333333333334 m/s2, got 10: joint \"along_stream\" has 200 N for 24 kg"
     );
     assert_eq!(
-        told(CrabGantrySpec {
-            encoder_m: Positive::new(0.001),
-            ..base()
-        }),
+        told(CrabGantrySpec { encoder_m: Positive::new(0.001), ..base() }),
         "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot resolve less"
     );
     let gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     gantry.check_step(0.02).expect("a usual step");
     let error = gantry.check_step(0.1).expect_err("too long");
-    assert_eq!(
-        error.to_string(),
-        "position_gain_per_s: must be at most 5 1/s at a step of 0.1 s, got 10"
-    );
+    assert_eq!(error.to_string(), "position_gain_per_s: must be at most 5 1/s at a step of 0.1 s, got 10");
 }

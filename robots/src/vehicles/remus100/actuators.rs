@@ -44,16 +44,8 @@ impl Actuators {
 
     /// The commanded state, limited unless the limits act on the state.
     pub(in crate::vehicles) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
-        let asked = Self {
-            rudder_rad: command.rudder_rad,
-            stern_rad: command.stern_rad,
-            rpm: command.rpm,
-        };
-        if c.limits_on_state {
-            asked
-        } else {
-            asked.limited(c)
-        }
+        let asked = Self { rudder_rad: command.rudder_rad, stern_rad: command.stern_rad, rpm: command.rpm };
+        if c.limits_on_state { asked } else { asked.limited(c) }
     }
 
     /// Rate of change of each towards the command, per second.
@@ -74,14 +66,7 @@ mod tests {
     #[test]
     fn commands_beyond_the_limits_are_cut() {
         let c = Coefficients::of(ParameterSet::Remus100);
-        let asked = Actuators::asked(
-            &ActuatorCommand {
-                rudder_rad: 1.0,
-                stern_rad: -1.0,
-                rpm: 9000.0,
-            },
-            &c,
-        );
+        let asked = Actuators::asked(&ActuatorCommand { rudder_rad: 1.0, stern_rad: -1.0, rpm: 9000.0 }, &c);
         assert!((asked.rudder_rad.to_degrees() - 15.0).abs() < 1e-12);
         assert!((asked.stern_rad.to_degrees() + 15.0).abs() < 1e-12);
         assert_eq!(asked.rpm, 1525.0);

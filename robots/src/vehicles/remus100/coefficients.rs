@@ -156,16 +156,8 @@ impl Coefficients {
         let k1 = alpha0 / (2.0 - alpha0);
         let k2 = beta0 / (2.0 - beta0);
         let e2 = e * e;
-        let k_turn =
-            e2 * e2 * (beta0 - alpha0) / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
-        let added = [
-            mass_kg * k1,
-            mass_kg * k2,
-            mass_kg * k2,
-            0.3 * ix,
-            k_turn * iy,
-            k_turn * iy,
-        ];
+        let k_turn = e2 * e2 * (beta0 - alpha0) / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
+        let added = [mass_kg * k1, mass_kg * k2, mass_kg * k2, 0.3 * ix, k_turn * iy, k_turn * iy];
 
         let weight = mass_kg * GRAVITY_M_S2;
         // Total mass at CO: the centre of gravity adds m z_g² to roll and pitch.
@@ -244,10 +236,7 @@ impl Coefficients {
             damping_fades: [true; 3],
             lift_any_plane: true,
             cross_flow: 1.1,
-            stations_m: (
-                (0..20).map(|i| -nose + (f64::from(i) + 0.5) * dx).collect(),
-                dx,
-            ),
+            stations_m: ((0..20).map(|i| -nose + (f64::from(i) + 0.5) * dx).collect(), dx),
             cross_flow_both: true,
             fin_incidence: true,
             inflow: Inflow::Axial,
@@ -314,11 +303,7 @@ mod tests {
     fn lagged_added_mass_would_diverge_on_this_hull() {
         let c = Coefficients::of(ParameterSet::Remus100);
         let lag = c.rigid_mass().try_inverse().expect("mass") * c.added_mass();
-        let rho = lag
-            .complex_eigenvalues()
-            .iter()
-            .map(|l| l.norm())
-            .fold(0.0, f64::max);
+        let rho = lag.complex_eigenvalues().iter().map(|l| l.norm()).fold(0.0, f64::max);
         assert!((rho - 1.09).abs() < 0.01, "spectral radius {rho}");
     }
 }

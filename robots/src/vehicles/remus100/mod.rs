@@ -11,5 +11,4 @@ pub use coefficients::{Coefficients, Inflow, ParameterSet};
 pub(super) use terms::RemusTerms;
 
 /// The built-in URDF's name for messages, and its text.
-pub(super) const REMUS100: (&str, &str) =
-    ("remus100.urdf", include_str!("../../../urdf/remus100.urdf"));
+pub(super) const REMUS100: (&str, &str) = ("remus100.urdf", include_str!("../../../urdf/remus100.urdf"));

@@ -28,18 +28,8 @@ impl Terms for RemusTerms<'_> {
     type Drives = Actuators;
 
     #[inline]
-    fn forces(
-        &self,
-        _: &Body,
-        at: &Relative,
-        actuators: &Actuators,
-        _: Stage,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        let standing = if self.c.limits_on_state {
-            actuators.limited(self.c)
-        } else {
-            *actuators
-        };
+    fn forces(&self, _: &Body, at: &Relative, actuators: &Actuators, _: Stage) -> (Vector3<f64>, Vector3<f64>) {
+        let standing = if self.c.limits_on_state { actuators.limited(self.c) } else { *actuators };
         let (force, moment) = self.submerged(at, &standing);
         (force * at.wet, moment * at.wet)
     }
@@ -52,19 +42,8 @@ impl Terms for RemusTerms<'_> {
 impl RemusTerms<'_> {
     /// All forces of the water on a fully submerged hull.
     #[inline]
-    pub(super) fn submerged(
-        &self,
-        at: &Relative,
-        actuators: &Actuators,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        let Relative {
-            v_ground,
-            v,
-            w,
-            along,
-            rho,
-            ..
-        } = at;
+    pub(super) fn submerged(&self, at: &Relative, actuators: &Actuators) -> (Vector3<f64>, Vector3<f64>) {
+        let Relative { v_ground, v, w, along, rho, .. } = at;
         let rho = *rho;
         let speed = v.norm();
         let (mut force, mut moment) = self.added_coriolis(v, w);
@@ -97,10 +76,7 @@ impl RemusTerms<'_> {
         let a = &self.c.added;
         let l = Vector3::new(a[0] * v.x, a[1] * v.y, a[2] * v.z);
         let h = Vector3::new(a[3] * w.x, a[4] * w.y, a[5] * w.z);
-        (
-            Vector3::new(0.0, l.z * w.x, -l.y * w.x),
-            Vector3::new(l.y * v.z - l.z * v.y, 0.0, 0.0) - w.cross(&h),
-        )
+        (Vector3::new(0.0, l.z * w.x, -l.y * w.x), Vector3::new(l.y * v.z - l.z * v.y, 0.0, 0.0) - w.cross(&h))
     }
 
     /// Lift and drag of the hull from its incidence α, C_D = C_D0 + C_L²/(π e AR).
@@ -157,10 +133,7 @@ impl RemusTerms<'_> {
                 N -= x * fy;
             }
         }
-        (
-            Vector3::new(0.0, k * Y, k * Z),
-            Vector3::new(0.0, k * M, k * N),
-        )
+        (Vector3::new(0.0, k * Y, k * Z), Vector3::new(0.0, k * M, k * N))
     }
 
     /// Rudder and stern plane. With incidence: a plate at angle δ feels the water across it,
@@ -188,20 +161,11 @@ impl RemusTerms<'_> {
         };
         let (Y, Z) = (-kr * normal_r, -ks * normal_s);
         let X = Y * dr + Z * ds;
-        (
-            Vector3::new(X, Y, Z),
-            Vector3::new(0.0, -c.fin_x_m * Z, c.fin_x_m * Y),
-        )
+        (Vector3::new(X, Y, Z), Vector3::new(0.0, -c.fin_x_m * Z, c.fin_x_m * Y))
     }
 
     /// Power of the shaft, W, at a velocity through the water (FRD).
-    pub(in crate::vehicles) fn shaft_w(
-        &self,
-        v_ground: &Vector3<f64>,
-        v: &Vector3<f64>,
-        rho: f64,
-        rpm: f64,
-    ) -> f64 {
+    pub(in crate::vehicles) fn shaft_w(&self, v_ground: &Vector3<f64>, v: &Vector3<f64>, rho: f64, rpm: f64) -> f64 {
         let n = rpm / 60.0;
         let (_, torque) = self.propeller(v_ground, v, v.norm(), rho, n);
         (torque.x / self.c.torque_share * n * std::f64::consts::TAU).max(0.0)
@@ -225,11 +189,7 @@ impl RemusTerms<'_> {
         let D = c.propeller_m;
         let D4 = D * D * D * D;
         // Astern, the curves' values at rest are used.
-        let advance = if n > 0.0 {
-            c.wake_share * inflow / D
-        } else {
-            0.0
-        };
+        let advance = if n > 0.0 { c.wake_share * inflow / D } else { 0.0 };
         let by = |k: &[f64; 2]| k[0] * n * n.abs() + k[1] * advance * n.abs();
         (
             Vector3::new(c.thrust_share * rho * D4 * by(&c.thrust), 0.0, 0.0),

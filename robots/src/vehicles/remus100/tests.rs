@@ -20,10 +20,7 @@ impl Hydrodynamics {
     }
 
     fn terms(&self) -> RemusTerms<'_> {
-        RemusTerms {
-            c: &self.c,
-            asked: Actuators::default(),
-        }
+        RemusTerms { c: &self.c, asked: Actuators::default() }
     }
 
     fn acceleration(
@@ -52,8 +49,7 @@ fn still() -> HullWater {
 }
 
 fn both() -> [Hydrodynamics; 2] {
-    [ParameterSet::Reference, ParameterSet::Remus100]
-        .map(|s| Hydrodynamics::new(Coefficients::of(s)))
+    [ParameterSet::Reference, ParameterSet::Remus100].map(|s| Hydrodynamics::new(Coefficients::of(s)))
 }
 
 /// Every row of the published model's table, with the propeller's inflow as first and as later published.
@@ -62,20 +58,11 @@ fn published_derivatives() {
     let table = include_str!("../../../../tests/reference/remus100/derivative_points.csv");
     let mut worst: f64 = 0.0;
     for (inflow, first) in [(Inflow::Ground, 17), (Inflow::Water, 23)] {
-        let hull = Hydrodynamics::new(Coefficients {
-            inflow,
-            ..Coefficients::of(ParameterSet::Reference)
-        });
+        let hull = Hydrodynamics::new(Coefficients { inflow, ..Coefficients::of(ParameterSet::Reference) });
         for line in table.lines().skip(1) {
-            let n: Vec<f64> = line
-                .split(',')
-                .map(|s| s.parse().expect("a number"))
-                .collect();
+            let n: Vec<f64> = line.split(',').map(|s| s.parse().expect("a number")).collect();
             let to_current = world::units::Heading::from_rad(n[1]).unit() * n[0];
-            let water = HullWater {
-                u_W: Vector3::new(to_current.x, to_current.y, 0.0),
-                ..still()
-            };
+            let water = HullWater { u_W: Vector3::new(to_current.x, to_current.y, 0.0), ..still() };
             // (roll, pitch, yaw) of FRD in NED, as the same rotation of FLU in ENU.
             let R_WB = Rotation3::from_euler_angles(n[5], -n[6], FRAC_PI_2 - n[7]);
             let (dv, dw) = hull.acceleration(
@@ -83,11 +70,7 @@ fn published_derivatives() {
                 &Vector3::new(n[8], -n[9], -n[10]),
                 &Vector3::new(n[11], -n[12], -n[13]),
                 &water,
-                &Actuators {
-                    rudder_rad: n[14],
-                    stern_rad: n[15],
-                    rpm: n[16],
-                },
+                &Actuators { rudder_rad: n[14], stern_rad: n[15], rpm: n[16] },
             );
             let ours = [dv.x, -dv.y, -dv.z, dw.x, -dw.y, -dw.z];
             for (a, b) in ours.iter().zip(&n[first..first + 6]) {
@@ -103,15 +86,8 @@ fn rudder_turns_to_starboard_and_stern_plane_dives() {
     for hull in both() {
         let v = Vector3::new(1.5, 0.0, 0.0);
         let level = Rotation3::identity();
-        let helm = |rudder_rad, stern_rad| Actuators {
-            rudder_rad,
-            stern_rad,
-            rpm: 1000.0,
-        };
-        let turn = |a: Actuators| {
-            hull.acceleration(&level, &v, &Vector3::zeros(), &still(), &a)
-                .1
-        };
+        let helm = |rudder_rad, stern_rad| Actuators { rudder_rad, stern_rad, rpm: 1000.0 };
+        let turn = |a: Actuators| hull.acceleration(&level, &v, &Vector3::zeros(), &still(), &a).1;
         let straight = turn(helm(0.0, 0.0));
         // FLU: clockwise seen from above is −z; nose down is +y.
         assert!(turn(helm(0.1, 0.0)).z < straight.z - 0.01);
@@ -123,20 +99,12 @@ fn rudder_turns_to_starboard_and_stern_plane_dives() {
 fn known_force_gives_known_acceleration() {
     // At rest the thrust is the only force: K_T0 ρ D⁴ n² (1 − t) on m + 0.839 kg, and the surge-pitch coupling m z_g.
     for hull in both() {
-        let actuators = Actuators {
-            rpm: 600.0,
-            ..Actuators::default()
-        };
+        let actuators = Actuators { rpm: 600.0, ..Actuators::default() };
         let zero = Vector3::zeros();
-        let (dv, dw) =
-            hull.acceleration(&Rotation3::identity(), &zero, &zero, &still(), &actuators);
+        let (dv, dw) = hull.acceleration(&Rotation3::identity(), &zero, &zero, &still(), &actuators);
         let c = &hull.c;
         let thrust = 0.9 * 1026.0 * 0.14f64.powi(4) * 0.4566 * 100.0;
-        let (m, i, z) = (
-            c.mass_kg + c.added[0],
-            c.rigid_mass()[(4, 4)] + c.added[4],
-            c.mass_kg * c.z_g_m,
-        );
+        let (m, i, z) = (c.mass_kg + c.added[0], c.rigid_mass()[(4, 4)] + c.added[4], c.mass_kg * c.z_g_m);
         let det = m * i - z * z;
         assert!((dv.x - thrust * i / det).abs() < 1e-12);
         assert!((dw.y - thrust * z / det).abs() < 1e-12);
@@ -145,22 +113,10 @@ fn known_force_gives_known_acceleration() {
 
 #[test]
 fn planes_of_the_shipped_set_are_alike() {
-    let hull = Hydrodynamics::new(Coefficients {
-        fin_slope: [0.5, 0.5],
-        ..Coefficients::of(ParameterSet::Remus100)
-    });
+    let hull = Hydrodynamics::new(Coefficients { fin_slope: [0.5, 0.5], ..Coefficients::of(ParameterSet::Remus100) });
     let none = Vector3::zeros();
     let f = |v, w| {
-        let at = Relative {
-            v_ground: v,
-            v,
-            w,
-            along: none,
-            rho: 1026.0,
-            down: Vector3::z(),
-            z_m: -10.0,
-            wet: 1.0,
-        };
+        let at = Relative { v_ground: v, v, w, along: none, rho: 1026.0, down: Vector3::z(), z_m: -10.0, wet: 1.0 };
         hull.terms().submerged(&at, &Actuators::default())
     };
     let (side, turn) = f(Vector3::new(1.0, 0.3, 0.0), Vector3::new(0.0, 0.0, 0.2));

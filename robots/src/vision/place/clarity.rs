@@ -58,17 +58,12 @@ impl SeenClarity {
     }
 
     /// By the pictures of a place; `None` without any.
-    pub(super) fn of<'a>(
-        patches: impl Iterator<Item = &'a Patch> + Clone,
-        bed_texture: f64,
-    ) -> Option<Self> {
+    pub(super) fn of<'a>(patches: impl Iterator<Item = &'a Patch> + Clone, bed_texture: f64) -> Option<Self> {
         patches.clone().next()?;
         let off = |v: f64| (v * v).min(FAR * FAR);
         let mut best: Option<(f64, Self)> = None;
         for k in 0..RATES.2 {
-            let water = Self {
-                attenuation_per_m: RATES.0 * math::powf(RATES.1, f64::from(k)),
-            };
+            let water = Self { attenuation_per_m: RATES.0 * math::powf(RATES.1, f64::from(k)) };
             let mut cost = 0.0;
             for p in patches.clone() {
                 let left = water.left(p.height_m);

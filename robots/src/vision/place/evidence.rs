@@ -84,12 +84,7 @@ pub struct Weighed {
 impl Weighed {
     /// Nothing is known: of `places` none is likelier than another.
     fn blank(places: Vec<(Vector2<f64>, f64)>) -> Self {
-        Self {
-            log_factor: 0.0,
-            answer: Answer::CannotTell,
-            best: None,
-            places,
-        }
+        Self { log_factor: 0.0, answer: Answer::CannotTell, best: None, places }
     }
 }
 
@@ -138,21 +133,12 @@ pub(super) fn weigh(
     } else {
         Answer::CannotTell
     };
-    Weighed {
-        log_factor,
-        answer,
-        best: best.filter(|(_, log)| *log > 0.0).map(|(p, _)| p),
-        places,
-    }
+    Weighed { log_factor, answer, best: best.filter(|(_, log)| *log > 0.0).map(|(p, _)| p), places }
 }
 
 /// What of the template no picture shows, for a source at each of `places`: where it is, and the likelihood ratio of
 /// the source's place.
-pub(super) fn unseen(
-    mosaic: &Mosaic,
-    places: &[(Vector2<f64>, f64)],
-    down_flow: Heading,
-) -> Vec<(Vector2<f64>, f64)> {
+pub(super) fn unseen(mosaic: &Mosaic, places: &[(Vector2<f64>, f64)], down_flow: Heading) -> Vec<(Vector2<f64>, f64)> {
     let boxes = mosaic.boxes();
     let metres = [0.0].into_iter().chain(DYED_M.into_iter().flatten());
     let metres: Vec<f64> = metres.chain(CLEAN_M.into_iter().flatten()).collect();
@@ -160,9 +146,7 @@ pub(super) fn unseen(
         let weight = math::exp(*log);
         (metres.iter()).map(move |m| (*p + down_flow.unit() * *m, weight))
     });
-    parts
-        .filter(|(at, _)| box_about(mosaic, &boxes, *at).is_none())
-        .collect()
+    parts.filter(|(at, _)| box_about(mosaic, &boxes, *at).is_none()).collect()
 }
 
 /// The box about a place; `None` if too little of it has been seen.
@@ -194,9 +178,7 @@ fn darkness(b: &Boxed) -> f64 {
 /// Standard deviation of darkness and redness over the boxes of the ground, about nothing: by the quarter that is
 /// nearest to the background, for bodies, dye and what they do to the background beside them may fill half of it.
 fn spread(boxes: &Boxes) -> [f64; 2] {
-    let all: Vec<[f64; 2]> = (boxes.apart())
-        .map(|b| [darkness(b).abs(), b.contrast[1].abs()])
-        .collect();
+    let all: Vec<[f64; 2]> = (boxes.apart()).map(|b| [darkness(b).abs(), b.contrast[1].abs()]).collect();
     [0, 1].map(|k| {
         if all.len() < BOXES.0 {
             return BOXES.1;

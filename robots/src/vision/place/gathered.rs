@@ -110,25 +110,14 @@ impl Place {
     /// pictures make each source. Empty without any picture.
     #[must_use]
     pub fn unseen(&self) -> Vec<(Vector2<f64>, f64)> {
-        self.mosaic().map_or_else(Vec::new, |mosaic| {
-            unseen(&mosaic, &self.weigh().places, self.down_flow)
-        })
+        self.mosaic().map_or_else(Vec::new, |mosaic| unseen(&mosaic, &self.weigh().places, self.down_flow))
     }
 
     /// What the pictures say.
     #[must_use]
     pub fn weigh(&self) -> Weighed {
-        let limits = Limits {
-            verify_at: self.spec.verify_at.get(),
-            reject_at: self.spec.reject_at.get(),
-        };
+        let limits = Limits { verify_at: self.spec.verify_at.get(), reject_at: self.spec.reject_at.get() };
         let (place, within_m) = (self.place, self.spec.within_m.get());
-        weigh(
-            self.mosaic().as_ref(),
-            place,
-            within_m,
-            self.down_flow,
-            limits,
-        )
+        weigh(self.mosaic().as_ref(), place, within_m, self.down_flow, limits)
     }
 }

@@ -90,12 +90,7 @@ impl Patch {
         if cells.is_empty() {
             return Err(Useless::Empty);
         }
-        Ok(Self {
-            texture: texture(&cells, &c),
-            noise: c.noise,
-            height_m,
-            cells,
-        })
+        Ok(Self { texture: texture(&cells, &c), noise: c.noise, height_m, cells })
     }
 }
 

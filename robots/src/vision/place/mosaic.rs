@@ -62,12 +62,7 @@ impl Mosaic {
                 }
             }
         }
-        Self {
-            cell_m,
-            low,
-            size: [side; 2],
-            sums,
-        }
+        Self { cell_m, low, size: [side; 2], sums }
     }
 
     /// Contrast of brightness and redness of a cell; `None` if no picture shows it.
@@ -106,18 +101,12 @@ impl Mosaic {
                 let s: [f64; 5] = std::array::from_fn(|k| d[k] - b[k] - c[k] + a[k]);
                 let all = ((2 * half + 1) * (2 * half + 1)) as f64;
                 if s[4] >= SEEN * all && s[2] > 0.0 && s[3] > 0.0 {
-                    means[y * w + x] = Some(Boxed {
-                        contrast: [s[0] / s[2], s[1] / s[3]],
-                        variance: [1.0 / s[2], 1.0 / s[3]],
-                    });
+                    means[y * w + x] =
+                        Some(Boxed { contrast: [s[0] / s[2], s[1] / s[3]], variance: [1.0 / s[2], 1.0 / s[3]] });
                 }
             }
         }
-        Boxes {
-            width: w,
-            step: 2 * half + 1,
-            means,
-        }
+        Boxes { width: w, step: 2 * half + 1, means }
     }
 }
 

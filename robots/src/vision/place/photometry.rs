@@ -74,13 +74,7 @@ pub(super) fn contrasts(picture: &RgbImage, view_rad: f64) -> Result<Contrasts, 
     let (y, rg) = light(picture, view_rad)?;
     let of_y = surface(&blocks(size, &y, &y));
     let of_rg = surface(&blocks(size, &y, &rg));
-    let mut out = Contrasts {
-        width: w,
-        height: h,
-        bright: vec![f32::NAN; n],
-        red: vec![f32::NAN; n],
-        noise: [0.0; 2],
-    };
+    let mut out = Contrasts { width: w, height: h, bright: vec![f32::NAN; n], red: vec![f32::NAN; n], noise: [0.0; 2] };
     for k in 0..n {
         let t = terms(size, f64::from(k as u32 % w), f64::from(k as u32 / w));
         let ground = of_y.dot(&t);
@@ -116,11 +110,7 @@ fn light(picture: &RgbImage, view_rad: f64) -> Result<(Vec<f64>, Vec<f64>), Usel
         }
     }
     if (n - dark - white) as f64 <= USABLE * n as f64 {
-        return Err(if dark >= white {
-            Useless::Dark
-        } else {
-            Useless::Bright
-        });
+        return Err(if dark >= white { Useless::Dark } else { Useless::Bright });
     }
     if picture.pixels().all(|p| p == first) {
         return Err(Useless::Flat);
@@ -130,11 +120,7 @@ fn light(picture: &RgbImage, view_rad: f64) -> Result<(Vec<f64>, Vec<f64>), Usel
 
 /// Light of a level, both as shares of full scale.
 fn linear(level: f64) -> f64 {
-    if level <= 0.040_45 {
-        level / 12.92
-    } else {
-        world::math::powf((level + 0.055) / 1.055, 2.4)
-    }
+    if level <= 0.040_45 { level / 12.92 } else { world::math::powf((level + 0.055) / 1.055, 2.4) }
 }
 
 /// Share of its light that a lens lets through to pixel number `k`: cos⁴ of the angle from its axis (any text on
@@ -270,17 +256,12 @@ mod tests {
     fn a_dark_patch_on_sloping_light_keeps_its_contrast() {
         let inside = |x: u32, y: u32| (20..40).contains(&x) && (10..33).contains(&y);
         let level = |share: f64| {
-            let l = if share <= 0.003_130_8 {
-                12.92 * share
-            } else {
-                1.055 * world::math::powf(share, 1.0 / 2.4) - 0.055
-            };
+            let l =
+                if share <= 0.003_130_8 { 12.92 * share } else { 1.055 * world::math::powf(share, 1.0 / 2.4) - 0.055 };
             255.0 * l
         };
         let light = |x: u32| 0.3 * (1.0 - 0.33 * f64::from(x) / 64.0);
-        let p = noisy(1, |x, y| {
-            level(light(x) * if inside(x, y) { 0.6 } else { 1.0 })
-        });
+        let p = noisy(1, |x, y| level(light(x) * if inside(x, y) { 0.6 } else { 1.0 }));
         let c = contrasts(&p, 0.1).unwrap();
         let (mut sums, mut n) = ([0.0; 2], [0.0; 2]);
         for (k, v) in c.bright.iter().enumerate() {

@@ -37,12 +37,7 @@ impl Known {
 
     /// The shift, of at most `reach_cells` along each axis, that brings a picture onto what is known; it is looked for
     /// about another one. `None` if none stands out.
-    pub(super) fn shift(
-        &self,
-        patch: &Patch,
-        about: [i32; 2],
-        reach_cells: i32,
-    ) -> Option<[i32; 2]> {
+    pub(super) fn shift(&self, patch: &Patch, about: [i32; 2], reach_cells: i32) -> Option<[i32; 2]> {
         // A table of the ground that the search can meet.
         let ends = |k: usize| {
             let low = patch.cells.iter().map(|s| s.at[k]).min()? + about[k] - reach_cells;
@@ -94,14 +89,7 @@ fn correlation(pairs: impl Iterator<Item = (f64, f64)>) -> (usize, f64) {
     }
     let [a, b, aa, bb, ab] = sums.map(|s| s / (n as f64).max(1.0));
     let spread = ((aa - a * a) * (bb - b * b)).max(0.0).sqrt();
-    (
-        n,
-        if spread > 1e-12 {
-            (ab - a * b) / spread
-        } else {
-            0.0
-        },
-    )
+    (n, if spread > 1e-12 { (ab - a * b) / spread } else { 0.0 })
 }
 
 #[cfg(test)]
@@ -133,12 +121,7 @@ mod tests {
                 });
             }
         }
-        Patch {
-            cells,
-            noise: [noise, noise],
-            height_m: 2.0,
-            texture: [1.0, noise],
-        }
+        Patch { cells, noise: [noise, noise], height_m: 2.0, texture: [1.0, noise] }
     }
 
     #[test]
@@ -159,14 +142,8 @@ mod tests {
         let (g, other) = (ground(1), ground(2));
         let mut known = Known::default();
         known.add(&picture(&g, [20, 20], [0, 0], 0.5, 1), [0, 0]);
-        assert_eq!(
-            known.shift(&picture(&other, [22, 20], [0, 0], 0.5, 2), [0, 0], 8),
-            None
-        );
-        assert_eq!(
-            known.shift(&picture(&g, [22, 20], [0, 0], 9.0, 3), [0, 0], 8),
-            None
-        );
+        assert_eq!(known.shift(&picture(&other, [22, 20], [0, 0], 0.5, 2), [0, 0], 8), None);
+        assert_eq!(known.shift(&picture(&g, [22, 20], [0, 0], 9.0, 3), [0, 0], 8), None);
         let corner = picture(&g, [38, 38], [0, 0], 0.1, 4);
         assert_eq!(known.shift(&corner, [0, 0], 1), None);
         let far = picture(&g, [22, 20], [12, 0], 0.1, 5);

@@ -66,19 +66,12 @@ impl AddUpSpec {
             ("reject_at", self.reject_at, 1.0, 20.0),
             ("contrast_left", self.contrast_left, 0.05, 0.95),
         ];
-        let wrong = |field: &str, problem: String| {
-            Err(RobotError::Invalid {
-                field: format!("{path}.{field}"),
-                problem,
-            })
-        };
+        let wrong =
+            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
         for (field, value, least, most) in ranges {
             let value = value.get();
             if !(least..=most).contains(&value) {
-                return wrong(
-                    field,
-                    format!("must be from {least} to {most}, got {value}"),
-                );
+                return wrong(field, format!("must be from {least} to {most}, got {value}"));
             }
         }
         let least = self.least_altitude_m.get();
@@ -113,34 +106,16 @@ mod tests {
         assert!(AddUpSpec::default().check("a", 2.5).is_ok());
         let m = Positive::new;
         for (said, told) in [
-            (
-                of(&|s| s.within_m = m(30.0)),
-                "a.within_m: must be from 0.5 to 20, got 30",
-            ),
-            (
-                of(&|s| s.cell_m = m(0.5)),
-                "a.cell_m: must be from 0.05 to 0.25, got 0.5",
-            ),
-            (
-                of(&|s| s.bed_texture = m(2.0)),
-                "a.bed_texture: must be from 0.01 to 1, got 2",
-            ),
-            (
-                of(&|s| s.verify_at = m(0.5)),
-                "a.verify_at: must be from 1 to 20, got 0.5",
-            ),
+            (of(&|s| s.within_m = m(30.0)), "a.within_m: must be from 0.5 to 20, got 30"),
+            (of(&|s| s.cell_m = m(0.5)), "a.cell_m: must be from 0.05 to 0.25, got 0.5"),
+            (of(&|s| s.bed_texture = m(2.0)), "a.bed_texture: must be from 0.01 to 1, got 2"),
+            (of(&|s| s.verify_at = m(0.5)), "a.verify_at: must be from 1 to 20, got 0.5"),
             (
                 of(&|s| s.least_altitude_m = m(3.0)),
                 "a.least_altitude_m: must be from 0.5 to the camera's altitude_m, 2.5, got 3",
             ),
-            (
-                of(&|s| s.clearance_m = m(2.0)),
-                "a.clearance_m: must be from 0.2 to least_altitude_m, 1.4, got 2",
-            ),
-            (
-                of(&|s| s.most_lines = 0),
-                "a.most_lines: must be from 1 to 32, got 0",
-            ),
+            (of(&|s| s.clearance_m = m(2.0)), "a.clearance_m: must be from 0.2 to least_altitude_m, 1.4, got 2"),
+            (of(&|s| s.most_lines = 0), "a.most_lines: must be from 1 to 32, got 0"),
         ] {
             assert_eq!(said, told);
         }

@@ -38,44 +38,27 @@ pub struct Style<'a> {
 impl<'a> Style<'a> {
     /// A filled shape without an edge.
     pub fn fill(colour: &'a str) -> Self {
-        Self {
-            fill: Some(colour),
-            ..Self::default()
-        }
+        Self { fill: Some(colour), ..Self::default() }
     }
 
     /// A line.
     pub fn line(colour: &'a str, width: f64) -> Self {
-        Self {
-            stroke: Some(colour),
-            width,
-            ..Self::default()
-        }
+        Self { stroke: Some(colour), width, ..Self::default() }
     }
 
     /// Adds an edge.
     pub fn edged(self, colour: &'a str, width: f64) -> Self {
-        Self {
-            stroke: Some(colour),
-            width,
-            ..self
-        }
+        Self { stroke: Some(colour), width, ..self }
     }
 
     /// Makes the line dashed.
     pub fn dashed(self, dash: &'a str) -> Self {
-        Self {
-            dash: Some(dash),
-            ..self
-        }
+        Self { dash: Some(dash), ..self }
     }
 
     /// Makes it partly transparent.
     pub fn faint(self, opacity: f64) -> Self {
-        Self {
-            opacity: Some(opacity),
-            ..self
-        }
+        Self { opacity: Some(opacity), ..self }
     }
 
     fn write(&self, out: &mut String) {
@@ -126,14 +109,7 @@ pub struct Canvas {
 impl Canvas {
     /// An empty sheet.
     pub fn new(width: f64, height: f64) -> Self {
-        Self {
-            width,
-            height,
-            body: String::new(),
-            clips: 0,
-            shows: None,
-            taken: Vec::new(),
-        }
+        Self { width, height, body: String::new(), clips: 0, shows: None, taken: Vec::new() }
     }
 
     fn shape(&mut self, open: &str, style: &Style<'_>) {
@@ -150,11 +126,7 @@ impl Canvas {
     /// Several lines or rings as one shape; overlapping rings make holes.
     pub fn lines(&mut self, lines: &[Vec<[f64; 2]>], closed: bool, style: &Style<'_>) {
         let mut d = String::new();
-        let near = far::near(
-            lines,
-            closed,
-            self.shows.unwrap_or([0.0, 0.0, self.width, self.height]),
-        );
+        let near = far::near(lines, closed, self.shows.unwrap_or([0.0, 0.0, self.width, self.height]));
         for line in near.as_deref().unwrap_or(lines) {
             if line.len() < 2 {
                 continue;
@@ -200,10 +172,7 @@ impl Canvas {
         if far::is_far([x, y]) || far::is_far([r, r]) {
             return;
         }
-        self.shape(
-            &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\""),
-            style,
-        );
+        self.shape(&format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\""), style);
     }
 
     /// A line from `a` to `b` with a head at `b`.
@@ -212,17 +181,9 @@ impl Canvas {
         let n = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-9);
         let u = [d[0] / n, d[1] / n];
         let head = 3.2 * width;
-        let at = |along: f64, side: f64| {
-            [
-                b[0] - u[0] * along - u[1] * side,
-                b[1] - u[1] * along + u[0] * side,
-            ]
-        };
+        let at = |along: f64, side: f64| [b[0] - u[0] * along - u[1] * side, b[1] - u[1] * along + u[0] * side];
         self.line(a, at(head, 0.0), &Style::line(colour, width));
-        self.polygon(
-            vec![b, at(1.6 * head, 0.75 * head), at(1.6 * head, -0.75 * head)],
-            &Style::fill(colour),
-        );
+        self.polygon(vec![b, at(1.6 * head, 0.75 * head), at(1.6 * head, -0.75 * head)], &Style::fill(colour));
     }
 
     /// Plain text in the figure's ink.
@@ -262,21 +223,10 @@ impl Canvas {
         panel: &Panel,
         may_be_left_out: bool,
     ) {
-        let hidden = |(at, anchor): &([f64; 2], Anchor)| {
-            self.in_the_way(&Room::of_text(*at, size, *anchor, s), panel)
-        };
+        let hidden = |(at, anchor): &([f64; 2], Anchor)| self.in_the_way(&Room::of_text(*at, size, *anchor, s), panel);
         let free = places.iter().find(|p| hidden(p) == 0.0).copied();
-        let least = || {
-            places
-                .iter()
-                .copied()
-                .min_by(|a, b| hidden(a).total_cmp(&hidden(b)))
-        };
-        let chosen = if may_be_left_out {
-            free
-        } else {
-            free.or_else(least)
-        };
+        let least = || places.iter().copied().min_by(|a, b| hidden(a).total_cmp(&hidden(b)));
+        let chosen = if may_be_left_out { free } else { free.or_else(least) };
         if let Some((at, anchor)) = chosen {
             self.rimmed(at, size, anchor, s);
         }
@@ -378,10 +328,7 @@ mod tests {
     fn rings_are_closed_and_single_points_left_out() {
         let mut c = Canvas::new(10.0, 10.0);
         c.lines(&[vec![[0.0, 0.0]]], false, &Style::line("#000", 1.0));
-        c.polygon(
-            vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
-            &Style::fill("#000"),
-        );
+        c.polygon(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], &Style::fill("#000"));
         let svg = c.svg("t");
         assert_eq!(svg.matches("<path").count(), 1);
         assert!(svg.contains("d=\"M0.0 0.0L1.0 0.0L1.0 1.0Z\""), "{svg}");

@@ -26,22 +26,14 @@ type Edge = (usize, usize, u8);
 impl Grid {
     /// Evaluates a function over a rectangle.
     pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
-        let step = [
-            (x[1] - x[0]) / (n[0] - 1) as f64,
-            (y[1] - y[0]) / (n[1] - 1) as f64,
-        ];
+        let step = [(x[1] - x[0]) / (n[0] - 1) as f64, (y[1] - y[0]) / (n[1] - 1) as f64];
         let mut values = Vec::with_capacity(n[0] * n[1]);
         for j in 0..n[1] {
             for i in 0..n[0] {
                 values.push(f(x[0] + i as f64 * step[0], y[0] + j as f64 * step[1]));
             }
         }
-        Self {
-            n,
-            origin: [x[0], y[0]],
-            step,
-            values,
-        }
+        Self { n, origin: [x[0], y[0]], step, values }
     }
 
     fn value(&self, i: usize, j: usize) -> f64 {
@@ -62,12 +54,7 @@ impl Grid {
 
     /// Lines where the value is `level`.
     pub fn lines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
-        let place = |i: f64, j: f64| {
-            [
-                self.origin[0] + i * self.step[0],
-                self.origin[1] + j * self.step[1],
-            ]
-        };
+        let place = |i: f64, j: f64| [self.origin[0] + i * self.step[0], self.origin[1] + j * self.step[1]];
         trace(&self.values, self.n, level, place)
     }
 
@@ -77,34 +64,18 @@ impl Grid {
         let (values, n) = self.rimmed(level - 1e12 * (1.0 + level.abs()));
         let clamp = |k: f64, n: usize| (k - 1.0).clamp(0.0, (n - 1) as f64);
         let place = |i: f64, j: f64| {
-            [
-                self.origin[0] + clamp(i, self.n[0]) * self.step[0],
-                self.origin[1] + clamp(j, self.n[1]) * self.step[1],
-            ]
+            [self.origin[0] + clamp(i, self.n[0]) * self.step[0], self.origin[1] + clamp(j, self.n[1]) * self.step[1]]
         };
         trace(&values, n, level, place)
     }
 }
 
-fn trace(
-    values: &[f64],
-    n: [usize; 2],
-    level: f64,
-    place: impl Fn(f64, f64) -> [f64; 2],
-) -> Vec<Vec<[f64; 2]>> {
+fn trace(values: &[f64], n: [usize; 2], level: f64, place: impl Fn(f64, f64) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let at = |i: usize, j: usize| values[j * n[0] + i];
     let crossing = |(i, j, along): Edge| {
-        let (a, b) = if along == 0 {
-            (at(i, j), at(i + 1, j))
-        } else {
-            (at(i, j), at(i, j + 1))
-        };
+        let (a, b) = if along == 0 { (at(i, j), at(i + 1, j)) } else { (at(i, j), at(i, j + 1)) };
         let s = ((level - a) / (b - a)).clamp(0.0, 1.0);
-        if along == 0 {
-            place(i as f64 + s, j as f64)
-        } else {
-            place(i as f64, j as f64 + s)
-        }
+        if along == 0 { place(i as f64 + s, j as f64) } else { place(i as f64, j as f64 + s) }
     };
     // Each crossed edge connects to at most two others.
     let mut links: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
@@ -121,10 +92,7 @@ fn trace(
                 continue;
             }
             let edges = [(i, j, 0), (i + 1, j, 1), (i, j + 1, 0), (i, j, 1)];
-            let crossed: Vec<Edge> = (0..4)
-                .filter(|&k| above[k] != above[(k + 1) % 4])
-                .map(|k| edges[k])
-                .collect();
+            let crossed: Vec<Edge> = (0..4).filter(|&k| above[k] != above[(k + 1) % 4]).map(|k| edges[k]).collect();
             match crossed[..] {
                 [a, b] => link(a, b),
                 [a, b, c, d] => {
@@ -142,11 +110,7 @@ fn trace(
         }
     }
     // Ends first, so that open lines are whole; then the rings.
-    let ends: Vec<Edge> = links
-        .iter()
-        .filter(|(_, l)| l.len() == 1)
-        .map(|(e, _)| *e)
-        .collect();
+    let ends: Vec<Edge> = links.iter().filter(|(_, l)| l.len() == 1).map(|(e, _)| *e).collect();
     let rest: Vec<Edge> = links.keys().copied().collect();
     let mut lines = Vec::new();
     for start in ends.into_iter().chain(rest) {
@@ -186,9 +150,7 @@ mod tests {
 
     #[test]
     fn circle_is_one_ring_of_its_area() {
-        let g = Grid::of([-2.0, 2.0], [-2.0, 2.0], [81, 81], |x, y| {
-            1.0 - x * x - y * y
-        });
+        let g = Grid::of([-2.0, 2.0], [-2.0, 2.0], [81, 81], |x, y| 1.0 - x * x - y * y);
         let rings = g.rings(0.0);
         assert_eq!(rings.len(), 1);
         // Chords of a circle remove at most (h/r)²/6 of it: h = 0.05.
@@ -210,12 +172,7 @@ mod tests {
 
     #[test]
     fn saddle_gives_two_lines() {
-        let g = Grid {
-            n: [2, 2],
-            origin: [0.0, 0.0],
-            step: [1.0, 1.0],
-            values: vec![1.0, 0.0, 0.0, 1.0],
-        };
+        let g = Grid { n: [2, 2], origin: [0.0, 0.0], step: [1.0, 1.0], values: vec![1.0, 0.0, 0.0, 1.0] };
         assert_eq!(g.lines(0.5).len(), 2);
         assert_eq!(g.lines(2.0).len(), 0);
     }

@@ -32,8 +32,7 @@ pub fn near(lines: &[Vec<[f64; 2]>], closed: bool, frame: Frame) -> Option<Vec<V
         let points = line.iter().copied();
         // Products of larger numbers would be infinite.
         let real = points.filter(|p| p.iter().all(|v| v.is_finite()));
-        real.map(|p| p.map(|v| v.clamp(-1e100, 1e100)))
-            .collect::<Vec<_>>()
+        real.map(|p| p.map(|v| v.clamp(-1e100, 1e100))).collect::<Vec<_>>()
     });
     Some(if closed {
         real.map(|ring| ring_in(ring, wider)).collect()
@@ -47,11 +46,7 @@ fn ring_in(mut ring: Vec<[f64; 2]>, frame: Frame) -> Vec<[f64; 2]> {
     for (side, limit) in frame.into_iter().enumerate() {
         let axis = side % 2;
         let inside = |p: &[f64; 2]| {
-            if side < 2 {
-                p[axis] >= limit
-            } else {
-                p[axis] <= limit
-            }
+            if side < 2 { p[axis] >= limit } else { p[axis] <= limit }
         };
         let mut kept = Vec::with_capacity(ring.len() + 1);
         for (k, b) in ring.iter().enumerate() {
@@ -154,15 +149,8 @@ mod tests {
         c.clip(10.0, 5.0, 40.0, 20.0);
         for v in [2e9, 1e30, 1e200] {
             let ring = vec![[-v, -v], [v, -v], [v, v], [-v, v]];
-            c.polygon(
-                ring,
-                &Style::fill("#000000").edged("#000000", 1.0).dashed("7 4"),
-            );
-            c.line(
-                [-v, 3.0],
-                [v, 3.0],
-                &Style::line("#000000", 1.0).dashed("7 4"),
-            );
+            c.polygon(ring, &Style::fill("#000000").edged("#000000", 1.0).dashed("7 4"));
+            c.line([-v, 3.0], [v, 3.0], &Style::line("#000000", 1.0).dashed("7 4"));
             c.circle([v, 0.0], v, &Style::fill("#000000"));
             c.rect(-v, -v, 2.0 * v, 2.0 * v, &Style::line("#000000", 1.0));
         }

@@ -40,9 +40,7 @@ pub fn behaviour(b: Behaviour) -> &'static str {
 
 /// Colour of the vehicle of this number, where there are several; none is that of the search, or of the plume.
 pub fn vehicle(k: usize) -> &'static str {
-    const COLOURS: [&str; 6] = [
-        "#7b3fd1", "#00d8c0", "#c9d400", "#e8304f", "#8a5a2b", "#1f3a93",
-    ];
+    const COLOURS: [&str; 6] = ["#7b3fd1", "#00d8c0", "#c9d400", "#e8304f", "#8a5a2b", "#1f3a93"];
     COLOURS[k % COLOURS.len()]
 }
 

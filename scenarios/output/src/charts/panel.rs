@@ -71,13 +71,7 @@ impl Panel {
 
     /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
-        c.rect(
-            self.left,
-            self.top,
-            self.width,
-            self.height,
-            &Style::line(INK, width),
-        );
+        c.rect(self.left, self.top, self.width, self.height, &Style::line(INK, width));
     }
 
     /// Ticks and numbers along the bottom.
@@ -85,11 +79,7 @@ impl Panel {
         let step = nice_step((self.x[1] - self.x[0]).abs(), self.width / 90.0);
         for v in ticks(self.x, step) {
             let x = self.px(v);
-            c.line(
-                [x, self.bottom()],
-                [x, self.bottom() + 4.0],
-                &Style::line(INK, 0.8),
-            );
+            c.line([x, self.bottom()], [x, self.bottom() + 4.0], &Style::line(INK, 0.8));
             if numbers {
                 let at = [x, self.bottom() + 6.0 + size];
                 c.text(at, size, Anchor::Middle, &number(v, step));
@@ -144,10 +134,7 @@ pub fn nice_step(span: f64, wanted: f64) -> f64 {
     let raw = span.max(1e-9) / wanted.max(1.0);
     let base = power_of_ten(decade(raw));
     let times = [1.0, 2.0, 5.0, 10.0];
-    base * times
-        .into_iter()
-        .find(|t| t * base >= raw * 0.999)
-        .unwrap_or(10.0)
+    base * times.into_iter().find(|t| t * base >= raw * 0.999).unwrap_or(10.0)
 }
 
 /// Multiples of `step` within the range, which may be descending.
@@ -163,11 +150,7 @@ pub fn number(v: f64, step: f64) -> String {
     let decimals = usize::try_from(-decade(step)).unwrap_or(0);
     let text = format!("{:.decimals$}", v.abs());
     let zero = text.chars().all(|c| matches!(c, '0' | '.'));
-    if v < 0.0 && !zero {
-        format!("−{text}")
-    } else {
-        text
-    }
+    if v < 0.0 && !zero { format!("−{text}") } else { text }
 }
 
 /// A range that contains all given numbers, widened by a share; it is never empty.
@@ -203,14 +186,7 @@ mod tests {
 
     #[test]
     fn reversed_axis_points_down() {
-        let p = Panel {
-            left: 0.0,
-            top: 0.0,
-            width: 10.0,
-            height: 10.0,
-            x: [0.0, 1.0],
-            y: [8.0, 0.0],
-        };
+        let p = Panel { left: 0.0, top: 0.0, width: 10.0, height: 10.0, x: [0.0, 1.0], y: [8.0, 0.0] };
         assert_eq!(p.py(8.0), 10.0);
         assert_eq!(p.py(0.0), 0.0);
     }

@@ -19,12 +19,7 @@ pub struct Room {
 impl Room {
     /// A square round a point.
     pub fn round([x, y]: [f64; 2], reach: f64) -> Self {
-        Self {
-            left: x - reach,
-            top: y - reach,
-            right: x + reach,
-            bottom: y + reach,
-        }
+        Self { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach }
     }
 
     /// The space of a line of text at a point.
@@ -35,12 +30,7 @@ impl Room {
             Anchor::Middle => x - 0.5 * width,
             Anchor::End => x - width,
         };
-        Self {
-            left,
-            top: y - 0.78 * size,
-            right: left + width,
-            bottom: y + 0.24 * size,
-        }
+        Self { left, top: y - 0.78 * size, right: left + width, bottom: y + 0.24 * size }
     }
 
     /// The area that two rooms share, px²; zero if they only touch.
@@ -53,12 +43,7 @@ impl Room {
     /// The part outside a panel, px².
     pub fn outside(&self, panel: &Panel) -> f64 {
         let all = (self.right - self.left) * (self.bottom - self.top);
-        let sheet = Room {
-            left: panel.left,
-            top: panel.top,
-            right: panel.right(),
-            bottom: panel.bottom(),
-        };
+        let sheet = Room { left: panel.left, top: panel.top, right: panel.right(), bottom: panel.bottom() };
         (all - self.shared(&sheet)).max(0.0)
     }
 }
@@ -69,9 +54,7 @@ pub fn width_of(s: &str, size: f64) -> f64 {
         'i' | 'j' | 'l' | '\'' => 0.28,
         ' ' | '.' | ',' | ':' | ';' | 'I' | 'f' | 't' | 'r' | '(' | ')' | '/' | '-' | '·' => 0.41,
         'm' | 'M' | 'W' | '%' => 0.99,
-        'w' | '+' | '−' | '=' | '×' | '<' | '>' | 'O' | 'Q' | 'D' | 'G' | 'H' | 'N' | 'U' => {
-            0.84
-        }
+        'w' | '+' | '−' | '=' | '×' | '<' | '>' | 'O' | 'Q' | 'D' | 'G' | 'H' | 'N' | 'U' => 0.84,
         'A'..='Z' => 0.70,
         '⁰'..='⁹' | '²' | '³' | '⁻' | '°' => 0.50,
         _ => 0.64,

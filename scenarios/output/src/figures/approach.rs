@@ -50,25 +50,10 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     let said = summary.gantries.iter().find(|g| g.id == t.info.id);
     let cm = |pair: [Option<f64>; 2]| pair.map(|v| v.map(|v| 100.0 * v));
     let none = [None; 2];
-    type Kind = (
-        &'static str,
-        &'static str,
-        fn(&Motion) -> f64,
-        [Option<f64>; 2],
-    );
+    type Kind = (&'static str, &'static str, fn(&Motion) -> f64, [Option<f64>; 2]);
     let kinds: [Kind; 2] = [
-        (
-            "Speed (cm/s)",
-            "cm/s",
-            |m| m.speed,
-            said.map_or(none, |g| cm(g.speed_far_near_m_s)),
-        ),
-        (
-            "From centreline (cm)",
-            "cm",
-            |m| m.aside,
-            said.map_or(none, |g| cm(g.offset_far_near_m)),
-        ),
+        ("Speed (cm/s)", "cm/s", |m| m.speed, said.map_or(none, |g| cm(g.speed_far_near_m_s))),
+        ("From centreline (cm)", "cm", |m| m.aside, said.map_or(none, |g| cm(g.offset_far_near_m))),
     ];
     for (k, (label, unit, of, [far, near])) in kinds.into_iter().enumerate() {
         let top = motions.iter().map(of).fold(0.0, f64::max);
@@ -90,11 +75,7 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         c.polyline(line, &Style::line(GREY, 0.8));
         for m in &motions {
             let colour = palette::gantry_behaviour(m.behaviour);
-            c.circle(
-                panel.at([m.away, of(m)]),
-                4.0,
-                &Style::fill(colour).edged("#ffffff", 0.8),
-            );
+            c.circle(panel.at([m.away, of(m)]), 4.0, &Style::fill(colour).edged("#ffffff", 0.8));
         }
         c.unclip();
         for ([a, b], mean) in RANGES.into_iter().zip([near, far]) {
@@ -106,24 +87,16 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         panel.x_ticks(&mut c, k == 1, 11.0);
     }
     let below = c.height - 12.0;
-    c.text(
-        [LEFT + WIDTH / 2.0, below],
-        12.0,
-        Anchor::Middle,
-        "Down-stream of the source (cm)",
-    );
+    c.text([LEFT + WIDTH / 2.0, below], 12.0, Anchor::Middle, "Down-stream of the source (cm)");
     Some(c.svg(&format!("approach{}", t.info.id)))
 }
 
 /// From the first step up-stream to the stop.
 fn tracking(t: &GantryTrack) -> &[GantryRow] {
-    let steps =
-        |r: &GantryRow| matches!(r.behaviour, GantryBehaviour::StepUp | GantryBehaviour::Cast);
+    let steps = |r: &GantryRow| matches!(r.behaviour, GantryBehaviour::StepUp | GantryBehaviour::Cast);
     let begin = t.rows.iter().position(steps).unwrap_or(t.rows.len());
     let rows = &t.rows[begin..];
-    let end = rows
-        .iter()
-        .position(|r| r.behaviour == GantryBehaviour::Done);
+    let end = rows.iter().position(|r| r.behaviour == GantryBehaviour::Done);
     &rows[..end.unwrap_or(rows.len())]
 }
 
@@ -131,10 +104,7 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
     let mut found = Vec::new();
     let mut k = 0;
     while k < rows.len() {
-        let run = rows[k..]
-            .iter()
-            .take_while(|r| r.command == rows[k].command)
-            .count();
+        let run = rows[k..].iter().take_while(|r| r.command == rows[k].command).count();
         // Up to the first row of the next motion, because the way between the two belongs to this one.
         let of = &rows[k..(k + run + 1).min(rows.len())];
         let points: Vec<[f64; 2]> = of.iter().map(|r| place.cm(r.head)).collect();
@@ -160,16 +130,8 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
 /// Draws a range's mean as a line across it.
 fn mean_of(c: &mut Canvas, panel: &Panel, [a, b]: [f64; 2], mean: f64, unit: &str) {
     let y = panel.py(mean);
-    c.line(
-        [panel.px(a), y],
-        [panel.px(b), y],
-        &Style::line("#ffffff", 4.0),
-    );
-    c.line(
-        [panel.px(a), y],
-        [panel.px(b), y],
-        &Style::line(INK, 2.0).dashed("7 4"),
-    );
+    c.line([panel.px(a), y], [panel.px(b), y], &Style::line("#ffffff", 4.0));
+    c.line([panel.px(a), y], [panel.px(b), y], &Style::line(INK, 2.0).dashed("7 4"));
     let words = format!("mean {a:.0}–{b:.0} cm: {mean:.1} {unit}");
     let at = [panel.px(0.5 * (a + b)), panel.top + 16.0];
     c.rimmed(at, 10.5, Anchor::Middle, &words);
@@ -186,10 +148,5 @@ fn key(c: &mut Canvas, motions: &[Motion]) {
         }
     }
     let right = [LEFT + WIDTH, 47.0];
-    c.text(
-        right,
-        10.5,
-        Anchor::End,
-        "one mark a motion, with the rest after it; from the first step up-stream",
-    );
+    c.text(right, 10.5, Anchor::End, "one mark a motion, with the rest after it; from the first step up-stream");
 }

@@ -34,15 +34,9 @@ pub fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let (width, height) = ((x[1] - x[0]) * scale, (y[1] - y[0]) * scale);
     let columns = shown.len().clamp(1, 2);
     let rows = shown.len().div_ceil(2).max(1);
-    let mut c = Canvas::new(
-        LEFT + columns as f64 * (width.max(250.0) + GAP[0]),
-        TOP + rows as f64 * (height + GAP[1]) + KEY,
-    );
-    let title = format!(
-        "{} · {}: where the source may be",
-        run.summary.headline(),
-        robot.id
-    );
+    let mut c =
+        Canvas::new(LEFT + columns as f64 * (width.max(250.0) + GAP[0]), TOP + rows as f64 * (height + GAP[1]) + KEY);
+    let title = format!("{} · {}: where the source may be", run.summary.headline(), robot.id);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     // A remark on the map if it is certain of a wrong place.
     if let Some(remark) = remark(run, &robot.id) {
@@ -64,24 +58,12 @@ pub fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         let caption = format!("t = {:.0} s · {words}", b.t_s);
         c.bold([panel.left, panel.top - 8.0], 11.0, Anchor::Start, &caption);
         let unit = if b.grid.n[2] == 1 { "m²" } else { "m³" };
-        let off = off(&b.grid.centre(b.best), run.sources)
-            .map_or_else(String::new, |m| format!(", {m:.0} m off"));
+        let off = off(&b.grid.centre(b.best), run.sources).map_or_else(String::new, |m| format!(", {m:.0} m off"));
         let p = b.p[b.best];
-        let largest = if p < 5e-4 {
-            short(p)
-        } else {
-            format!("{p:.3}")
-        };
-        let numbers = format!(
-            "largest {largest}{off}; entropy {:.2} nat; 95 % in {:.0} {unit}",
-            b.entropy_nat, b.credible_95
-        );
-        c.text(
-            [panel.left, panel.bottom() + 48.0],
-            10.0,
-            Anchor::Start,
-            &numbers,
-        );
+        let largest = if p < 5e-4 { short(p) } else { format!("{p:.3}") };
+        let numbers =
+            format!("largest {largest}{off}; entropy {:.2} nat; 95 % in {:.0} {unit}", b.entropy_nat, b.credible_95);
+        c.text([panel.left, panel.bottom() + 48.0], 10.0, Anchor::Start, &numbers);
     }
     let bottom = c.height - 60.0;
     key(&mut c, [LEFT, bottom], robot.last.belief.grid.n[2] > 1);
@@ -106,29 +88,18 @@ fn chosen(robot: &RobotBelief) -> Vec<(&'static str, &BeliefSnapshot)> {
         ("most probable cell settled", between(1.0)),
         ("end", Some(&robot.last)),
     ];
-    let mut shown: Vec<_> = all
-        .into_iter()
-        .filter_map(|(words, s)| Some((words, s?)))
-        .collect();
+    let mut shown: Vec<_> = all.into_iter().filter_map(|(words, s)| Some((words, s?))).collect();
     shown.dedup_by_key(|(_, s)| s.belief.updates);
     shown
 }
 
-fn one(
-    c: &mut Canvas,
-    run: &RunReport<'_>,
-    panel: &Panel,
-    s: &BeliefSnapshot,
-    track: Option<&RobotTrack>,
-) {
+fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, s: &BeliefSnapshot, track: Option<&RobotTrack>) {
     panel.clip(c);
     cells(c, panel, &s.belief);
     if let Some(plume) = &s.plume {
         // A dot is a stroke of length zero with a round end, so that all dots form one shape.
-        let dots: Vec<_> = (plume.points.iter())
-            .map(|[x, y, ..]| panel.at([*x, *y]))
-            .map(|p| vec![p, [p[0] + 0.05, p[1]]])
-            .collect();
+        let dots: Vec<_> =
+            (plume.points.iter()).map(|[x, y, ..]| panel.at([*x, *y])).map(|p| vec![p, [p[0] + 0.05, p[1]]]).collect();
         c.lines(&dots, false, &Style::line("#333333", 1.3).faint(0.45));
     }
     let corners = run.area.corners().map(|p| [p.x, p.y]);
@@ -165,11 +136,7 @@ pub(super) fn axes(c: &mut Canvas, panel: &Panel) {
     panel.y_ticks(c, 50.0, 10.0);
     let under = [panel.left + panel.width / 2.0, panel.bottom() + 31.0];
     c.text(under, 10.5, Anchor::Middle, "East (m)");
-    c.upright(
-        [panel.left - 44.0, panel.top + panel.height / 2.0],
-        10.5,
-        "North (m)",
-    );
+    c.upright([panel.left - 44.0, panel.top + panel.height / 2.0], 10.5, "North (m)");
 }
 
 /// Where the vehicle truly is.
@@ -225,12 +192,7 @@ pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f
                 i += 1;
             }
             if s > 0 {
-                rings[s].push(vec![
-                    corner(from, j),
-                    corner(i, j),
-                    corner(i, j + 1),
-                    corner(from, j + 1),
-                ]);
+                rings[s].push(vec![corner(from, j), corner(i, j), corner(i, j + 1), corner(from, j + 1)]);
             }
         }
     }
@@ -269,15 +231,9 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
         (layers::true_source, "true source"),
         (best_cell, "most probable cell"),
         (vehicle, "vehicle"),
-        (
-            |c, p| sample(c, p, &Style::line(INK, 1.3)),
-            "its true track",
-        ),
+        (|c, p| sample(c, p, &Style::line(INK, 1.3)), "its true track"),
         (layers::detection, "detection"),
-        (
-            |c, p| sample(c, p, &Style::line(PLAN, 1.6).dashed("5 3")),
-            "planned path",
-        ),
+        (|c, p| sample(c, p, &Style::line(PLAN, 1.6).dashed("5 3")), "planned path"),
         (
             |c, [x, y]| {
                 for d in [[-6.0, 2.0], [-1.0, -3.0], [5.0, 1.0]] {

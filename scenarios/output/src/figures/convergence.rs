@@ -12,27 +12,20 @@ const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 170.0;
 const GAP: f64 = 22.0;
 /// Colours that the colour-blind can tell apart (Okabe & Ito 2008).
-const COLOURS: [&str; 6] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-];
+const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 /// Most points of a curve.
 const POINTS: usize = 3000;
 
 /// The convergence of all robots' maps as SVG.
 pub fn convergence(run: &RunReport<'_>) -> String {
     let robots = &run.beliefs.robots;
-    let unit = if robots.iter().all(|r| r.last.belief.grid.n[2] == 1) {
-        "m²"
-    } else {
-        "m² or m³"
-    };
+    let unit = if robots.iter().all(|r| r.last.belief.grid.n[2] == 1) { "m²" } else { "m² or m³" };
     let mut c = Canvas::new(LEFT + WIDTH + 24.0, 58.0 + 3.0 * (HEIGHT + GAP) + 40.0);
     let title = format!("{} · maps of the source", run.summary.headline());
     c.bold([LEFT, 22.0], 13.0, Anchor::Start, &title);
     // Under the names of the curves, one line for each robot whose map is certain of a wrong place.
-    let remarks: Vec<String> = (robots.iter())
-        .filter_map(|r| remark(run, &r.id).map(|words| format!("{}: {words}", r.id)))
-        .collect();
+    let remarks: Vec<String> =
+        (robots.iter()).filter_map(|r| remark(run, &r.id).map(|words| format!("{}: {words}", r.id))).collect();
     let top = 48.0 + 16.0 * remarks.len() as f64;
     c.height += 16.0 * remarks.len() as f64;
     for (k, words) in remarks.iter().enumerate() {
@@ -44,38 +37,15 @@ pub fn convergence(run: &RunReport<'_>) -> String {
     let log10 = |v: f64| math::ln(v.max(1e-9)) / std::f64::consts::LN_10;
     type Value<'a> = Box<dyn Fn(&BeliefRow) -> Option<f64> + 'a>;
     let panels: [(String, bool, Value); 3] = [
-        (
-            "Off the source (m)".into(),
-            false,
-            Box::new(|r| off(&r.best, run.sources)),
-        ),
-        (
-            "Entropy (nat)".into(),
-            false,
-            Box::new(|r| Some(r.entropy_nat)),
-        ),
-        (
-            format!("95 % region ({unit})"),
-            true,
-            Box::new(|r| Some(log10(r.credible_95))),
-        ),
+        ("Off the source (m)".into(), false, Box::new(|r| off(&r.best, run.sources))),
+        ("Entropy (nat)".into(), false, Box::new(|r| Some(r.entropy_nat))),
+        (format!("95 % region ({unit})"), true, Box::new(|r| Some(log10(r.credible_95)))),
     ];
     for (k, (label, log, value)) in panels.iter().enumerate() {
         let values = robots.iter().flat_map(|r| r.rows.iter().filter_map(value));
         let range = range_of(values, 0.05).unwrap_or([0.0, 1.0]);
-        let y = if *log {
-            range
-        } else {
-            [range[0].min(0.0), range[1]]
-        };
-        let panel = Panel {
-            left: LEFT,
-            top: top + k as f64 * (HEIGHT + GAP),
-            width: WIDTH,
-            height: HEIGHT,
-            x,
-            y,
-        };
+        let y = if *log { range } else { [range[0].min(0.0), range[1]] };
+        let panel = Panel { left: LEFT, top: top + k as f64 * (HEIGHT + GAP), width: WIDTH, height: HEIGHT, x, y };
         if *log {
             decades(&mut c, &panel);
         } else {
@@ -110,13 +80,7 @@ pub fn convergence(run: &RunReport<'_>) -> String {
     c.svg("convergence")
 }
 
-fn curve(
-    c: &mut Canvas,
-    panel: &Panel,
-    robot: &RobotBelief,
-    value: &dyn Fn(&BeliefRow) -> Option<f64>,
-    colour: &str,
-) {
+fn curve(c: &mut Canvas, panel: &Panel, robot: &RobotBelief, value: &dyn Fn(&BeliefRow) -> Option<f64>, colour: &str) {
     let stride = robot.rows.len().div_ceil(POINTS).max(1);
     let mut points: Vec<[f64; 2]> = Vec::new();
     for r in robot.rows.iter().step_by(stride) {
@@ -137,11 +101,7 @@ fn decades(c: &mut Canvas, panel: &Panel) {
         let y = panel.py(f64::from(d));
         panel.mark_y(c, y);
         let v = power_of_ten(d);
-        let text = if decade(v) < 0 {
-            format!("{v}")
-        } else {
-            format!("{v:.0}")
-        };
+        let text = if decade(v) < 0 { format!("{v}") } else { format!("{v:.0}") };
         c.text([panel.left - 7.0, y + 3.6], 10.0, Anchor::End, &text);
     }
 }

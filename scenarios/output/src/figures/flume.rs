@@ -27,14 +27,11 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     // The height of most probes: on the built-in head, that of both outer ones.
     let z = height(t);
     let n = [panel.width, panel.height].map(|px| (px / CELL_PX).ceil() as usize + 1);
-    let at_height = |z: f64, n: [usize; 2]| {
-        run.dye
-            .and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye))
-    };
+    let at_height =
+        |z: f64, n: [usize; 2]| run.dye.and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye));
     let section = z.and_then(|z| at_height(z, n));
     // The field below the probes, at the height of the source. Only its edge is drawn, so every other node will do.
-    let below =
-        (run.sources.first()).and_then(|s| at_height(s.position.z, n.map(|n| n.div_ceil(2) + 1)));
+    let below = (run.sources.first()).and_then(|s| at_height(s.position.z, n.map(|n| n.div_ceil(2) + 1)));
     panel.clip(&mut c);
     if let Some(section) = &section {
         let last = (section.levels.len() - 1) as f64;
@@ -51,20 +48,8 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     if let Some([right, left]) = axes.sides {
         let (right, left) = (panel.py(right), panel.py(left));
         let outside = Style::fill("#eeeeee");
-        c.rect(
-            panel.left,
-            right,
-            panel.width,
-            panel.bottom() - right,
-            &outside,
-        );
-        c.rect(
-            panel.left,
-            panel.top,
-            panel.width,
-            left - panel.top,
-            &outside,
-        );
+        c.rect(panel.left, right, panel.width, panel.bottom() - right, &outside);
+        c.rect(panel.left, panel.top, panel.width, left - panel.top, &outside);
         for y in [right, left] {
             c.line([panel.left, y], [panel.right(), y], &Style::line(INK, 2.4));
         }
@@ -83,37 +68,17 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     panel.x_ticks(&mut c, true, 11.0);
     panel.y_ticks(&mut c, 60.0, 11.0);
     layers::scale_bar(&mut c, &panel, "cm");
-    let origin = if run.sources.is_empty() {
-        "start"
-    } else {
-        "source"
-    };
+    let origin = if run.sources.is_empty() { "start" } else { "source" };
     let under = [panel.left + panel.width / 2.0, panel.bottom() + 40.0];
-    c.text(
-        under,
-        12.0,
-        Anchor::Middle,
-        &format!("Down-stream of the {origin} (cm)"),
-    );
+    c.text(under, 12.0, Anchor::Middle, &format!("Down-stream of the {origin} (cm)"));
     let beside = [22.0, panel.top + panel.height / 2.0];
-    c.upright(
-        beside,
-        12.0,
-        &format!("Left of the {origin}, looking down-stream (cm)"),
-    );
+    c.upright(beside, 12.0, &format!("Left of the {origin}, looking down-stream (cm)"));
     let summary = run.summary;
     let title = format!("{} · {}", summary.headline(), t.info.id);
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
     let at = [panel.right() + 22.0, panel.top];
     let y = legend(&mut c, run, t, at);
-    plume_key(
-        &mut c,
-        run,
-        t,
-        [section.as_ref(), below.as_ref()],
-        z,
-        [at[0], y],
-    );
+    plume_key(&mut c, run, t, [section.as_ref(), below.as_ref()], z, [at[0], y]);
     Some(c.svg(&format!("flume{}", t.info.id)))
 }
 
@@ -121,14 +86,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
 fn place(axes: &Axes) -> Panel {
     let (dx, dy) = (axes.x[1] - axes.x[0], axes.y[1] - axes.y[0]);
     let scale = (LARGEST[0] / dx).min(LARGEST[1] / dy);
-    Panel {
-        left: 74.0,
-        top: 40.0,
-        width: dx * scale,
-        height: dy * scale,
-        x: axes.x,
-        y: axes.y,
-    }
+    Panel { left: 74.0, top: 40.0, width: dx * scale, height: dy * scale, x: axes.x, y: axes.y }
 }
 
 /// The most frequent height of the probes' tips, the lowest of several (ENU), m.
@@ -192,8 +150,8 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
     heading(c, x, &mut y, "Track of the head");
     let seen = |b: &GantryBehaviour| t.rows.iter().any(|r| r.behaviour == *b);
     // In the states idle and stopped it does not move, so there is no line to explain.
-    let moving = (GantryBehaviour::ALL.into_iter())
-        .filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
+    let moving =
+        (GantryBehaviour::ALL.into_iter()).filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
     for b in moving.filter(seen) {
         let colour = palette::gantry_behaviour(b);
         c.line([x, y], [x + 24.0, y], &Style::line(colour, 2.6));
@@ -204,11 +162,7 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
         (true, halt, "end of a motion"),
         (true, layers::start, "start"),
         (!t.tips.is_empty(), probe, "probes at the end"),
-        (
-            t.declared.is_some(),
-            layers::declared,
-            "stopped: source declared",
-        ),
+        (t.declared.is_some(), layers::declared, "stopped: source declared"),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];
     for (_, draw, words) in marks.iter().filter(|m| m.0) {

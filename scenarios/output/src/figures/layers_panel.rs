@@ -45,22 +45,15 @@ pub(super) fn layers(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
             }
         }
     }
-    let states = [
-        ("holds", LayerState::Holds),
-        ("suppressed", LayerState::Suppressed),
-        ("inhibited", LayerState::Inhibited),
-    ];
+    let states =
+        [("holds", LayerState::Holds), ("suppressed", LayerState::Suppressed), ("inhibited", LayerState::Inhibited)];
     let mut x = panel.right();
     for (words, state) in states.iter().rev() {
         let colour = bar(*state).map_or(INHIBITED, |b| b.0);
         c.text([x, panel.top - 4.0], 9.5, Anchor::End, words);
         let begin = x - 6.0 * words.chars().count() as f64 - 22.0;
         let key = Style::line(colour, 4.0);
-        c.line(
-            [begin, panel.top - 7.0],
-            [begin + 16.0, panel.top - 7.0],
-            &key,
-        );
+        c.line([begin, panel.top - 7.0], [begin + 16.0, panel.top - 7.0], &key);
         x = begin - 14.0;
     }
 }

@@ -64,11 +64,8 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     }
     // Keys and inset: in a column beside the map, or in a row below it.
     let blocks = keys(run, &bed, plume.as_ref());
-    let (mut at, mut end) = if wide {
-        ([panel.left, bottom + 22.0], bottom)
-    } else {
-        ([panel.right() + 22.0, panel.top], panel.top)
-    };
+    let (mut at, mut end) =
+        if wide { ([panel.left, bottom + 22.0], bottom) } else { ([panel.right() + 22.0, panel.top], panel.top) };
     for block in &blocks {
         let below = block(&mut c, at);
         end = end.max(below);
@@ -101,18 +98,9 @@ fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
     let words = format!("Near the source (box on the map), {times:.1} ×");
     c.text([inset.left, inset.top - 7.0], 10.0, Anchor::Start, &words);
     layers::scale_bar(c, inset, "m");
-    let (a, b) = (
-        panel.at([inset.x[0], inset.y[1]]),
-        panel.at([inset.x[1], inset.y[0]]),
-    );
+    let (a, b) = (panel.at([inset.x[0], inset.y[1]]), panel.at([inset.x[1], inset.y[0]]));
     panel.clip(c);
-    c.rect(
-        a[0],
-        a[1],
-        b[0] - a[0],
-        b[1] - a[1],
-        &Style::line(GREY, 1.0),
-    );
+    c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &Style::line(GREY, 1.0));
     c.unclip();
 }
 
@@ -140,12 +128,7 @@ impl Bed {
             let last = ((range[1] - 1e-9) / step).floor() as i64;
             (first..=last).map(|k| k as f64 * step).collect()
         };
-        Self {
-            grid,
-            levels,
-            range,
-            step,
-        }
+        Self { grid, levels, range, step }
     }
 
     /// Position in the ramp of shades for the band that begins at a depth.
@@ -154,21 +137,10 @@ impl Bed {
     }
 }
 
-fn draw(
-    c: &mut Canvas,
-    run: &RunReport<'_>,
-    panel: &Panel,
-    bed: &Bed,
-    plume: Option<&PlumeLoad>,
-    close: bool,
-) {
+fn draw(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, bed: &Bed, plume: Option<&PlumeLoad>, close: bool) {
     panel.clip(c);
     layers::bed(c, panel, bed);
-    let own = if close {
-        run.plume.and_then(|p| PlumeLoad::of(p, panel))
-    } else {
-        None
-    };
+    let own = if close { run.plume.and_then(|p| PlumeLoad::of(p, panel)) } else { None };
     solids::draw(c, panel, run.obstacles, run.terrain, true);
     if let Some(plume) = plume.or(own.as_ref()) {
         layers::plume(c, panel, plume);
@@ -224,23 +196,11 @@ fn place(mut x: [f64; 2], mut y: [f64; 2], wide: bool) -> Panel {
         let more = 0.5 * (size / scale - (range[1] - range[0]));
         *range = [range[0] - more, range[1] + more];
     }
-    Panel {
-        left: 74.0,
-        top: 40.0,
-        width,
-        height,
-        x,
-        y,
-    }
+    Panel { left: 74.0, top: 40.0, width, height, x, y }
 }
 
 /// An enlarged view of the declared source, if one was declared, if there is room, and if the view is really enlarged.
-pub(super) fn inset(
-    run: &RunReport<'_>,
-    map: &Panel,
-    [left, top]: [f64; 2],
-    size: f64,
-) -> Option<Panel> {
+pub(super) fn inset(run: &RunReport<'_>, map: &Panel, [left, top]: [f64; 2], size: f64) -> Option<Panel> {
     if size < INSET[1] {
         return None;
     }
@@ -249,11 +209,7 @@ pub(super) fn inset(
         let of = |s: &SourceTruth| (s.position.xy() - Vector2::new(d[0], d[1])).norm();
         run.sources.iter().map(of).fold(f64::INFINITY, f64::min)
     };
-    let all = run
-        .track
-        .robots
-        .iter()
-        .flat_map(RobotTrack::declared_inside);
+    let all = run.track.robots.iter().flat_map(RobotTrack::declared_inside);
     let declared = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let near = |p: &SourceAt| {
         let d = [p[0] - declared[0], p[1] - declared[1]];
@@ -275,18 +231,8 @@ pub(super) fn inset(
     if size / (2.0 * half) < ENLARGED[0] * map.px_per_unit() {
         return None;
     }
-    let m = [
-        0.5 * (declared[0] + source[0]),
-        0.5 * (declared[1] + source[1]),
-    ];
-    Some(Panel {
-        left,
-        top,
-        width: size,
-        height: size,
-        x: [m[0] - half, m[0] + half],
-        y: [m[1] - half, m[1] + half],
-    })
+    let m = [0.5 * (declared[0] + source[0]), 0.5 * (declared[1] + source[1])];
+    Some(Panel { left, top, width: size, height: size, x: [m[0] - half, m[0] + half], y: [m[1] - half, m[1] + half] })
 }
 
 type SourceAt = [f64; 2];

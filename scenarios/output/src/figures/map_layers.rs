@@ -18,19 +18,9 @@ const PLUME_OPACITY: f64 = 0.6;
 /// Depth as shade.
 pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     let base = (bed.range[0] / bed.step).floor() * bed.step;
-    let level = if bed.levels.is_empty() {
-        0.3
-    } else {
-        bed.shade(base)
-    };
+    let level = if bed.levels.is_empty() { 0.3 } else { bed.shade(base) };
     let style = palette::depth(level);
-    c.rect(
-        panel.left,
-        panel.top,
-        panel.width,
-        panel.height,
-        &Style::fill(&style),
-    );
+    c.rect(panel.left, panel.top, panel.width, panel.height, &Style::fill(&style));
     for &v in &bed.levels {
         let rings = on(panel, bed.grid.rings(v));
         c.lines(&rings, true, &Style::fill(&palette::depth(bed.shade(v))));
@@ -216,22 +206,13 @@ pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {
 
 pub(super) fn lost_point(c: &mut Canvas, [x, y]: [f64; 2]) {
     const R: f64 = 4.0;
-    let arms = [
-        vec![[x - R, y - R], [x + R, y + R]],
-        vec![[x - R, y + R], [x + R, y - R]],
-    ];
+    let arms = [vec![[x - R, y - R], [x + R, y + R]], vec![[x - R, y + R], [x + R, y - R]]];
     c.lines(&arms, false, &Style::line("#ffffff", 3.4));
     c.lines(&arms, false, &Style::line(INK, 1.6));
 }
 
 pub(super) fn start(c: &mut Canvas, [x, y]: [f64; 2]) {
-    c.rect(
-        x - 4.5,
-        y - 4.5,
-        9.0,
-        9.0,
-        &Style::fill("#ffffff").edged(INK, 1.6),
-    );
+    c.rect(x - 4.5, y - 4.5, 9.0, 9.0, &Style::fill("#ffffff").edged(INK, 1.6));
 }
 
 pub(super) fn declared(c: &mut Canvas, [x, y]: [f64; 2]) {
@@ -279,30 +260,16 @@ pub(super) fn source_names(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
 pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
     let (_, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
-    c.keep_free(Room {
-        left: x - 7.0,
-        top: y - 19.0,
-        right: x + px + 7.0,
-        bottom: y + 7.0,
-    });
+    c.keep_free(Room { left: x - 7.0, top: y - 19.0, right: x + px + 7.0, bottom: y + 7.0 });
     let x = panel.right() - 20.0;
-    c.keep_free(Room {
-        left: x - 13.0,
-        top: panel.top + 7.0,
-        right: x + 13.0,
-        bottom: panel.top + 60.0,
-    });
+    c.keep_free(Room { left: x - 13.0, top: panel.top + 7.0, right: x + 13.0, bottom: panel.top + 60.0 });
 }
 
 /// Length of the scale bar, in units of the panel and in px.
 fn scale_length(panel: &Panel) -> (f64, f64) {
     let wanted = (panel.x[1] - panel.x[0]) / 4.0;
     let base = power_of_ten(decade(wanted));
-    let length = [5.0, 2.0, 1.0]
-        .map(|t| t * base)
-        .into_iter()
-        .find(|l| *l <= wanted * 1.001)
-        .unwrap_or(base);
+    let length = [5.0, 2.0, 1.0].map(|t| t * base).into_iter().find(|l| *l <= wanted * 1.001).unwrap_or(base);
     (length, length * panel.px_per_unit())
 }
 
@@ -310,10 +277,7 @@ fn scale_length(panel: &Panel) -> (f64, f64) {
 pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
     let (length, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
-    let back = Style {
-        fill_opacity: Some(0.8),
-        ..Style::fill("#ffffff")
-    };
+    let back = Style { fill_opacity: Some(0.8), ..Style::fill("#ffffff") };
     c.rect(x - 7.0, y - 19.0, px + 14.0, 26.0, &back);
     let ends = vec![[x, y - 4.0], [x, y], [x + px, y], [x + px, y - 4.0]];
     c.polyline(ends, &Style::line(INK, 1.5));
@@ -324,10 +288,7 @@ pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
 /// North arrow, top right.
 pub(super) fn north(c: &mut Canvas, panel: &Panel) {
     let (x, y) = (panel.right() - 20.0, panel.top + 54.0);
-    let back = Style {
-        fill_opacity: Some(0.8),
-        ..Style::fill("#ffffff")
-    };
+    let back = Style { fill_opacity: Some(0.8), ..Style::fill("#ffffff") };
     c.rect(x - 13.0, panel.top + 7.0, 26.0, 53.0, &back);
     c.bold([x, panel.top + 20.0], 11.0, Anchor::Middle, "N");
     c.arrow([x, y], [x, panel.top + 24.0], INK, 2.0);

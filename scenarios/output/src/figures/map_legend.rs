@@ -20,11 +20,7 @@ pub(super) const SIZE: f64 = 10.5;
 pub(super) type Block<'a> = Box<dyn Fn(&mut Canvas, [f64; 2]) -> f64 + 'a>;
 
 /// The blocks of keys that the map needs: tracks, marks, water.
-pub(super) fn keys<'a>(
-    run: &'a RunReport<'a>,
-    bed: &'a Bed,
-    plume: Option<&'a PlumeLoad>,
-) -> Vec<Block<'a>> {
+pub(super) fn keys<'a>(run: &'a RunReport<'a>, bed: &'a Bed, plume: Option<&'a PlumeLoad>) -> Vec<Block<'a>> {
     let rows = run.track.robots.iter().flat_map(|t| &t.rows);
     let seen = Behaviour::seen(rows.map(|r| r.behaviour));
     let mut blocks: Vec<Block<'a>> = Vec::new();
@@ -89,31 +85,15 @@ fn marks(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
     let any = |of: fn(&RobotTrack) -> bool| robots.iter().any(of);
     let marks: [(bool, Draw, &str); 7] = [
         (any(|t| !t.rows.is_empty()), layers::start, "start"),
-        (
-            any(|t| !t.detections.is_empty()),
-            layers::detection,
-            "detection",
-        ),
-        (
-            any(|t| !t.lost_points.is_empty()),
-            layers::lost_point,
-            "plume lost (believed)",
-        ),
-        (
-            any(|t| t.declarations.iter().any(|d| !d.at_edge())),
-            layers::declared,
-            "declared source",
-        ),
+        (any(|t| !t.detections.is_empty()), layers::detection, "detection"),
+        (any(|t| !t.lost_points.is_empty()), layers::lost_point, "plume lost (believed)"),
+        (any(|t| t.declarations.iter().any(|d| !d.at_edge())), layers::declared, "declared source"),
         (
             any(|t| t.declarations.iter().any(|d| d.evidence.is_some())),
             |c, p| layers::zone(c, p, 8.0),
             "round the points it rests on",
         ),
-        (
-            any(|t| t.declarations.iter().any(Declaration::at_edge)),
-            layers::plume_at_edge,
-            "plume at up-flow edge",
-        ),
+        (any(|t| t.declarations.iter().any(Declaration::at_edge)), layers::plume_at_edge, "plume at up-flow edge"),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];
     for (_, draw, words) in marks.iter().filter(|m| m.0) {
@@ -137,14 +117,7 @@ fn obstacles(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
         all.any(|o| solids::passage(o, run.terrain) == *p)
     };
     for passage in Passage::ALL.into_iter().filter(there) {
-        let sign = Panel {
-            left: x + 3.0,
-            top: *y - 6.0,
-            width: 18.0,
-            height: 12.0,
-            x: [0.0, 1.0],
-            y: [0.0, 1.0],
-        };
+        let sign = Panel { left: x + 3.0, top: *y - 6.0, width: 18.0, height: 12.0, x: [0.0, 1.0], y: [0.0, 1.0] };
         let corners = sign.all(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
         solids::solid(c, &sign, &corners, passage);
         entry(c, x, y, passage.words());
@@ -171,17 +144,8 @@ fn flow(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
         let u = s.flow / speed;
         let m = [x + 12.0, *y + 4.0];
         let half = [11.0 * u.x, -11.0 * u.y];
-        c.arrow(
-            [m[0] - half[0], m[1] - half[1]],
-            [m[0] + half[0], m[1] + half[1]],
-            FLOW,
-            2.0,
-        );
-        let at = if run.sources.len() > 1 {
-            s.id.as_str()
-        } else {
-            "the source"
-        };
+        c.arrow([m[0] - half[0], m[1] - half[1]], [m[0] + half[0], m[1] + half[1]], FLOW, 2.0);
+        let at = if run.sources.len() > 1 { s.id.as_str() } else { "the source" };
         let words = format!("flow at {at}");
         c.text([x + 34.0, *y], SIZE, Anchor::Start, &words);
         let value = format!("{:.2} m/s towards {:.0}°", speed, Heading::of(s.flow).deg());
@@ -206,13 +170,7 @@ fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
     for k in 0..n {
         let v = first + k as f64 * bed.step;
         let colour = palette::depth(bed.shade(v));
-        c.rect(
-            x + k as f64 * w,
-            *y - 7.0,
-            w,
-            11.0,
-            &Style::fill(&colour).edged("#7893a8", 0.6),
-        );
+        c.rect(x + k as f64 * w, *y - 7.0, w, 11.0, &Style::fill(&colour).edged("#7893a8", 0.6));
         if k > 0 {
             let at = [x + k as f64 * w, *y + 16.0];
             c.text(at, 9.0, Anchor::Middle, &number(v, bed.step));
@@ -233,13 +191,7 @@ pub(super) fn plume_levels(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad) {
     let w = BAR / n as f64;
     for (k, &v) in p.levels.iter().enumerate() {
         let colour = palette::plume(k as f64 / (n - 1) as f64);
-        c.rect(
-            x + k as f64 * w,
-            *y - 7.0,
-            w,
-            11.0,
-            &Style::fill(&colour).edged("#5b7a5b", 0.6),
-        );
+        c.rect(x + k as f64 * w, *y - 7.0, w, 11.0, &Style::fill(&colour).edged("#5b7a5b", 0.6));
         let at = [x + k as f64 * w, *y + 16.0];
         c.text(at, 9.0, Anchor::Middle, &short(v));
     }
@@ -254,17 +206,8 @@ pub(super) fn short(v: f64) -> String {
     }
     let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let sign = if n < 0 { "⁻" } else { "" };
-    let power: String = n
-        .abs()
-        .to_string()
-        .chars()
-        .filter_map(|d| d.to_digit(10))
-        .map(|d| digits[d as usize])
-        .collect();
+    let power: String =
+        n.abs().to_string().chars().filter_map(|d| d.to_digit(10)).map(|d| digits[d as usize]).collect();
     let lead = (v / crate::charts::panel::power_of_ten(n)).round();
-    if lead > 1.0 {
-        format!("{lead}·10{sign}{power}")
-    } else {
-        format!("10{sign}{power}")
-    }
+    if lead > 1.0 { format!("{lead}·10{sign}{power}") } else { format!("10{sign}{power}") }
 }

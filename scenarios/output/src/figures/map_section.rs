@@ -48,17 +48,10 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     if deepest >= 0.0 || (run.interfaces.is_empty() && !cut.meets_a_gap(run)) {
         return None;
     }
-    let panel = Panel {
-        left: map.left,
-        top,
-        width: map.width,
-        height: HEIGHT,
-        x: cut.s,
-        y: [1.06 * deepest, -0.06 * deepest],
-    };
+    let panel =
+        Panel { left: map.left, top, width: map.width, height: HEIGHT, x: cut.s, y: [1.06 * deepest, -0.06 * deepest] };
     let field = run.dye.and_then(|dye| {
-        let n =
-            [panel.width / CELL_PX[0], panel.height / CELL_PX[1]].map(|n| n.ceil() as usize + 1);
+        let n = [panel.width / CELL_PX[0], panel.height / CELL_PX[1]].map(|n| n.ceil() as usize + 1);
         let mean = |s: f64, z: f64| {
             if z > 0.0 || z < bed(s) {
                 return 0.0;
@@ -87,11 +80,7 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     ground.extend([[panel.right(), panel.bottom()], [left, panel.bottom()]]);
     c.polygon(ground, &Style::fill(BED));
     let outlined = obstacles(c, run, &cut, &panel);
-    c.line(
-        [left, surface],
-        [panel.right(), surface],
-        &Style::line(INK, 0.8),
-    );
+    c.line([left, surface], [panel.right(), surface], &Style::line(INK, 0.8));
     for t in &run.track.robots {
         track(c, &cut, &panel, t);
     }
@@ -111,15 +100,8 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     c.upright([22.0, top + HEIGHT / 2.0], 11.0, "Up (m)");
     let middle = [left + panel.width / 2.0, panel.bottom() + 32.0];
     c.text(middle, 11.0, Anchor::Middle, "Down-flow of the source (m)");
-    let name = if run.sources.len() > 1 {
-        &source.id
-    } else {
-        "the source"
-    };
-    let words = format!(
-        "Vertical section along the flow at {name}; mean of ±{} m across",
-        short_m(cut.half_m)
-    );
+    let name = if run.sources.len() > 1 { &source.id } else { "the source" };
+    let words = format!("Vertical section along the flow at {name}; mean of ±{} m across", short_m(cut.half_m));
     c.bold([left, top - 8.0], 10.5, Anchor::Start, &words);
     let Some(field) = &field else {
         return Some(panel.bottom() + 40.0);
@@ -131,10 +113,9 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     let (x, mut line) = (left + 480.0, y - 40.0);
     let interface = Style::line(INTERFACE, 1.0).dashed("6 3");
     let layered = !run.interfaces.is_empty();
-    for (there, style, words) in [
-        (layered, &interface, "interface of layers"),
-        (outlined, &beside_style(), "obstacle beside the middle"),
-    ] {
+    for (there, style, words) in
+        [(layered, &interface, "interface of layers"), (outlined, &beside_style(), "obstacle beside the middle")]
+    {
         if there {
             c.line([x, line], [x + 24.0, line], style);
             c.text([x + 31.0, line + 4.0], 10.5, Anchor::Start, words);
@@ -163,17 +144,10 @@ impl Cut {
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
-        let mut cut = Self {
-            origin,
-            along,
-            s,
-            half_m: 0.0,
-        };
+        let mut cut = Self { origin, along, s, half_m: 0.0 };
         let robots = run.track.robots.iter();
         let declared = robots.flat_map(RobotTrack::declared_inside);
-        let aside = declared
-            .map(|d| 1.2 * cut.local(d).y.abs())
-            .fold(0.0, f64::max);
+        let aside = declared.map(|d| 1.2 * cut.local(d).y.abs()).fold(0.0, f64::max);
         cut.half_m = aside.clamp(HALF[0] * length, HALF[1] * length);
         Some(cut)
     }
@@ -192,10 +166,7 @@ impl Cut {
     /// Where a convex outline begins and ends within the section's width, m down-flow.
     fn through(&self, corners: &[[f64; 2]], half_m: f64) -> Option<[f64; 2]> {
         let local: Vec<Vector2<f64>> = corners.iter().map(|p| self.local(*p)).collect();
-        let mut along: Vec<f64> = (local.iter())
-            .filter(|p| p.y.abs() <= half_m)
-            .map(|p| p.x)
-            .collect();
+        let mut along: Vec<f64> = (local.iter()).filter(|p| p.y.abs() <= half_m).map(|p| p.x).collect();
         for (k, a) in local.iter().enumerate() {
             let b = local[(k + 1) % local.len()];
             for side in [-half_m, half_m] {
@@ -229,8 +200,7 @@ fn beside_style() -> Style<'static> {
 fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> bool {
     let mut outlined = false;
     // No farther than the sheet can resolve.
-    let at =
-        |s: f64, z: f64| panel.at([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
+    let at = |s: f64, z: f64| panel.at([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
     for o in run.obstacles {
         let middle = cut.through(&o.corners, 1e-6 * cut.half_m);
         let whole = cut.through(&o.corners, cut.half_m);
@@ -256,12 +226,7 @@ fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> b
 }
 
 /// Outline of an obstacle on the section's middle, upper and lower side: (down-flow, up), m.
-fn profile(
-    o: &ObstacleOutline,
-    shape: Option<&Obstacle>,
-    cut: &Cut,
-    [from, to]: [f64; 2],
-) -> Vec<[f64; 2]> {
+fn profile(o: &ObstacleOutline, shape: Option<&Obstacle>, cut: &Cut, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     const COLUMNS: usize = 80;
     let [low, high] = o.z;
     let Some(shape) = shape else {
@@ -293,9 +258,8 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
     let mut k = 0;
     while k < t.rows.len() {
         let b = t.rows[k].behaviour;
-        let inside = |r: &&crate::results::TrackRow| {
-            r.behaviour == b && cut.local([r.p[0], r.p[1]]).y.abs() <= cut.half_m
-        };
+        let inside =
+            |r: &&crate::results::TrackRow| r.behaviour == b && cut.local([r.p[0], r.p[1]]).y.abs() <= cut.half_m;
         let run = t.rows[k..].iter().take_while(inside).count();
         let points = t.rows[k..k + run].iter();
         let points = points.map(|r| panel.at([cut.local([r.p[0], r.p[1]]).x, r.p[2]]));
@@ -306,11 +270,7 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
 
 /// A width with few digits.
 fn short_m(m: f64) -> String {
-    if m < 3.0 {
-        format!("{m:.1}")
-    } else {
-        format!("{m:.0}")
-    }
+    if m < 3.0 { format!("{m:.1}") } else { format!("{m:.0}") }
 }
 
 #[cfg(test)]
@@ -328,18 +288,9 @@ mod tests {
         let terrain = Terrain::Level { depth_m: 15.0 };
         let shape = Obstacle::build(&spec.unwrap(), &terrain, &catalog).unwrap();
         let (low, high) = shape.bounds();
-        let outline = ObstacleOutline {
-            id: "reef".into(),
-            corners: shape.outline(),
-            z: [low.z, high.z],
-            permeable: false,
-        };
-        let cut = Cut {
-            origin: Vector2::zeros(),
-            along: Vector2::x(),
-            s: [-100.0, 100.0],
-            half_m: 5.0,
-        };
+        let outline =
+            ObstacleOutline { id: "reef".into(), corners: shape.outline(), z: [low.z, high.z], permeable: false };
+        let cut = Cut { origin: Vector2::zeros(), along: Vector2::x(), s: [-100.0, 100.0], half_m: 5.0 };
         let range = cut.through(&outline.corners, 1e-6).unwrap();
         let seen = profile(&outline, Some(&shape), &cut, range);
         assert!(seen.len() > 100, "{}", seen.len());
@@ -352,22 +303,14 @@ mod tests {
         }
         let crest = tops().map(|p| p[1]).fold(f64::NEG_INFINITY, f64::max);
         let mean = tops().map(|p| p[1]).sum::<f64>() / half as f64;
-        assert!(
-            crest - mean > 0.1 * (high.z - low.z),
-            "{mean} below {crest}"
-        );
+        assert!(crest - mean > 0.1 * (high.z - low.z), "{mean} below {crest}");
         // Without the shape, its bounds represent it.
         assert_eq!(profile(&outline, None, &cut, range).len(), 4);
     }
 
     #[test]
     fn a_width_of_the_section_reaches_what_its_middle_misses() {
-        let cut = Cut {
-            origin: Vector2::new(10.0, 0.0),
-            along: Vector2::y(),
-            s: [-50.0, 50.0],
-            half_m: 4.0,
-        };
+        let cut = Cut { origin: Vector2::new(10.0, 0.0), along: Vector2::y(), s: [-50.0, 50.0], half_m: 4.0 };
         // 3 to 8 m left of the line, 20 to 30 m down-flow.
         let block = [[7.0, 20.0], [7.0, 30.0], [2.0, 30.0], [2.0, 20.0]];
         assert_eq!(cut.through(&block, 1e-6), None);

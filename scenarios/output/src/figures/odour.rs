@@ -35,11 +35,7 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         LEFT + times.len().min(2) as f64 * step,
         TOP + times.len().div_ceil(2) as f64 * (height + GAP[1]) + 30.0,
     );
-    let title = format!(
-        "{} · {}: where odour may be met",
-        run.summary.headline(),
-        robot.id
-    );
+    let title = format!("{} · {}: where odour may be met", run.summary.headline(), robot.id);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     for (k, time) in times.iter().enumerate() {
         let panel = Panel {
@@ -55,36 +51,18 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         let caption = format!("t = {:.0} s", o.t_s);
         c.bold([panel.left, panel.top - 8.0], 11.0, Anchor::Start, &caption);
         let most = o.detection.iter().fold(0.0, |m: f64, p| m.max(*p));
-        let missed: f64 = o
-            .walk
-            .iter()
-            .skip(1)
-            .map(|cell| 1.0 - o.detection[*cell])
-            .product();
+        let missed: f64 = o.walk.iter().skip(1).map(|cell| 1.0 - o.detection[*cell]).product();
         let numbers = format!(
             "largest chance of detection {most:.3}; on the way of {} cells {:.3}",
             o.walk.len().saturating_sub(1),
             1.0 - missed
         );
-        c.text(
-            [panel.left, panel.bottom() + 48.0],
-            10.0,
-            Anchor::Start,
-            &numbers,
-        );
+        c.text([panel.left, panel.bottom() + 48.0], 10.0, Anchor::Start, &numbers);
     }
     let at = [LEFT, c.height - 34.0];
-    scale(
-        &mut c,
-        at,
-        "Chance of detection, share of the largest:",
-        LEFT + 240.0,
-    );
+    scale(&mut c, at, "Chance of detection, share of the largest:", LEFT + 240.0);
     let y = at[1] + 28.0;
-    let keys = [
-        (0.0, CAME, "way of odour to the vehicle"),
-        (190.0, WALK, "way most likely to meet it"),
-    ];
+    let keys = [(0.0, CAME, "way of odour to the vehicle"), (190.0, WALK, "way most likely to meet it")];
     let x = LEFT + 380.0;
     let vehicle = Style::fill(WALK).edged("#ffffff", 1.2);
     c.circle([x, y - 4.0], 4.0, &vehicle);
@@ -123,11 +101,7 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     }
     if let Some(cell) = o.walk.first() {
         let p = o.grid.centre(*cell);
-        c.circle(
-            panel.at([p.x, p.y]),
-            4.0,
-            &Style::fill(WALK).edged("#ffffff", 1.2),
-        );
+        c.circle(panel.at([p.x, p.y]), 4.0, &Style::fill(WALK).edged("#ffffff", 1.2));
     }
     layers::sources(c, panel, run);
     c.unclip();

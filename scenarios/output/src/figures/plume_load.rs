@@ -29,16 +29,8 @@ impl PlumeLoad {
         }
         let per_px = 1.0 / panel.px_per_unit();
         let cell = CELL_PX * per_px;
-        let n = [
-            (panel.width / CELL_PX).ceil() as usize + 1,
-            (panel.height / CELL_PX).ceil() as usize + 1,
-        ];
-        let mut grid = Grid {
-            n,
-            origin: [panel.x[0], panel.y[0]],
-            step: [cell, cell],
-            values: vec![0.0; n[0] * n[1]],
-        };
+        let n = [(panel.width / CELL_PX).ceil() as usize + 1, (panel.height / CELL_PX).ceil() as usize + 1];
+        let mut grid = Grid { n, origin: [panel.x[0], panel.y[0]], step: [cell, cell], values: vec![0.0; n[0] * n[1]] };
         for &[x, y, _, size, mass, _] in &plume.points {
             let sd = size.max(LEAST_PX * per_px);
             let load = mass * 1e6 / (TAU * sd * sd);
@@ -55,17 +47,10 @@ impl PlumeLoad {
         }
         // The densest spot beside the source would dominate the scale. So the top level is one that a tenth of the
         // plume still exceeds.
-        let mut loads: Vec<f64> = grid
-            .values
-            .iter()
-            .copied()
-            .filter(|v| *v > max * 1e-4)
-            .collect();
+        let mut loads: Vec<f64> = grid.values.iter().copied().filter(|v| *v > max * 1e-4).collect();
         loads.sort_by(f64::total_cmp);
         let top = half_decade_below(loads[loads.len() * 9 / 10]);
-        let levels = (0..LEVELS)
-            .map(|k| half_decade(top - (LEVELS - 1 - k) as i32))
-            .collect();
+        let levels = (0..LEVELS).map(|k| half_decade(top - (LEVELS - 1 - k) as i32)).collect();
         Some(Self { grid, levels })
     }
 }
@@ -73,11 +58,7 @@ impl PlumeLoad {
 /// 10^(n/2), with the half step as 3.
 fn half_decade(n: i32) -> f64 {
     let whole = power_of_ten(n.div_euclid(2));
-    if n.rem_euclid(2) == 1 {
-        3.0 * whole
-    } else {
-        whole
-    }
+    if n.rem_euclid(2) == 1 { 3.0 * whole } else { whole }
 }
 
 /// Largest n whose [`half_decade`] does not exceed `v`.
@@ -89,15 +70,9 @@ fn half_decade_below(v: f64) -> i32 {
 impl Grid {
     fn add(&mut self, p: [f64; 2], sd: f64, peak: f64) {
         let span = |k: usize| {
-            let lo = ((p[k] - REACH * sd - self.origin[k]) / self.step[k])
-                .ceil()
-                .max(0.0);
+            let lo = ((p[k] - REACH * sd - self.origin[k]) / self.step[k]).ceil().max(0.0);
             let hi = ((p[k] + REACH * sd - self.origin[k]) / self.step[k]).floor();
-            let end = if hi < 0.0 {
-                0
-            } else {
-                (hi as usize + 1).min(self.n[k])
-            };
+            let end = if hi < 0.0 { 0 } else { (hi as usize + 1).min(self.n[k]) };
             (lo as usize).min(end)..end
         };
         let (columns, rows) = (span(0), span(1));
@@ -117,14 +92,7 @@ mod tests {
     use super::*;
 
     fn panel() -> Panel {
-        Panel {
-            left: 0.0,
-            top: 0.0,
-            width: 400.0,
-            height: 400.0,
-            x: [-100.0, 100.0],
-            y: [-100.0, 100.0],
-        }
+        Panel { left: 0.0, top: 0.0, width: 400.0, height: 400.0, x: [-100.0, 100.0], y: [-100.0, 100.0] }
     }
 
     #[test]
@@ -150,12 +118,8 @@ mod tests {
     #[test]
     fn nothing_to_show_is_none() {
         assert!(PlumeLoad::of(&PlumeFrame::default(), &panel()).is_none());
-        let away = PlumeFrame {
-            t_s: 0.0,
-            total: 1,
-            points: vec![[1e6, 0.0, 0.0, 1.0, 1.0, 1.0]],
-            ..PlumeFrame::default()
-        };
+        let away =
+            PlumeFrame { t_s: 0.0, total: 1, points: vec![[1e6, 0.0, 0.0, 1.0, 1.0, 1.0]], ..PlumeFrame::default() };
         assert!(PlumeLoad::of(&away, &panel()).is_none());
     }
 }

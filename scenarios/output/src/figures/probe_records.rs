@@ -42,14 +42,7 @@ pub fn probe_records(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     let x = [0.0_f64.min(t.rows[0].t_s), t.rows[t.rows.len() - 1].t_s];
     let mut top = 40.0;
     let mut next = |height: f64| {
-        let panel = Panel {
-            left: LEFT,
-            top,
-            width: WIDTH,
-            height,
-            x,
-            y: [0.0, 1.0],
-        };
+        let panel = Panel { left: LEFT, top, width: WIDTH, height, x, y: [0.0, 1.0] };
         top += height + GAP;
         panel
     };
@@ -99,10 +92,7 @@ fn name(t: &GantryTrack, k: usize) -> String {
 fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     let spikes = |k: usize| t.rows.iter().filter(move |r| r.spike[k]);
     // The first, if several are equal.
-    let most = (0..probes)
-        .rev()
-        .max_by_key(|k| spikes(*k).count())
-        .unwrap_or(0);
+    let most = (0..probes).rev().max_by_key(|k| spikes(*k).count()).unwrap_or(0);
     let (begin, end) = (t.rows[0].t_s, t.rows[t.rows.len() - 1].t_s);
     let length = CLOSER_S.min(end - begin);
     let from = spikes(most)
@@ -111,10 +101,7 @@ fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
             let inside = spikes(most).filter(|r| (s..s + length).contains(&r.t_s));
             (inside.count(), s)
         })
-        .fold(
-            (0, begin),
-            |best, new| if new.0 > best.0 { new } else { best },
-        );
+        .fold((0, begin), |best, new| if new.0 > best.0 { new } else { best });
     (most, [from.1, from.1 + length])
 }
 
@@ -134,12 +121,7 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     for n in ticks(panel.y, 1.0) {
         let (y, v) = (panel.py(n), power_of_ten(n.round() as i32));
         panel.mark_y(c, y);
-        c.text(
-            [panel.left - 7.0, y + 3.6],
-            10.0,
-            Anchor::End,
-            &number(v, v),
-        );
+        c.text([panel.left - 7.0, y + 3.6], 10.0, Anchor::End, &number(v, v));
     }
     let middle = panel.top + panel.height / 2.0;
     c.upright([20.0, middle], 11.0, &name(t, k));
@@ -168,14 +150,7 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     c.unclip();
     let count = t.rows.iter().filter(|r| r.spike[k]).count();
     let spikes = format!("{count} spike{}", if count == 1 { "" } else { "s" });
-    panel.key(
-        c,
-        &[
-            ("output", BLUE),
-            ("threshold", ORANGE),
-            (&spikes, DETECTION),
-        ],
-    );
+    panel.key(c, &[("output", BLUE), ("threshold", ORANGE), (&spikes, DETECTION)]);
 }
 
 /// Times and outputs of a probe's spikes. A spike is known one scan late, so the moment before is shown.
@@ -195,9 +170,7 @@ fn behaviour(c: &mut Canvas, panel: &Panel, t: &GantryTrack) {
     let seen: Vec<GantryBehaviour> = (GantryBehaviour::ALL.into_iter())
         .filter(|b| t.rows.iter().filter(|r| r.behaviour == *b).count() > 1)
         .collect();
-    let kinds: Vec<Band> = (seen.iter())
-        .map(|b| (palette::gantry_words(*b), palette::gantry_behaviour(*b)))
-        .collect();
+    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::gantry_words(*b), palette::gantry_behaviour(*b))).collect();
     let rows = t.rows.iter().filter_map(|r| {
         let band = seen.iter().position(|s| *s == r.behaviour)?;
         Some((r.t_s, band))
@@ -234,12 +207,10 @@ fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
         }
         c.upright([panel.right() + 58.0, middle], 10.0, "C/C0");
     }
-    let volts: Vec<[f64; 2]> = (t.rows.iter().filter(inside))
-        .filter_map(|r| Some(panel.at([r.t_s, r.volts?[k]])))
-        .collect();
-    let threshold: Vec<[f64; 2]> = (t.rows.iter().filter(inside))
-        .map(|r| panel.at([r.t_s, r.threshold_v[k]]))
-        .collect();
+    let volts: Vec<[f64; 2]> =
+        (t.rows.iter().filter(inside)).filter_map(|r| Some(panel.at([r.t_s, r.volts?[k]]))).collect();
+    let threshold: Vec<[f64; 2]> =
+        (t.rows.iter().filter(inside)).map(|r| panel.at([r.t_s, r.threshold_v[k]])).collect();
     panel.clip(c);
     c.polyline(volts, &Style::line(BLUE, 1.2));
     c.polyline(threshold, &Style::line(ORANGE, 1.6).dashed("6 3"));
@@ -247,30 +218,13 @@ fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
         c.circle(panel.at(p), 3.6, &Style::line(DETECTION, 1.4));
     }
     c.unclip();
-    panel.key(
-        c,
-        &[
-            ("output", BLUE),
-            ("threshold", ORANGE),
-            ("spike", DETECTION),
-        ],
-    );
+    panel.key(c, &[("output", BLUE), ("threshold", ORANGE), ("spike", DETECTION)]);
     if let Some((s, found)) = t.stopped {
         panels::event(c, &panel, s, "");
-        let how = if found {
-            "stopped: source declared"
-        } else {
-            "gave up"
-        };
+        let how = if found { "stopped: source declared" } else { "gave up" };
         let at = [panel.right(), panel.top - 8.0];
         c.text(at, 11.0, Anchor::End, &format!("{how} at {s:.1} s"));
     }
-    c.rect(
-        panel.left,
-        panel.top,
-        panel.width,
-        panel.height,
-        &Style::line(GREY, 1.0),
-    );
+    c.rect(panel.left, panel.top, panel.width, panel.height, &Style::line(GREY, 1.0));
     panel.x_ticks(c, true, 11.0);
 }

@@ -49,9 +49,7 @@ impl Axes {
         };
         let (x, mut y) = (along(0)?, along(1)?);
         let corners = run.area.corners().map(|p| axes.cm([p.x, p.y]));
-        let straight = corners
-            .iter()
-            .all(|p| corners.iter().filter(|q| (q[1] - p[1]).abs() < 0.1).count() == 2);
+        let straight = corners.iter().all(|p| corners.iter().filter(|q| (q[1] - p[1]).abs() < 0.1).count() == 2);
         let sides = range_of(corners.iter().map(|p| p[1]), 0.0).filter(|_| straight);
         if let Some([right, left]) = sides {
             if (y[0] - right).abs() < NEAR_CM {
@@ -102,28 +100,15 @@ impl Section {
         let at = |x: f64, y: f64| {
             let inside = axes.sides.is_none_or(|s| (s[0]..=s[1]).contains(&y));
             let p = axes.world(x, y);
-            let c = if inside {
-                dye.at(&Vector3::new(p.x, p.y, z))
-            } else {
-                0.0
-            };
+            let c = if inside { dye.at(&Vector3::new(p.x, p.y, z)) } else { 0.0 };
             math::ln(c.max(f64::MIN_POSITIVE))
         };
         let mut grid = Grid::of(axes.x, axes.y, n, at);
-        let densest = grid
-            .values
-            .iter()
-            .copied()
-            .fold(f64::NEG_INFINITY, f64::max);
+        let densest = grid.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let (scale, unit) = match effluent_kg_m3 {
             Some(c0) => (c0, "C/C0"),
             // A tenth of the densest value is the top of the scale.
-            None => (
-                crate::charts::panel::power_of_ten(crate::charts::panel::decade(math::exp(
-                    densest,
-                ))),
-                "kg/m³",
-            ),
+            None => (crate::charts::panel::power_of_ten(crate::charts::panel::decade(math::exp(densest))), "kg/m³"),
         };
         let lowest = math::ln(scale * LEVELS[0]);
         if densest < lowest {
@@ -134,12 +119,7 @@ impl Section {
             *v = v.max(lowest - 4.0);
         }
         let shown = if effluent_kg_m3.is_some() { 1.0 } else { scale };
-        Some(Self {
-            grid,
-            levels: LEVELS.map(|l| l * shown).to_vec(),
-            unit,
-            scale: scale / shown,
-        })
+        Some(Self { grid, levels: LEVELS.map(|l| l * shown).to_vec(), unit, scale: scale / shown })
     }
 
     /// The level for the edge of the plume where only one level is drawn: a thousandth of the source.

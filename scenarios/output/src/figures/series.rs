@@ -14,13 +14,8 @@ const HEIGHT: f64 = 128.0;
 
 /// The series of one robot as SVG.
 pub fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
-    let mut kinds: Vec<panels::Draw> = vec![
-        panels::depth,
-        panels::altitude,
-        panels::reading,
-        panels::behaviour,
-        panels::position_error,
-    ];
+    let mut kinds: Vec<panels::Draw> =
+        vec![panels::depth, panels::altitude, panels::reading, panels::behaviour, panels::position_error];
     if !t.layers.is_empty() {
         kinds.insert(4, layers);
     }
@@ -32,14 +27,8 @@ pub fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
     let begin = t.rows.first().map_or(0.0, |r| r.t_s);
     let x = [begin, if end > begin { end } else { begin + 1.0 }];
     for (k, draw) in kinds.iter().enumerate() {
-        let panel = Panel {
-            left: LEFT,
-            top: 38.0 + k as f64 * (HEIGHT + GAP),
-            width: WIDTH,
-            height: HEIGHT,
-            x,
-            y: [0.0, 1.0],
-        };
+        let panel =
+            Panel { left: LEFT, top: 38.0 + k as f64 * (HEIGHT + GAP), width: WIDTH, height: HEIGHT, x, y: [0.0, 1.0] };
         draw(&mut c, panel, t);
         panel.frame(&mut c, 1.0);
         panel.x_ticks(&mut c, k + 1 == kinds.len(), 11.0);
@@ -53,11 +42,6 @@ pub fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
         }
     }
     let below = c.height - 12.0;
-    c.text(
-        [LEFT + WIDTH / 2.0, below],
-        12.0,
-        Anchor::Middle,
-        "Mission time (s)",
-    );
+    c.text([LEFT + WIDTH / 2.0, below], 12.0, Anchor::Middle, "Mission time (s)");
     c.svg(&format!("series{}", t.info.id))
 }

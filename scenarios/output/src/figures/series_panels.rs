@@ -26,11 +26,7 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
         return;
     }
     let x = panel.px(t_s);
-    c.line(
-        [x, panel.top],
-        [x, panel.bottom()],
-        &Style::line(INK, 1.0).dashed("4 3"),
-    );
+    c.line([x, panel.top], [x, panel.bottom()], &Style::line(INK, 1.0).dashed("4 3"));
     if words.is_empty() {
         return;
     }
@@ -43,19 +39,12 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
     c.label_at(&places, 10.0, words, panel, false);
 }
 
-fn curve(
-    panel: &Panel,
-    rows: &[TrackRow],
-    of: impl Fn(&TrackRow) -> Option<f64>,
-) -> Vec<Vec<[f64; 2]>> {
+fn curve(panel: &Panel, rows: &[TrackRow], of: impl Fn(&TrackRow) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
     curve_of(panel, rows.iter().map(|r| (r.t_s, of(r))))
 }
 
 /// Points of a curve through (x, y): the smallest and the largest in each pixel column, so that no peak is lost.
-pub(super) fn curve_of(
-    panel: &Panel,
-    values: impl Iterator<Item = (f64, Option<f64>)>,
-) -> Vec<Vec<[f64; 2]>> {
+pub(super) fn curve_of(panel: &Panel, values: impl Iterator<Item = (f64, Option<f64>)>) -> Vec<Vec<[f64; 2]>> {
     let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     let mut column: Option<(i64, [f64; 2], [f64; 2])> = None;
     let close = |line: &mut Vec<[f64; 2]>, lo: [f64; 2], hi: [f64; 2]| {
@@ -79,11 +68,7 @@ pub(super) fn curve_of(
         let p = panel.at([x, v]);
         let key = p[0].floor() as i64;
         column = Some(match column {
-            Some((k, lo, hi)) if k == key => (
-                k,
-                if p[1] < lo[1] { p } else { lo },
-                if p[1] > hi[1] { p } else { hi },
-            ),
+            Some((k, lo, hi)) if k == key => (k, if p[1] < lo[1] { p } else { lo }, if p[1] > hi[1] { p } else { hi }),
             Some((_, lo, hi)) => {
                 close(line, lo, hi);
                 (key, p, p)
@@ -97,12 +82,7 @@ pub(super) fn curve_of(
     lines
 }
 
-pub(super) fn draw_curve(
-    c: &mut Canvas,
-    panel: &Panel,
-    lines: &[Vec<[f64; 2]>],
-    style: &Style<'_>,
-) {
+pub(super) fn draw_curve(c: &mut Canvas, panel: &Panel, lines: &[Vec<[f64; 2]>], style: &Style<'_>) {
     panel.clip(c);
     c.lines(lines, false, style);
     c.unclip();
@@ -116,17 +96,8 @@ impl Panel {
             let width = width_of(words, 10.0);
             c.rimmed([x, self.top + 13.0], 10.0, Anchor::End, words);
             let y = self.top + 9.5;
-            c.line(
-                [x - width - 24.0, y],
-                [x - width - 8.0, y],
-                &Style::line(colour, 2.4),
-            );
-            c.keep_free(Room {
-                left: x - width - 27.0,
-                top: self.top,
-                right: x,
-                bottom: self.top + 17.0,
-            });
+            c.line([x - width - 24.0, y], [x - width - 8.0, y], &Style::line(colour, 2.4));
+            c.keep_free(Room { left: x - width - 27.0, top: self.top, right: x, bottom: self.top + 17.0 });
             x -= width + 40.0;
         }
     }
@@ -159,10 +130,7 @@ pub(super) fn depth(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
 
 /// Altitude, true and commanded.
 pub(super) fn altitude(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
-    let both = t
-        .rows
-        .iter()
-        .flat_map(|r| [Some(r.altitude_m), r.altitude_asked_m]);
+    let both = t.rows.iter().flat_map(|r| [Some(r.altitude_m), r.altitude_asked_m]);
     let range = range_of(both.flatten(), 0.08).unwrap_or([0.0, 1.0]);
     panel.y = [0.0, range[1].max(1e-3) * 1.15];
     axes(c, &panel, "Altitude (m)");
@@ -184,17 +152,12 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
         None => (100.0, "Reading (% FS)"),
     };
     let values = t.rows.iter().filter_map(|r| r.reading);
-    let top = values
-        .fold(0.0, f64::max)
-        .max(2.0 * t.info.threshold.unwrap_or(0.02));
+    let top = values.fold(0.0, f64::max).max(2.0 * t.info.threshold.unwrap_or(0.02));
     panel.y = [-0.04 * top * unit, 1.15 * top * unit];
     axes(c, &panel, label);
     let lines = curve(&panel, &t.rows, |r| r.reading.map(|v| v * unit));
     if lines.iter().all(Vec::is_empty) {
-        let at = [
-            panel.left + panel.width / 2.0,
-            panel.top + panel.height / 2.0,
-        ];
+        let at = [panel.left + panel.width / 2.0, panel.top + panel.height / 2.0];
         c.rimmed(at, 11.0, Anchor::Middle, "no chemical sensor or no reading");
         return;
     }
@@ -202,11 +165,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     let mut key = vec![("reading", DETECTION)];
     if let Some(threshold) = t.info.threshold {
         let y = panel.py(threshold * unit);
-        c.line(
-            [panel.left, y],
-            [panel.right(), y],
-            &Style::line(INK, 0.9).dashed("5 3"),
-        );
+        c.line([panel.left, y], [panel.right(), y], &Style::line(INK, 0.9).dashed("5 3"));
         key.push(("threshold", INK));
     }
     panel.key(c, &key);
@@ -215,9 +174,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
 /// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let seen = Behaviour::seen(t.rows.iter().map(|r| r.behaviour));
-    let kinds: Vec<Band> = (seen.iter())
-        .map(|b| (palette::words(*b), palette::behaviour(*b)))
-        .collect();
+    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::words(*b), palette::behaviour(*b))).collect();
     let rows = t.rows.iter().map(|r| {
         let band = seen.iter().position(|s| *s == r.behaviour);
         (r.t_s, band.unwrap_or(0))
@@ -234,11 +191,7 @@ pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64,
     for (k, (words, _)) in kinds.iter().enumerate() {
         let y = panel.top + k as f64 * row;
         if k > 0 {
-            c.line(
-                [panel.left, y],
-                [panel.right(), y],
-                &Style::line("#e3e3e3", 0.7),
-            );
+            c.line([panel.left, y], [panel.right(), y], &Style::line("#e3e3e3", 0.7));
         }
         let at = [panel.left - 7.0, y + row / 2.0 + 3.5];
         c.text(at, 9.5, Anchor::End, words);
@@ -249,13 +202,7 @@ pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64,
         let run = rows[k..].iter().take_while(|r| r.1 == kind).count();
         let end = rows.get(k + run).or(rows.last()).map_or(0.0, |r| r.0);
         let (x0, x1) = (panel.px(begin), panel.px(end));
-        c.rect(
-            x0,
-            panel.top + (kind as f64 + 0.14) * row,
-            (x1 - x0).max(0.6),
-            0.72 * row,
-            &Style::fill(kinds[kind].1),
-        );
+        c.rect(x0, panel.top + (kind as f64 + 0.14) * row, (x1 - x0).max(0.6), 0.72 * row, &Style::fill(kinds[kind].1));
         k += run;
     }
 }

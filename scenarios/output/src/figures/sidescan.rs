@@ -49,32 +49,17 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
     let last = *passes.last()?;
     // Short pieces between two turns are drawn on the map, but are no passes to show.
     let long_m = 0.5 * passes.iter().map(|w| length_m(w)).fold(0.0, f64::max);
-    let mut shown: Vec<&Waterfall> = (passes.iter().copied())
-        .filter(|w| length_m(w) >= long_m)
-        .collect();
+    let mut shown: Vec<&Waterfall> = (passes.iter().copied()).filter(|w| length_m(w) >= long_m).collect();
     shown.drain(..shown.len().saturating_sub(MOST));
     let level = Levels::of(&passes);
-    let longest = shown
-        .iter()
-        .map(|w| length_m(w))
-        .fold(0.0, f64::max)
-        .min(LONGEST_M);
-    let range_m = shown
-        .iter()
-        .flat_map(|w| w.rows())
-        .map(|r| r.port_db.len())
-        .max()? as f64
-        * last.cell_m();
+    let longest = shown.iter().map(|w| length_m(w)).fold(0.0, f64::max).min(LONGEST_M);
+    let range_m = shown.iter().flat_map(|w| w.rows()).map(|r| r.port_db.len()).max()? as f64 * last.cell_m();
     let (wide, high) = (2.0 * range_m * WATERFALL_PX, longest * WATERFALL_PX);
     let map_px = 2.0 * HALF_M * MAP_PX;
     let (left, top, gap) = (64.0, 66.0, 62.0);
     let map_left = left + shown.len() as f64 * (wide + gap);
     let mut c = Canvas::new(map_left + map_px + 30.0, top + high.max(map_px) + 110.0);
-    let title = format!(
-        "{} · {}: sidescan of the declared place",
-        run.summary.headline(),
-        robot.id
-    );
+    let title = format!("{} · {}: sidescan of the declared place", run.summary.headline(), robot.id);
     c.bold([left, 24.0], 13.0, Anchor::Start, &title);
     for (k, pass) in shown.iter().enumerate() {
         let length = length_m(pass).min(LONGEST_M);
@@ -101,12 +86,7 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
         x: [centre[0] - HALF_M, centre[0] + HALF_M],
         y: [centre[1] - HALF_M, centre[1] + HALF_M],
     };
-    c.bold(
-        [map_left, top - 8.0],
-        10.5,
-        Anchor::Start,
-        "All passes by believed place; east, north, m",
-    );
+    c.bold([map_left, top - 8.0], 10.5, Anchor::Start, "All passes by believed place; east, north, m");
     mosaic(&mut c, &panel, &passes, &level);
     signs(&mut c, &panel, run, robot, track);
     let y = top + high.max(map_px) + 46.0;
@@ -130,9 +110,7 @@ impl Levels {
         let levels = rows.flat_map(|r| r.port_db.iter().chain(&r.starboard_db));
         let mut all: Vec<f32> = levels.copied().filter(|v| v.is_finite()).collect();
         all.sort_by(f32::total_cmp);
-        Self {
-            middle_db: all.get(all.len() / 2).map_or(0.0, |v| f64::from(*v)),
-        }
+        Self { middle_db: all.get(all.len() / 2).map_or(0.0, |v| f64::from(*v)) }
     }
 
     fn shade(&self, db: f64) -> usize {
@@ -148,9 +126,7 @@ struct ShadedCells {
 
 impl ShadedCells {
     fn new() -> Self {
-        Self {
-            rings: vec![Vec::new(); SHADES],
-        }
+        Self { rings: vec![Vec::new(); SHADES] }
     }
 
     /// A line of cells between two `y` values, each `width` wide, from `x` on; `None` omits a cell.
@@ -163,12 +139,7 @@ impl ShadedCells {
             }
             if let Some(shade) = shades[from] {
                 let at = |k: usize| x + k as f64 * width;
-                let corners = [
-                    [at(from), y[0]],
-                    [at(k), y[0]],
-                    [at(k), y[1]],
-                    [at(from), y[1]],
-                ];
+                let corners = [[at(from), y[0]], [at(k), y[0]], [at(k), y[1]], [at(from), y[1]]];
                 self.rings[shade].push(panel.all(&corners));
             }
         }
@@ -200,16 +171,11 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
     let mut cells = ShadedCells::new();
     for lines in rows.chunks(BLOCK) {
         let along = |r: &Row| r.along_m - begin;
-        let y = [
-            along(&lines[0]),
-            along(&lines[lines.len() - 1]) + pass.line_m(),
-        ];
+        let y = [along(&lines[0]), along(&lines[lines.len() - 1]) + pass.line_m()];
         for port in [true, false] {
             let n = lines.iter().map(|r| r.side(port).len()).min().unwrap_or(0) / BLOCK;
             let shade = |k: usize| {
-                let block = lines
-                    .iter()
-                    .flat_map(|r| &r.side(port)[k * BLOCK..(k + 1) * BLOCK]);
+                let block = lines.iter().flat_map(|r| &r.side(port)[k * BLOCK..(k + 1) * BLOCK]);
                 mean(block).map(|db| level.shade(db))
             };
             let mut shades: Vec<_> = (0..n).map(shade).collect();
@@ -262,24 +228,14 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
     }
     cells.draw(c);
     for pass in passes {
-        let line = pass
-            .rows()
-            .iter()
-            .map(|r| panel.at([r.place.x, r.place.y]))
-            .collect();
+        let line = pass.rows().iter().map(|r| panel.at([r.place.x, r.place.y])).collect();
         c.polyline(line, &Style::line("#ffffff", 0.8).dashed("4 4").faint(0.7));
     }
     c.unclip();
 }
 
 /// Marks on the map: the declared place, the sidescan's, true sources and solids.
-fn signs(
-    c: &mut Canvas,
-    panel: &Panel,
-    run: &RunReport<'_>,
-    robot: &RobotEchoes,
-    track: Option<&RobotTrack>,
-) {
+fn signs(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>, robot: &RobotEchoes, track: Option<&RobotTrack>) {
     panel.clip(c);
     for o in run.obstacles {
         c.polygon(panel.all(&o.corners), &Style::line("#ffffff", 1.2));
@@ -313,39 +269,18 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], run: &RunReport<'_>, robot: &RobotEchoe
     c.text([x, y], 10.0, Anchor::Start, "Level over the bed's, dB:");
     for shade in 0..SHADES {
         let colour = palette::echo(shade as f64 / (SHADES - 1) as f64);
-        c.rect(
-            x + 140.0 + 14.0 * shade as f64,
-            y - 9.0,
-            14.0,
-            11.0,
-            &Style::fill(&colour),
-        );
+        c.rect(x + 140.0 + 14.0 * shade as f64, y - 9.0, 14.0, 11.0, &Style::fill(&colour));
     }
     let end = x + 140.0 + 14.0 * SHADES as f64;
-    c.text(
-        [x + 140.0, y + 14.0],
-        9.0,
-        Anchor::Middle,
-        &format!("−{:.0}", -RANGE_DB[0]),
-    );
-    c.text(
-        [end, y + 14.0],
-        9.0,
-        Anchor::Middle,
-        &format!("{:.0}", RANGE_DB[1]),
-    );
+    c.text([x + 140.0, y + 14.0], 9.0, Anchor::Middle, &format!("−{:.0}", -RANGE_DB[0]));
+    c.text([end, y + 14.0], 9.0, Anchor::Middle, &format!("{:.0}", RANGE_DB[1]));
     let y = y + 34.0;
     layers::true_source(c, [x + 6.0, y - 4.0]);
     c.text([x + 17.0, y], 10.0, Anchor::Start, "true source");
     layers::declared(c, [x + 106.0, y - 4.0]);
     c.text([x + 118.0, y], 10.0, Anchor::Start, "declared");
     found(c, [x + 190.0, y - 4.0]);
-    c.text(
-        [x + 205.0, y],
-        10.0,
-        Anchor::Start,
-        "by the sidescan; object in a pass (detector's defaults)",
-    );
+    c.text([x + 205.0, y], 10.0, Anchor::Start, "by the sidescan; object in a pass (detector's defaults)");
     let said = run.summary.robots.iter().find(|r| r.id == robot.id);
     if let Some(d) = said.and_then(|r| r.declarations.last()) {
         let mut words = format!("{:?}.", d.verdict);

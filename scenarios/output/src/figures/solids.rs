@@ -26,12 +26,7 @@ pub(super) enum Passage {
 }
 
 impl Passage {
-    pub(super) const ALL: [Passage; 4] = [
-        Passage::Round,
-        Passage::Over,
-        Passage::Under,
-        Passage::Through,
-    ];
+    pub(super) const ALL: [Passage; 4] = [Passage::Round, Passage::Over, Passage::Under, Passage::Through];
 
     /// Its words in the key.
     pub(super) fn words(self) -> &'static str {
@@ -66,13 +61,7 @@ pub(super) fn passage(o: &ObstacleOutline, terrain: &Terrain) -> Passage {
 }
 
 /// Draws the solids under the plume, or those above it.
-pub(super) fn draw(
-    c: &mut Canvas,
-    panel: &Panel,
-    obstacles: &[ObstacleOutline],
-    terrain: &Terrain,
-    below_plume: bool,
-) {
+pub(super) fn draw(c: &mut Canvas, panel: &Panel, obstacles: &[ObstacleOutline], terrain: &Terrain, below_plume: bool) {
     for o in obstacles {
         let passage = passage(o, terrain);
         if passage.below_plume() == below_plume {
@@ -145,28 +134,17 @@ mod tests {
         assert_eq!(of(-13.0, 2.0), Passage::Round);
         assert_eq!(of(-12.0, -4.0), Passage::Over);
         assert_eq!(of(-2.0, 1.0), Passage::Under);
-        let screen = ObstacleOutline {
-            permeable: true,
-            ..block(-12.0, 0.0)
-        };
+        let screen = ObstacleOutline { permeable: true, ..block(-12.0, 0.0) };
         let terrain = Terrain::Level { depth_m: 12.0 };
         assert_eq!(passage(&screen, &terrain), Passage::Through);
     }
 
     #[test]
     fn a_hatch_stays_in_its_outline_and_ends_however_large_that_is() {
-        let panel = Panel {
-            left: 10.0,
-            top: 10.0,
-            width: 200.0,
-            height: 100.0,
-            x: [0.0, 40.0],
-            y: [0.0, 20.0],
-        };
+        let panel = Panel { left: 10.0, top: 10.0, width: 200.0, height: 100.0, x: [0.0, 40.0], y: [0.0, 20.0] };
         let inside = hatch(&panel, &panel.all(&block(-2.0, 1.0).corners));
         assert!(inside.len() > 10, "{}", inside.len());
-        let of_panel =
-            |p: &[f64; 2]| (10.0..=110.0).contains(&p[0]) && (60.0..=110.0).contains(&p[1]);
+        let of_panel = |p: &[f64; 2]| (10.0..=110.0).contains(&p[0]) && (60.0..=110.0).contains(&p[1]);
         assert!(inside.iter().flatten().all(of_panel), "{inside:?}");
         let far = [[-1e9, -1e9], [1e9, -1e9], [1e9, 1e9], [-1e9, 1e9]];
         assert!(hatch(&panel, &far).len() < 60);

@@ -10,8 +10,7 @@ use crate::charts::palette::DECLARED;
 use crate::charts::panel::Panel;
 use crate::charts::room::Room;
 use crate::results::{
-    BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals,
-    TrackTable,
+    BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
 };
 use crate::sample::{area, frames, info, plume, robots, scored, source, terrain};
 use nalgebra::{Vector2, Vector3};
@@ -74,11 +73,7 @@ impl Concentration for Straight {
         let along = d.xy().dot(&source().flow.normalize());
         let sd = 1.0 + 0.05 * along.max(0.0);
         let r2 = d.norm_squared() - along * along;
-        if along > 0.0 {
-            1e-6 * math::exp(-0.5 * r2 / (sd * sd)) / (sd * sd)
-        } else {
-            0.0
-        }
+        if along > 0.0 { 1e-6 * math::exp(-0.5 * r2 / (sd * sd)) / (sd * sd) } else { 0.0 }
     }
 }
 
@@ -86,30 +81,12 @@ impl Concentration for Straight {
 fn mission() -> Vec<Frame> {
     let mut run = frames(400);
     let part = |k: i32| {
-        let at = Vector2::new(
-            f64::from(k / 2) * 547.0 - 273.5,
-            f64::from(k % 2) * 183.5 - 91.75,
-        );
-        Area {
-            centre: area().world(at),
-            length_m: 547.0,
-            width_m: 183.5,
-            ..area()
-        }
+        let at = Vector2::new(f64::from(k / 2) * 547.0 - 273.5, f64::from(k % 2) * 183.5 - 91.75);
+        Area { centre: area().world(at), length_m: 547.0, width_m: 183.5, ..area() }
     };
-    let states = [
-        RegionState::UpFlowEdge,
-        RegionState::TimedOut,
-        RegionState::UpFlowEdge,
-        RegionState::Declared,
-    ];
+    let states = [RegionState::UpFlowEdge, RegionState::TimedOut, RegionState::UpFlowEdge, RegionState::Declared];
     let all: Arc<[Region]> = (0..4)
-        .map(|k| Region {
-            area: part(k),
-            state: states[k as usize],
-            from_s: Some(0.0),
-            until_s: Some(1.0),
-        })
+        .map(|k| Region { area: part(k), state: states[k as usize], from_s: Some(0.0), until_s: Some(1.0) })
         .collect();
     let from = source().position.xy();
     let said = |k: u32, rule, at: [f64; 2]| Declaration {
@@ -126,52 +103,32 @@ fn mission() -> Vec<Frame> {
     for f in &mut run {
         let r = &mut f.robots[0];
         r.declarations = said.to_vec();
-        r.regions = Regions {
-            all: all.clone(),
-            now: None,
-        };
+        r.regions = Regions { all: all.clone(), now: None };
     }
     run
 }
 
 fn two_sources() -> [SourceTruth; 2] {
-    let east = SourceTruth {
-        id: "east".into(),
-        position: source().position + Vector3::new(9.0, 1.0, 0.0),
-        ..source()
-    };
+    let east = SourceTruth { id: "east".into(), position: source().position + Vector3::new(9.0, 1.0, 0.0), ..source() };
     [source(), east]
 }
 
 fn panel(width: f64, height: f64) -> Panel {
-    Panel {
-        left: 90.0,
-        top: 40.0,
-        width,
-        height,
-        x: [0.0, 1000.0],
-        y: [0.0, 1.0],
-    }
+    Panel { left: 90.0, top: 40.0, width, height, x: [0.0, 1000.0], y: [0.0, 1.0] }
 }
 
 /// Labels placed after `before` that cover something that was already there, or each other.
 fn clashes(before: usize, c: &Canvas) -> Vec<(Room, Room)> {
     let all = c.taken();
     let pairs = (before..all.len()).flat_map(|k| (0..k).map(move |j| (k, j)));
-    pairs
-        .map(|(k, j)| (all[k], all[j]))
-        .filter(|(a, b)| a.shared(b) > 0.0)
-        .collect()
+    pairs.map(|(k, j)| (all[k], all[j])).filter(|(a, b)| a.shared(b) > 0.0).collect()
 }
 
 #[test]
 fn events_of_a_series_keep_off_its_key_and_each_other() {
     let mut c = Canvas::new(900.0, 300.0);
     let panel = panel(800.0, 128.0);
-    panel.key(
-        &mut c,
-        &[("vehicle", "#000"), ("bed", "#000"), ("commanded", "#000")],
-    );
+    panel.key(&mut c, &[("vehicle", "#000"), ("bed", "#000"), ("commanded", "#000")]);
     let before = c.taken().len();
     // Under the key, at the very end, and three within the width of a word.
     for t_s in [700.0, 760.0, 830.0, 915.0, 1000.0, 300.0, 310.0, 320.0, 0.0] {
@@ -186,11 +143,7 @@ fn events_of_a_series_keep_off_its_key_and_each_other() {
 #[test]
 fn names_on_a_map_keep_off_marks_and_each_other() {
     reported(&mission(), &area(), &two_sources(), &[], |run| {
-        let map = Panel {
-            x: [-600.0, 600.0],
-            y: [-600.0, 600.0],
-            ..panel(600.0, 600.0)
-        };
+        let map = Panel { x: [-600.0, 600.0], y: [-600.0, 600.0], ..panel(600.0, 600.0) };
         let mut c = Canvas::new(900.0, 700.0);
         let track = &run.track.robots[0];
         layers::reserve(&mut c, &map);
@@ -219,11 +172,7 @@ fn names_on_a_map_keep_off_marks_and_each_other() {
 
 #[test]
 fn the_closer_look_is_closer_or_not_there() {
-    let map = |span: f64| Panel {
-        x: [-span, span],
-        y: [-span, span],
-        ..panel(660.0, 660.0)
-    };
+    let map = |span: f64| Panel { x: [-span, span], y: [-span, span], ..panel(660.0, 660.0) };
     let run = frames(400);
     reported(&run, &area(), &[source()], &[], |run| {
         for span in [40.0, 200.0, 600.0, 5000.0] {
@@ -247,34 +196,15 @@ fn the_closer_look_is_closer_or_not_there() {
 
 #[test]
 fn a_sheet_fits_its_map() {
-    for (length_m, width_m) in [
-        (400.0, 100.0),
-        (120.0, 100.0),
-        (100.0, 300.0),
-        (1094.0, 367.0),
-    ] {
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m,
-            width_m,
-            axis: Heading::from_deg(90.0),
-        };
+    for (length_m, width_m) in [(400.0, 100.0), (120.0, 100.0), (100.0, 300.0), (1094.0, 367.0)] {
+        let area = Area { centre: Vector2::zeros(), length_m, width_m, axis: Heading::from_deg(90.0) };
         reported(&[], &area, &[], &[], |run| {
             let c = sheet(run);
             let shown = c.taken();
             let reach = shown.iter().map(|r| r.bottom).fold(0.0, f64::max);
             // All text lies on the sheet, and none is left over.
-            assert!(
-                reach <= c.height && c.height - reach < 60.0,
-                "{length_m}: {reach} of {}",
-                c.height
-            );
-            assert!(
-                shown
-                    .iter()
-                    .all(|r| r.right <= c.width + 1.0 && r.left >= 0.0),
-                "{length_m}"
-            );
+            assert!(reach <= c.height && c.height - reach < 60.0, "{length_m}: {reach} of {}", c.height);
+            assert!(shown.iter().all(|r| r.right <= c.width + 1.0 && r.left >= 0.0), "{length_m}");
             if length_m > 2.0 * width_m {
                 assert!(c.height < 0.75 * c.width, "{} by {}", c.width, c.height);
             }
@@ -296,9 +226,7 @@ fn a_section_is_drawn_where_the_map_cannot_show_the_way_of_the_water() {
     };
     let drawn = |obstacles: &[ObstacleOutline]| {
         reported(&frames(400), &area(), &[source()], obstacles, |run| {
-            sheet(run)
-                .svg("map")
-                .contains("Vertical section along the flow")
+            sheet(run).svg("map").contains("Vertical section along the flow")
         })
     };
     assert!(!drawn(&[]));
@@ -324,11 +252,7 @@ fn diamond_px(z_m: Option<f64>) -> f64 {
         permeable: false,
     };
     reported(&run, &area(), &[source()], &[quay], |run| {
-        let map = Panel {
-            x: [-700.0, 700.0],
-            y: [-700.0, 700.0],
-            ..panel(600.0, 600.0)
-        };
+        let map = Panel { x: [-700.0, 700.0], y: [-700.0, 700.0], ..panel(600.0, 600.0) };
         let mut c = Canvas::new(800.0, 1000.0);
         map_section::draw(&mut c, run, &map, 700.0).expect("a section");
         let svg = c.svg("section");
@@ -346,10 +270,7 @@ fn diamond_px(z_m: Option<f64>) -> f64 {
 fn a_section_shows_a_declaration_at_its_height_or_at_that_of_the_vehicle() {
     let [one, two, five] = [-1.0, -2.0, -5.0].map(|z| diamond_px(Some(z)));
     let a_metre = two - one;
-    assert!(
-        a_metre > 5.0 && (five - two - 3.0 * a_metre).abs() < 0.5,
-        "{one} {two} {five}"
-    );
+    assert!(a_metre > 5.0 && (five - two - 3.0 * a_metre).abs() < 0.5, "{one} {two} {five}");
     let run = frames(400);
     let declared = run.iter().find(|f| !f.robots[0].declarations.is_empty());
     let z = declared.expect("it declares").robots[0].truth.pose.p_WB.z;
@@ -362,10 +283,7 @@ fn a_section_shows_a_declaration_at_its_height_or_at_that_of_the_vehicle() {
 fn a_label_without_a_free_place_is_left_out_or_hides_least() {
     let panel = panel(100.0, 40.0);
     let mut c = Canvas::new(300.0, 100.0);
-    let places = [
-        ([100.0, 60.0], Anchor::Start),
-        ([100.0, 75.0], Anchor::Start),
-    ];
+    let places = [([100.0, 60.0], Anchor::Start), ([100.0, 75.0], Anchor::Start)];
     c.keep_free(Room::round([110.0, 58.0], 6.0));
     c.keep_free(Room::round([140.0, 72.0], 2.0));
     let before = c.taken().len();

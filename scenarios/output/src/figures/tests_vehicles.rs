@@ -38,10 +38,7 @@ fn each_of_several_vehicles_has_a_colour_and_ends_faintly() {
         let other = &run.track.robots[1];
         assert_eq!(over_from(other), 150);
         assert!(svg.contains("after the end of its mission"));
-        assert!(
-            svg.contains(&format!("opacity=\"{AFTER}\"")),
-            "no faint end"
-        );
+        assert!(svg.contains(&format!("opacity=\"{AFTER}\"")), "no faint end");
     });
 }
 
@@ -58,11 +55,8 @@ fn a_single_vehicle_has_no_band() {
 
 #[test]
 fn no_vehicle_has_the_colour_of_a_behaviour() {
-    let rgb = |c: &str| -> [i32; 3] {
-        [1, 3, 5].map(|k| i32::from_str_radix(&c[k..k + 2], 16).expect("a colour"))
-    };
-    let apart =
-        |a: &str, b: &str| -> i32 { rgb(a).iter().zip(rgb(b)).map(|(x, y)| (x - y).abs()).sum() };
+    let rgb = |c: &str| -> [i32; 3] { [1, 3, 5].map(|k| i32::from_str_radix(&c[k..k + 2], 16).expect("a colour")) };
+    let apart = |a: &str, b: &str| -> i32 { rgb(a).iter().zip(rgb(b)).map(|(x, y)| (x - y).abs()).sum() };
     for k in 0..6 {
         let own = palette::vehicle(k);
         for b in Behaviour::ALL {

@@ -67,9 +67,7 @@ impl Desk {
         let (put, get) = sync_channel::<Box<Gatherer>>(1);
         let tell = Arc::clone(&well);
         let work = move || {
-            let mut gatherer = get
-                .recv()
-                .expect("it is sent as soon as the thread is there");
+            let mut gatherer = get.recv().expect("it is sent as soon as the thread is there");
             for parcel in parcels {
                 for seen in parcel {
                     gatherer.take(seen);
@@ -82,12 +80,7 @@ impl Desk {
             Err(_) => Self::Here(gatherer),
             Ok(thread) => {
                 put.send(gatherer).expect("the thread waits for it");
-                Self::Beside(Beside {
-                    next: Vec::new(),
-                    sender: Some(sender),
-                    thread: Some(thread),
-                    well,
-                })
+                Self::Beside(Beside { next: Vec::new(), sender: Some(sender), thread: Some(thread), well })
             }
         }
     }

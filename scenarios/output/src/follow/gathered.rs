@@ -6,8 +6,8 @@ use crate::figures as draw;
 use crate::files::{ReportError, guarded};
 use crate::report::{Figure, figures, film, write_all};
 use crate::results::{
-    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd,
-    RunReport, SourceTruth, Summary, Totals, Track,
+    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd, RunReport,
+    SourceTruth, Summary, Totals, Track,
 };
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -51,13 +51,7 @@ pub(super) struct Whose {
 
 impl Gathered {
     /// From what was gathered; `walls` are the times that spin-up and mission took.
-    pub(super) fn of(
-        mut gathered: Gatherer,
-        whose: Whose,
-        trial: &Trial,
-        ended: &Ended,
-        walls: [Duration; 2],
-    ) -> Self {
+    pub(super) fn of(mut gathered: Gatherer, whose: Whose, trial: &Trial, ended: &Ended, walls: [Duration; 2]) -> Self {
         let scenario = &whose.loaded.scenario;
         let sources = SourceTruth::of(trial, ended);
         let end = RunEnd {
@@ -91,8 +85,7 @@ impl Gathered {
             beliefs: gathered.beliefs,
             pictures: gathered.pictures,
             echoes: gathered.echoes,
-            plume: (gathered.plume_seen)
-                .then(|| plume_at_end(trial, ended.t_s, scenario.record.plume_points)),
+            plume: (gathered.plume_seen).then(|| plume_at_end(trial, ended.t_s, scenario.record.plume_points)),
             plume_film: gathered.plume_film,
             failure: gathered.failure,
         }
@@ -179,13 +172,8 @@ fn totals(trial: &Trial, ended: &Ended, [spin_up, mission]: [Duration; 2]) -> To
         spin_up_wall_s: spin_up.as_secs_f64(),
         steps: ended.steps,
         filaments: plume.len(),
-        mass: (!plume.sources().is_empty()).then(|| {
-            MassBalance::new(
-                plume.mass_released_kg(),
-                plume.mass_in_kg(),
-                plume.mass_left_kg(),
-            )
-        }),
+        mass: (!plume.sources().is_empty())
+            .then(|| MassBalance::new(plume.mass_released_kg(), plume.mass_in_kg(), plume.mass_left_kg())),
         ..Totals::default()
     }
 }
@@ -194,12 +182,7 @@ fn totals(trial: &Trial, ended: &Ended, [spin_up, mission]: [Duration; 2]) -> To
 fn plume_at_end(trial: &Trial, t_s: f64, most: u32) -> PlumeFrame {
     let ocean = trial.simulation.ocean();
     let plume = ocean.plume();
-    PlumeFrame {
-        t_s,
-        total: plume.len(),
-        points: plume.decimated(most as usize),
-        centre: ocean.area.centre,
-    }
+    PlumeFrame { t_s, total: plume.len(), points: plume.decimated(most as usize), centre: ocean.area.centre }
 }
 
 fn outlines(ocean: &Ocean, permeable: &[String]) -> Vec<ObstacleOutline> {

@@ -4,8 +4,7 @@ use super::machines;
 use crate::files::ReportError;
 use crate::record::Recorder;
 use crate::results::{
-    BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo,
-    SummaryBuilder, TrackTable,
+    BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo, SummaryBuilder, TrackTable,
 };
 use crate::scene::Scene;
 use rheotaxis::control::Consultation;

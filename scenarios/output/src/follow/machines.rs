@@ -34,12 +34,8 @@ pub(super) fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, AssembleError
         .max_by(f64::total_cmp);
     let info = |block: &GantryBlock| {
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).map_err(|source| {
-            AssembleError::Robot {
-                id: id.clone(),
-                source,
-            }
-        })?;
+        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir))
+            .map_err(|source| AssembleError::Robot { id: id.clone(), source })?;
         let range_v = block.probes.range_v.map(Finite::get);
         let layout = gantry.layout(block.probes.rate_hz.get(), range_v);
         Ok(GantryInfo {

@@ -139,20 +139,13 @@ impl Follower {
     /// As the thread [beside the run](Self::beside) has, if it has.
     #[must_use]
     pub fn finish(self, trial: &Trial, ended: &Ended) -> Gathered {
-        let walls: [Duration; 2] = [
-            self.mission_begun - self.begun,
-            self.mission_begun.elapsed(),
-        ];
+        let walls: [Duration; 2] = [self.mission_begun - self.begun, self.mission_begun.elapsed()];
         let mut gatherer = self.desk.finish();
         if let Some(recorder) = gatherer.recorder.take() {
             let closed = recorder.finish(&ended.digest, ended.steps).map(drop);
             gatherer.note(closed);
         }
-        let run = gathered::Whose {
-            loaded: self.loaded,
-            out: self.out,
-            spin_up_kept: self.spin_up_kept,
-        };
+        let run = gathered::Whose { loaded: self.loaded, out: self.out, spin_up_kept: self.spin_up_kept };
         Gathered::of(*gatherer, run, trial, ended, walls)
     }
 }

@@ -36,10 +36,7 @@ pub(super) struct Told {
 }
 
 /// Opens the session of a run.
-pub(super) fn opened(
-    options: &LiveOptions,
-    from_env: Option<PathBuf>,
-) -> Result<Opened, LiveError> {
+pub(super) fn opened(options: &LiveOptions, from_env: Option<PathBuf>) -> Result<Opened, LiveError> {
     let file = options.config_file.clone().or(from_env);
     if file.is_none() && options.listen.is_none() {
         let first = DEFAULT_PORT..=DEFAULT_PORT + SPARE_PORTS;
@@ -51,27 +48,17 @@ pub(super) fn opened(
     };
     if let Some(endpoint) = &options.listen {
         is_endpoint(endpoint)?;
-        set(
-            &mut config,
-            "listen/endpoints",
-            &serde_json::json!([endpoint]),
-        )?;
+        set(&mut config, "listen/endpoints", &serde_json::json!([endpoint]))?;
     }
     let warning = exposed::warning(&config, options)?;
     let session = zenoh::open(config).wait().map_err(|e| {
         let port = options.listen.as_deref().and_then(port);
         match (&options.listen, port) {
-            (Some(endpoint), Some(port)) if in_use(&e) => LiveError::BusyPort {
-                endpoint: endpoint.clone(),
-                port,
-            },
+            (Some(endpoint), Some(port)) if in_use(&e) => LiveError::BusyPort { endpoint: endpoint.clone(), port },
             _ => LiveError::Open { why: plain(&e) },
         }
     })?;
-    let told = Told {
-        notice: None,
-        warning,
-    };
+    let told = Told { notice: None, warning };
     Ok(Opened { session, told })
 }
 
@@ -85,20 +72,14 @@ fn at_a_free_port(ports: RangeInclusive<u16>, ros2: bool) -> Result<Opened, Live
         // Nodes of ROS expect a router at the default port: if it is not this session, then this session joins it.
         let joined = (ros2 && port != first).then(|| format!("tcp/127.0.0.1:{first}"));
         let mut config = here(joined.as_deref())?;
-        set(
-            &mut config,
-            "listen/endpoints",
-            &serde_json::json!([format!("tcp/127.0.0.1:{port}")]),
-        )?;
+        set(&mut config, "listen/endpoints", &serde_json::json!([format!("tcp/127.0.0.1:{port}")]))?;
         let session = match zenoh::open(config).wait() {
             Ok(session) => session,
             Err(e) if in_use(&e) => continue,
             Err(e) => return Err(LiveError::Open { why: plain(&e) }),
         };
         let end = endpoint(&session);
-        let joins = joined.map_or(String::new(), |router| {
-            format!(", and connects to {router} for ROS 2")
-        });
+        let joins = joined.map_or(String::new(), |router| format!(", and connects to {router} for ROS 2"));
         let notice = match port {
             0 => format!(
                 "ports {first} to {last} are already in use: zenoh listens on {end}{joins}; clients have to be told \
@@ -106,15 +87,10 @@ fn at_a_free_port(ports: RangeInclusive<u16>, ros2: bool) -> Result<Opened, Live
             ),
             _ => format!("port {first} is already in use: zenoh listens on {end}{joins}"),
         };
-        let told = Told {
-            notice: (port != first).then_some(notice),
-            warning: None,
-        };
+        let told = Told { notice: (port != first).then_some(notice), warning: None };
         return Ok(Opened { session, told });
     }
-    Err(LiveError::Open {
-        why: "the system has no free port on 127.0.0.1".to_owned(),
-    })
+    Err(LiveError::Open { why: "the system has no free port on 127.0.0.1".to_owned() })
 }
 
 /// A session that finds nobody by itself, and may join a router.
@@ -122,11 +98,7 @@ fn here(joined: Option<&str>) -> Result<Config, LiveError> {
     let mut config = Config::default();
     set(&mut config, "mode", &"router".into())?;
     match joined {
-        Some(router) => set(
-            &mut config,
-            "connect/endpoints",
-            &serde_json::json!([router]),
-        )?,
+        Some(router) => set(&mut config, "connect/endpoints", &serde_json::json!([router]))?,
         // A router waits so long for those whom it may find, half a second by default; it looks for nobody here.
         None => set(&mut config, "scouting/delay", &0.into())?,
     }
@@ -141,37 +113,23 @@ pub(super) fn endpoint(session: &Session) -> String {
     let locators = session.info().locators().wait();
     let mut locators: Vec<String> = locators.iter().map(ToString::to_string).collect();
     locators.sort_by_key(|l| !l.contains("127.0.0.1"));
-    locators
-        .into_iter()
-        .next()
-        .unwrap_or_else(|| "none".to_owned())
+    locators.into_iter().next().unwrap_or_else(|| "none".to_owned())
 }
 
 /// The configuration in a file.
 pub(super) fn from_file(path: &Path) -> Result<Config, LiveError> {
-    let unread = |why: String| LiveError::Config {
-        path: path.to_path_buf(),
-        why,
-    };
+    let unread = |why: String| LiveError::Config { path: path.to_path_buf(), why };
     files::open(path).map_err(|e| unread(e.to_string()))?;
     Config::from_file(path).map_err(|e| unread(plain(&e)))
 }
 
-pub(super) fn set(
-    config: &mut Config,
-    key: &str,
-    value: &serde_json::Value,
-) -> Result<(), LiveError> {
-    config
-        .insert_json5(key, &value.to_string())
-        .map_err(|e| LiveError::Open { why: plain(&e) })
+pub(super) fn set(config: &mut Config, key: &str, value: &serde_json::Value) -> Result<(), LiveError> {
+    config.insert_json5(key, &value.to_string()).map_err(|e| LiveError::Open { why: plain(&e) })
 }
 
 fn is_endpoint(endpoint: &str) -> Result<(), LiveError> {
     let parsed = endpoint.parse::<EndPoint>();
-    parsed.map(drop).map_err(|_| LiveError::Endpoint {
-        endpoint: endpoint.to_owned(),
-    })
+    parsed.map(drop).map_err(|_| LiveError::Endpoint { endpoint: endpoint.to_owned() })
 }
 
 fn port(endpoint: &str) -> Option<u16> {

@@ -63,14 +63,7 @@ impl LiveController {
             .timeout(deadline)
             .wait()
             .map_err(why)?;
-        Ok(Self {
-            querier,
-            key,
-            patience,
-            going,
-            ros,
-            _open: open,
-        })
+        Ok(Self { querier, key, patience, going, ros, _open: open })
     }
 
     /// The key at which a controller answers.
@@ -80,10 +73,7 @@ impl LiveController {
     }
 
     fn is_there(&self) -> bool {
-        self.querier
-            .matching_status()
-            .wait()
-            .is_ok_and(|status| status.matching())
+        self.querier.matching_status().wait().is_ok_and(|status| status.matching())
     }
 
     /// Waits until somebody is there, or for so long.

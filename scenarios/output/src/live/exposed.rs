@@ -37,9 +37,7 @@ pub(super) fn warning(config: &Config, options: &LiveOptions) -> Result<Option<S
 /// The ways by which others than users of this machine come without saying who they are.
 fn ways(config: &Config) -> Vec<String> {
     let said = Said::of(config);
-    if said.at("access_control/enabled") == true
-        && said.at("access_control/default_permission") != "allow"
-    {
+    if said.at("access_control/enabled") == true && said.at("access_control/default_permission") != "allow" {
         return Vec::new();
     }
     let certified = said.at("transport/link/tls/enable_mtls") == true;
@@ -70,10 +68,7 @@ struct Said<'a> {
 
 impl<'a> Said<'a> {
     fn of(config: &'a Config) -> Self {
-        let mut said = Self {
-            config,
-            mode: String::new(),
-        };
+        let mut said = Self { config, mode: String::new() };
         // zenoh's own default.
         said.mode = said.at("mode").as_str().unwrap_or("peer").to_owned();
         said
@@ -96,8 +91,7 @@ impl<'a> Said<'a> {
     /// Whether those who come have to know a password.
     fn users(&self) -> bool {
         let dictionary = self.at("transport/auth/usrpwd/dictionary_file");
-        let text =
-            (dictionary.as_str()).and_then(|file| files::read_text(Path::new(file), LONGEST).ok());
+        let text = (dictionary.as_str()).and_then(|file| files::read_text(Path::new(file), LONGEST).ok());
         // zenoh takes an empty dictionary for none.
         text.is_some_and(|text| !text.trim().is_empty())
     }
@@ -112,10 +106,7 @@ impl<'a> Said<'a> {
         };
         let only_tls = matches!(&self.at("transport/link/protocols"),
             Value::Array(all) if !all.is_empty() && all.iter().all(|protocol| protocol == "tls"));
-        self.at(&format!("{scouting}/enabled")) != false
-            && whom
-            && (self.mode != "client" || alone)
-            && !only_tls
+        self.at(&format!("{scouting}/enabled")) != false && whom && (self.mode != "client" || alone) && !only_tls
     }
 }
 
@@ -160,9 +151,7 @@ mod tests {
 
     /// No multicast, and these lines.
     fn quiet(lines: &str) -> bool {
-        open(&format!(
-            "{{ scouting: {{ multicast: {{ enabled: false }} }}, {lines} }}"
-        ))
+        open(&format!("{{ scouting: {{ multicast: {{ enabled: false }} }}, {lines} }}"))
     }
 
     #[test]
@@ -226,9 +215,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("users.txt");
         let with = |protocol: &str, more: &str| {
-            quiet(&format!(
-                "listen: {{ endpoints: ['{protocol}/0.0.0.0:7447'] }}, {more}"
-            ))
+            quiet(&format!("listen: {{ endpoints: ['{protocol}/0.0.0.0:7447'] }}, {more}"))
         };
         let users = format!("transport: {{ auth: {{ usrpwd: {{ dictionary_file: {file:?} }} }} }}");
         std::fs::write(&file, "\n").unwrap();
@@ -238,14 +225,10 @@ mod tests {
         assert!(open(&format!("{{ {users} }}")), "found by multicast");
         let router = "connect: { endpoints: ['tcp/192.168.1.5:7447'] }";
         assert!(with("tcp", &format!("{users}, {router}")));
-        assert!(!with(
-            "tcp",
-            &format!("{users}, {}", router.replace("tcp", "tls"))
-        ));
+        assert!(!with("tcp", &format!("{users}, {}", router.replace("tcp", "tls"))));
         assert!(with("tcp", "access_control: { enabled: false }"));
         let nobody = "rules: [], subjects: [], policies: []";
-        let deny =
-            format!("access_control: {{ enabled: true, default_permission: 'deny', {nobody} }}");
+        let deny = format!("access_control: {{ enabled: true, default_permission: 'deny', {nobody} }}");
         assert!(!with("tcp", &deny) && !open(&format!("{{ {deny} }}")));
         assert!(with("tcp", &deny.replace("deny", "allow")));
         let mutual = "transport: { link: { tls: { enable_mtls: true } } }";

@@ -143,16 +143,10 @@ mod tests {
                 estimate: frame(0).robots[0].estimate,
             },
         });
-        let numbers: Vec<u8> = [1f32, 2.0, 3.0]
-            .into_iter()
-            .flat_map(f32::to_le_bytes)
-            .collect();
+        let numbers: Vec<u8> = [1f32, 2.0, 3.0].into_iter().flat_map(f32::to_le_bytes).collect();
         assert_eq!(ping.payload, numbers);
         let header = header(&ping);
-        assert_eq!(
-            (&header["port"], &header["starboard"]),
-            (&json!(2), &json!(1))
-        );
+        assert_eq!((&header["port"], &header["starboard"]), (&json!(2), &json!(1)));
         // The altimeter has heard nothing.
         assert_eq!(header.get("altitude_m"), None);
     }

@@ -17,11 +17,7 @@ pub(super) enum Work {
     /// Send these.
     Rest(Rest),
     /// The run is over: send the last state and the rest if they are not sent yet, then the digest.
-    End {
-        frame: Option<Frame>,
-        rest: Rest,
-        digest: String,
-    },
+    End { frame: Option<Frame>, rest: Rest, digest: String },
     /// Close.
     Close,
 }
@@ -214,17 +210,11 @@ impl Mailbox {
     /// Without the state that is being sent.
     pub(super) fn done(&self) -> LiveCounts {
         let slots = self.slots();
-        LiveCounts {
-            sent: slots.counts.sent - slots.in_hand,
-            ..slots.counts
-        }
+        LiveCounts { sent: slots.counts.sent - slots.in_hand, ..slots.counts }
     }
 
     /// Waits for work and observes the rates; the end comes at once.
-    #[expect(
-        clippy::disallowed_methods,
-        reason = "the rate is one of wall time, and this thread cannot reach the run"
-    )]
+    #[expect(clippy::disallowed_methods, reason = "the rate is one of wall time, and this thread cannot reach the run")]
     pub(super) fn next(&self) -> Work {
         let mut slots = self.slots();
         slots.in_hand = 0;
@@ -233,11 +223,7 @@ impl Mailbox {
                 let (frame, rest) = (slots.frame.take(), slots.rest());
                 slots.in_hand = u64::from(frame.is_some());
                 slots.counts.sent += slots.in_hand;
-                return Work::End {
-                    frame,
-                    rest,
-                    digest,
-                };
+                return Work::End { frame, rest, digest };
             }
             if slots.close {
                 return Work::Close;
@@ -255,16 +241,8 @@ impl Mailbox {
                 return Work::Rest(rest);
             }
             slots = match slots.waits(now).into_iter().flatten().min() {
-                None => self
-                    .wake
-                    .wait(slots)
-                    .unwrap_or_else(PoisonError::into_inner),
-                Some(due) => {
-                    self.wake
-                        .wait_timeout(slots, due)
-                        .unwrap_or_else(PoisonError::into_inner)
-                        .0
-                }
+                None => self.wake.wait(slots).unwrap_or_else(PoisonError::into_inner),
+                Some(due) => self.wake.wait_timeout(slots, due).unwrap_or_else(PoisonError::into_inner).0,
             };
         }
     }
@@ -287,15 +265,9 @@ mod tests {
         for step in 0..100 {
             mailbox.put_frame(&frame(step));
         }
-        let Work::Frame(sent) = mailbox.next() else {
-            panic!("a state was handed over")
-        };
+        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
         assert_eq!(sent.step, 99);
-        let counts = LiveCounts {
-            offered: 100,
-            sent: 1,
-            superseded: 99,
-        };
+        let counts = LiveCounts { offered: 100, sent: 1, superseded: 99 };
         assert_eq!(mailbox.counts(), counts);
         // Taken up is not sent: that it is once more is asked for.
         assert_eq!(mailbox.done().sent, 0);
@@ -310,15 +282,10 @@ mod tests {
         let mut detected = frame(0);
         detected.robots[0].detected = true;
         detected.gantries[0].decision.working.spike[0] = true;
-        detected.robots[0].heard.depth = Some(At {
-            t_s: 0.5,
-            value: DepthReading { depth_m: 3.0 },
-        });
+        detected.robots[0].heard.depth = Some(At { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
-        let Work::Frame(sent) = mailbox.next() else {
-            panic!("a state was handed over")
-        };
+        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].decision.working.spike[0]);
         let depth = sent.robots[0].heard.depth.as_ref();
@@ -333,12 +300,8 @@ mod tests {
             state.published = values.map(|(key, t_s)| published(key, t_s)).to_vec();
             mailbox.put_frame(&state);
         }
-        let Work::Frame(sent) = mailbox.next() else {
-            panic!("a state was handed over")
-        };
-        let mut values: Vec<_> = (sent.published.iter())
-            .map(|p| (p.key.as_str(), p.t_s))
-            .collect();
+        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
+        let mut values: Vec<_> = (sent.published.iter()).map(|p| (p.key.as_str(), p.t_s)).collect();
         values.sort_by_key(|v| v.0);
         assert_eq!(values, [("a", 0.0), ("b", 1.0), ("c", 1.0)]);
     }
@@ -351,11 +314,7 @@ mod tests {
         mailbox.put_frame(&frame(1));
         mailbox.end("d1");
         mailbox.close();
-        let last = Work::End {
-            frame: Some(frame(1)),
-            rest: Rest::default(),
-            digest: "d1".to_owned(),
-        };
+        let last = Work::End { frame: Some(frame(1)), rest: Rest::default(), digest: "d1".to_owned() };
         assert_eq!(mailbox.next(), last);
         mailbox.end("the first end counts");
         assert_eq!(mailbox.next(), Work::Close);
@@ -382,17 +341,13 @@ mod tests {
             mailbox.put_ping(&ping("a", f64::from(k)));
         }
         mailbox.put_ping(&ping("b", 0.0));
-        let Work::Rest(sent) = mailbox.next() else {
-            panic!("pings were handed over")
-        };
+        let Work::Rest(sent) = mailbox.next() else { panic!("pings were handed over") };
         let told: Vec<_> = sent.pings.iter().map(|p| (p.taken, p.value.t_s)).collect();
         assert_eq!(told, [(10, 9.0), (1, 0.0)]);
         // The next one is an hour away, but the end does not wait.
         mailbox.put_ping(&ping("a", 10.0));
         mailbox.end("d1");
-        let Work::End { rest, .. } = mailbox.next() else {
-            panic!("the end does not wait")
-        };
+        let Work::End { rest, .. } = mailbox.next() else { panic!("the end does not wait") };
         assert_eq!(rest.pings[0].taken, 11);
     }
 }

@@ -59,11 +59,7 @@ pub(super) struct MapGate {
 
 impl MapGate {
     pub(super) fn new(period: Duration) -> Self {
-        Self {
-            period,
-            due: None,
-            sent: BTreeMap::new(),
-        }
+        Self { period, due: None, sent: BTreeMap::new() }
     }
 
     /// The maps of a state that are to be sent now; at the `end`, all that are new.
@@ -77,10 +73,8 @@ impl MapGate {
             return Vec::new();
         }
         let fresh = |r: &RobotFrame, b: &Belief| self.sent.get(&r.id) != Some(&b.updates);
-        let maps: Vec<_> = (frame.robots.iter())
-            .filter_map(|r| Some((r, r.belief.as_ref()?)))
-            .filter(|(r, b)| fresh(r, b))
-            .collect();
+        let maps: Vec<_> =
+            (frame.robots.iter()).filter_map(|r| Some((r, r.belief.as_ref()?))).filter(|(r, b)| fresh(r, b)).collect();
         if maps.is_empty() {
             return Vec::new();
         }
@@ -141,9 +135,8 @@ mod tests {
         let b = belief([201, 151, 21]);
         let m = map("auv0", &b);
         assert!(m.payload.len() <= 4 * MOST_CELLS, "{}", m.payload.len());
-        let total: f64 = (m.payload.chunks_exact(4))
-            .map(|c| f64::from(f32::from_le_bytes(c.try_into().unwrap())))
-            .sum();
+        let total: f64 =
+            (m.payload.chunks_exact(4)).map(|c| f64::from(f32::from_le_bytes(c.try_into().unwrap()))).sum();
         // 2e5 numbers rounded to f32.
         assert!((total - 1.0).abs() < 1e-6, "{total}");
     }

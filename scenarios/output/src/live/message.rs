@@ -17,20 +17,11 @@ pub(super) struct Message {
 
 impl Message {
     pub(super) fn json(key: impl Into<String>, value: &Value) -> Self {
-        Self {
-            key: key.into(),
-            payload: value.to_string().into_bytes(),
-            packed: Payload::Json,
-            attachment: None,
-        }
+        Self { key: key.into(), payload: value.to_string().into_bytes(), packed: Payload::Json, attachment: None }
     }
 
     /// Packed numbers with a header.
-    pub(super) fn numbers(
-        key: impl Into<String>,
-        numbers: impl Iterator<Item = f32>,
-        header: &Value,
-    ) -> Self {
+    pub(super) fn numbers(key: impl Into<String>, numbers: impl Iterator<Item = f32>, header: &Value) -> Self {
         Self {
             key: key.into(),
             payload: numbers.flat_map(f32::to_le_bytes).collect(),
@@ -44,13 +35,8 @@ impl Message {
 const MOST_FILAMENTS: usize = 10_000;
 
 pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Message {
-    let LiveCounts {
-        sent, superseded, ..
-    } = counts;
-    Message::json(
-        "clock",
-        &json!({"t_s": t_s, "step": step, "ended": ended, "sent": sent, "superseded": superseded}),
-    )
+    let LiveCounts { sent, superseded, .. } = counts;
+    Message::json("clock", &json!({"t_s": t_s, "step": step, "ended": ended, "sent": sent, "superseded": superseded}))
 }
 
 /// All messages of a state except the clock.
@@ -92,10 +78,7 @@ pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
                 "name": meta.scenario_name, "seed": meta.seed, "ron": meta.scenario_text,
             }),
         ),
-        Message::json(
-            "meta/version",
-            &json!({"program": "rheotaxis", "version": meta.version}),
-        ),
+        Message::json("meta/version", &json!({"program": "rheotaxis", "version": meta.version})),
     ];
     // The bytes themselves, so that they are those of the recording's attachment.
     out.extend(meta.scene.as_ref().map(|document| Message {
@@ -135,12 +118,7 @@ pub(super) mod tests {
             position: Vector2::new(1.0, 2.0),
             depth_m: 3.0,
             altitude_m: None,
-            attitude: Attitude {
-                heading,
-                roll_rad: 0.0,
-                pitch_rad: 0.0,
-                rates_rad_s: Vector3::zeros(),
-            },
+            attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() },
             v_ground_body: Vector3::x(),
             flow: None,
             fix_jump: Vector2::zeros(),
@@ -180,12 +158,7 @@ pub(super) mod tests {
     /// A value of a topic of another crate.
     pub(crate) fn published(key: &str, t_s: f64) -> Published {
         const TOPIC: Topic = Topic::json("own", "own/<id>", "always", "A test.", &[]);
-        Published {
-            topic: TOPIC,
-            key: key.to_owned(),
-            t_s,
-            value: json!({ "t_s": t_s }),
-        }
+        Published { topic: TOPIC, key: key.to_owned(), t_s, value: json!({ "t_s": t_s }) }
     }
 
     #[test]
@@ -205,31 +178,20 @@ pub(super) mod tests {
         assert_eq!(messages[0].key, "auv/auv0/truth");
         let v: Vec<f64> = serde_json::from_value(truth["velocity_m_s"].clone()).unwrap();
         // East at 1 m/s; a quarter turn in f64 is exact to a few ulp.
-        assert!(
-            (v[0] - 1.0).abs() < 1e-12 && v[1].abs() < 1e-12 && v[2].abs() < 1e-12,
-            "{v:?}"
-        );
+        assert!((v[0] - 1.0).abs() < 1e-12 && v[1].abs() < 1e-12 && v[2].abs() < 1e-12, "{v:?}");
     }
 
     #[test]
     fn a_plume_is_packed_in_order_and_thinned_evenly() {
         let n = 2 * MOST_FILAMENTS + 1;
-        let points = (0..n)
-            .map(|i| [i as f64 + 1e7, 1.0, 2.0, 3.0, 4.0, 10.0])
-            .collect();
-        let message = plume(&PlumeFrame {
-            t_s: 1.5,
-            total: 99_999,
-            points,
-            centre: Vector2::new(1e7, 0.0),
-        });
+        let points = (0..n).map(|i| [i as f64 + 1e7, 1.0, 2.0, 3.0, 4.0, 10.0]).collect();
+        let message = plume(&PlumeFrame { t_s: 1.5, total: 99_999, points, centre: Vector2::new(1e7, 0.0) });
         let header: Value = serde_json::from_slice(&message.attachment.unwrap()).unwrap();
         let shown = header["shown"].as_u64().unwrap() as usize;
         assert_eq!(shown, n.div_ceil(3));
         assert_eq!(header["total"], 99_999);
         assert_eq!(message.payload.len(), shown * 24);
-        let number =
-            |i: usize| f32::from_le_bytes(message.payload[4 * i..4 * i + 4].try_into().unwrap());
+        let number = |i: usize| f32::from_le_bytes(message.payload[4 * i..4 * i + 4].try_into().unwrap());
         assert_eq!([number(0), number(6), number(7)], [0.0, 3.0, 1.0]);
         // The masses sum to those of all points passed in.
         let mass: f64 = (0..shown).map(|i| f64::from(number(6 * i + 4))).sum();
@@ -238,11 +200,7 @@ pub(super) mod tests {
 
     fn said(g: &GantryFrame, topic: &str) -> Option<Value> {
         let key = format!("gantry/crab0/{topic}");
-        let frame = Frame {
-            t_s: 2.5,
-            gantries: vec![g.clone()],
-            ..Frame::default()
-        };
+        let frame = Frame { t_s: 2.5, gantries: vec![g.clone()], ..Frame::default() };
         let message = state(&frame).into_iter().find(|m| m.key == key)?;
         Some(serde_json::from_slice(&message.payload).unwrap())
     }
@@ -251,16 +209,9 @@ pub(super) mod tests {
     fn only_the_probes_there_are_speak_and_only_once_they_were_read() {
         let mut g = sample::gantry(1.0, 0.2, GantryBehaviour::Cast);
         assert_eq!(said(&g, "probes"), None);
-        g.scan = Some(ProbeScan {
-            t_s: 2.4,
-            volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0],
-            count: 1,
-        });
+        g.scan = Some(ProbeScan { t_s: 2.4, volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0], count: 1 });
         let probes = said(&g, "probes").unwrap();
-        assert_eq!(
-            probes,
-            json!({"t_s": 2.4, "position_m": [[1.0, 0.2, -0.125]], "volts": [-4.5]})
-        );
+        assert_eq!(probes, json!({"t_s": 2.4, "position_m": [[1.0, 0.2, -0.125]], "volts": [-4.5]}));
         let spikes = said(&g, "spikes").unwrap();
         assert_eq!(spikes["spike"], json!([false]));
         assert!(spikes.get("predicted_v").is_none());

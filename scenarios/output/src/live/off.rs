@@ -48,11 +48,7 @@ impl Live {
     ///
     /// # Errors
     /// As [`Live::start`].
-    pub fn start_in(
-        _session: &LiveSession,
-        options: &LiveOptions,
-        meta: LiveMeta,
-    ) -> Result<Self, LiveError> {
+    pub fn start_in(_session: &LiveSession, options: &LiveOptions, meta: LiveMeta) -> Result<Self, LiveError> {
         Self::start(options, meta)
     }
 
@@ -66,12 +62,7 @@ impl Live {
     ///
     /// # Errors
     /// None.
-    pub fn controller(
-        &self,
-        _robot: &str,
-        _times: [Duration; 2],
-        _going: Going,
-    ) -> Result<LiveController, LiveError> {
+    pub fn controller(&self, _robot: &str, _times: [Duration; 2], _going: Going) -> Result<LiveController, LiveError> {
         Ok(LiveController)
     }
 
@@ -134,9 +125,7 @@ impl Listener {
     /// # Errors
     /// Always.
     pub fn open(_options: &ListenOptions) -> Result<Self, LiveError> {
-        Err(LiveError::Open {
-            why: "built without the feature `live`".to_owned(),
-        })
+        Err(LiveError::Open { why: "built without the feature `live`".to_owned() })
     }
 
     /// Nowhere.

@@ -57,9 +57,7 @@ impl LiveOptions {
     pub fn check(&self) -> Result<(), LiveError> {
         let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         if self.run_id.is_empty() || !self.run_id.chars().all(fits) {
-            return Err(LiveError::RunId {
-                id: self.run_id.clone(),
-            });
+            return Err(LiveError::RunId { id: self.run_id.clone() });
         }
         Ok(())
     }
@@ -115,10 +113,7 @@ mod tests {
     fn ids_that_do_not_fit_are_refused() {
         for id in ["", "Duck", "a/b", "a*", "@live"] {
             let error = LiveOptions::new(id.to_owned()).check().unwrap_err();
-            assert_eq!(
-                error.to_string(),
-                format!("run id `{id}` must be of a-z, 0-9 and _ only, and not empty")
-            );
+            assert_eq!(error.to_string(), format!("run id `{id}` must be of a-z, 0-9 and _ only, and not empty"));
         }
     }
 }

@@ -1,8 +1,5 @@
 //! The control plane of a run: pause, go on, step, speed, stop. It sets the pace of a run and never its result.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "pace is for people; it does not enter the run"
-)]
+#![allow(clippy::disallowed_methods, reason = "pace is for people; it does not enter the run")]
 
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -25,10 +22,7 @@ pub(super) const COMMANDS: [(&str, &str); 6] = [
         "lets the run go on for `s` seconds of simulated time, or one step without it, and holds it then; it answers \
          when that is done, and several are done one after the other",
     ),
-    (
-        "speed",
-        "sets the pace: `times` simulated seconds in a second, or `max`",
-    ),
+    ("speed", "sets the pace: `times` simulated seconds in a second, or `max`"),
     ("stop", "ends the run; what was recorded stays"),
 ];
 
@@ -81,14 +75,7 @@ impl Plane {
     /// `allowed`, others may only ask how the run stands.
     #[must_use]
     pub fn new(allowed: bool, times: Option<f64>) -> Self {
-        Self {
-            allowed,
-            state: Mutex::new(State {
-                times,
-                ..State::default()
-            }),
-            changed: Condvar::new(),
-        }
+        Self { allowed, state: Mutex::new(State { times, ..State::default() }), changed: Condvar::new() }
     }
 
     /// Whether others may do more than ask how the run stands.
@@ -187,17 +174,9 @@ impl Plane {
         }
     }
 
-    fn obeyed(
-        &self,
-        state: &mut State,
-        name: &str,
-        parameter: Option<&str>,
-    ) -> Result<Value, String> {
+    fn obeyed(&self, state: &mut State, name: &str, parameter: Option<&str>) -> Result<Value, String> {
         if name != "status" && !self.allowed {
-            return Err(
-                "this run was started without --allow-control: it only tells how it stands"
-                    .to_string(),
-            );
+            return Err("this run was started without --allow-control: it only tells how it stands".to_string());
         }
         match name {
             // A run that has ended makes no step.
@@ -236,11 +215,7 @@ impl Plane {
 impl State {
     /// Asks for a step, which begins when those before it are done.
     fn ask(&mut self, s: Option<f64>, answer: Answer) {
-        self.asked.push_back(Step {
-            s,
-            until_s: None,
-            answer,
-        });
+        self.asked.push_back(Step { s, until_s: None, answer });
         if self.asked.len() == 1 {
             self.begin();
         }
@@ -257,10 +232,7 @@ impl State {
     /// Who waits for the step that is done now, if one is.
     fn step_done(&mut self) -> Option<Answer> {
         let step = self.asked.front()?;
-        if step
-            .until_s
-            .is_some_and(|until_s| self.t_s < until_s - SAME_S)
-        {
+        if step.until_s.is_some_and(|until_s| self.t_s < until_s - SAME_S) {
             return None;
         }
         let done = self.asked.pop_front()?;
@@ -274,8 +246,7 @@ impl State {
         let now = Instant::now();
         let (since, from_s) = *self.since.get_or_insert((now, t_s));
         let due = Duration::try_from_secs_f64((t_s - from_s) / times).unwrap_or(Duration::MAX);
-        due.checked_sub(now - since)
-            .filter(|early| !early.is_zero())
+        due.checked_sub(now - since).filter(|early| !early.is_zero())
     }
 }
 

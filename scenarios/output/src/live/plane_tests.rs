@@ -93,13 +93,7 @@ fn steps_are_made_one_after_the_other_and_each_answers_with_its_time() {
         assert!(plane.hold(f64::from(t_s), going));
     }
     let times = |all: &[Receiver<Result<Value, String>>]| -> Vec<_> {
-        (all.iter())
-            .map(|told| {
-                told.try_recv()
-                    .ok()
-                    .map(|told| told.unwrap()["t_s"].as_f64())
-            })
-            .collect()
+        (all.iter()).map(|told| told.try_recv().ok().map(|told| told.unwrap()["t_s"].as_f64())).collect()
     };
     assert_eq!(times(&all), [Some(Some(2.0)), Some(Some(3.0)), None]);
     // The run is held after the last one only, and whoever would end it ends that.

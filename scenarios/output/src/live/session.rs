@@ -80,11 +80,7 @@ impl Live {
     ///
     /// # Errors
     /// As [`Live::start`].
-    pub fn start_in(
-        session: &LiveSession,
-        options: &LiveOptions,
-        meta: LiveMeta,
-    ) -> Result<Self, LiveError> {
+    pub fn start_in(session: &LiveSession, options: &LiveOptions, meta: LiveMeta) -> Result<Self, LiveError> {
         match session.0.upgrade() {
             Some(open) => {
                 options.check()?;
@@ -122,11 +118,8 @@ impl Live {
             .name("live".to_owned())
             .spawn(thread)
             .map_err(|e| LiveError::Open { why: e.to_string() })?;
-        let (endpoint, session, told) = is_up.recv().unwrap_or_else(|_| {
-            Err(LiveError::Open {
-                why: "its thread broke off".to_owned(),
-            })
-        })?;
+        let (endpoint, session, told) =
+            is_up.recv().unwrap_or_else(|_| Err(LiveError::Open { why: "its thread broke off".to_owned() }))?;
         Ok(Self {
             mailbox,
             gone,
@@ -150,15 +143,10 @@ impl Live {
         [deadline, patience]: [Duration; 2],
         going: Going,
     ) -> Result<LiveController, LiveError> {
-        let open = self.session.0.upgrade().ok_or_else(|| LiveError::Open {
-            why: "it is closed".to_owned(),
-        })?;
+        let open = self.session.0.upgrade().ok_or_else(|| LiveError::Open { why: "it is closed".to_owned() })?;
         let key = format!("rheotaxis/{}/ask/{}", self.run_id, chunk(robot));
-        let ros = (self.ros_domain)
-            .map(|domain| RosCommands::listen(open.session(), domain, &ros_name(robot)));
-        let ros = ros
-            .transpose()
-            .map_err(|e| LiveError::Open { why: plain(&e) })?;
+        let ros = (self.ros_domain).map(|domain| RosCommands::listen(open.session(), domain, &ros_name(robot)));
+        let ros = ros.transpose().map_err(|e| LiveError::Open { why: plain(&e) })?;
         LiveController::new(open, key, [deadline, patience], going, ros)
     }
 
@@ -223,10 +211,7 @@ impl Live {
         const STEP: Duration = Duration::from_millis(50);
         let mut left = time;
         // The thread sends nothing before it is told to close, so waiting for it is a pause.
-        while !left.is_zero()
-            && !stop()
-            && self.gone.recv_timeout(left.min(STEP)) == Err(RecvTimeoutError::Timeout)
-        {
+        while !left.is_zero() && !stop() && self.gone.recv_timeout(left.min(STEP)) == Err(RecvTimeoutError::Timeout) {
             left = left.saturating_sub(STEP);
         }
     }
@@ -269,11 +254,7 @@ fn publish(
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }
         Ok((mut tree, mut ros)) => {
-            let _nobody_waits = up.send(Ok((
-                endpoint(&session.0),
-                LiveSession(Arc::downgrade(&session)),
-                told,
-            )));
+            let _nobody_waits = up.send(Ok((endpoint(&session.0), LiveSession(Arc::downgrade(&session)), told)));
             serve(&mut tree, &mut ros, mailbox, options.plume_period);
         }
     }
@@ -295,14 +276,9 @@ fn serve(tree: &mut Tree<'_>, ros: &mut Option<Door<'_>>, mailbox: &Mailbox, map
                 newest = Some(frame);
             }
             Work::Rest(rest) => say_rest(tree, ros, &rest),
-            Work::End {
-                frame,
-                rest,
-                digest,
-            } => {
+            Work::End { frame, rest, digest } => {
                 // The last map may have been held back when its state was sent.
-                for message in (frame.as_ref().or(newest.as_ref()))
-                    .map_or_else(Vec::new, |frame| maps.due(frame, true))
+                for message in (frame.as_ref().or(newest.as_ref())).map_or_else(Vec::new, |frame| maps.due(frame, true))
                 {
                     drop(tree.say(message));
                 }

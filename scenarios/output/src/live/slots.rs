@@ -19,10 +19,7 @@ pub(super) struct Newest<T> {
 
 impl<T> Default for Newest<T> {
     fn default() -> Self {
-        Self {
-            waiting: BTreeMap::new(),
-            taken: BTreeMap::new(),
-        }
+        Self { waiting: BTreeMap::new(), taken: BTreeMap::new() }
     }
 }
 

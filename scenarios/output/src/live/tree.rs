@@ -28,11 +28,7 @@ pub(super) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     /// Declares the run. A subscriber that sees the token can already ask for all of `meta`.
-    pub(super) fn grow(
-        session: &'a Session,
-        options: &LiveOptions,
-        meta: Vec<Message>,
-    ) -> Result<Self> {
+    pub(super) fn grow(session: &'a Session, options: &LiveOptions, meta: Vec<Message>) -> Result<Self> {
         let base = format!("rheotaxis/{}", options.run_id);
         let kept = Kept::default();
         let asked = session
@@ -51,18 +47,8 @@ impl<'a> Tree<'a> {
         for message in meta {
             publishers.push(keep_published(session, &base, &kept, message)?);
         }
-        let alive = session
-            .liveliness()
-            .declare_token(format!("{base}/@live/sim"))
-            .wait()?;
-        Ok(Self {
-            session,
-            base,
-            kept,
-            meta: publishers,
-            _asked: asked,
-            _alive: alive,
-        })
+        let alive = session.liveliness().declare_token(format!("{base}/@live/sim")).wait()?;
+        Ok(Self { session, base, kept, meta: publishers, _asked: asked, _alive: alive })
     }
 
     /// Sends and keeps a message. If it does not fit into a subscriber's queue at once, that subscriber loses it.
@@ -91,18 +77,11 @@ impl<'a> Tree<'a> {
 
 /// Before it is sent: who subscribes in between, and then asks for what was said, hears it at least once.
 fn keep(kept: &Kept, key: OwnedKeyExpr, message: Message) {
-    kept.lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .insert(message.key.clone(), (key, message));
+    kept.lock().unwrap_or_else(PoisonError::into_inner).insert(message.key.clone(), (key, message));
 }
 
 /// Publishes once with a cache of one, which advanced subscribers find whenever they come.
-fn keep_published(
-    session: &Session,
-    base: &str,
-    kept: &Kept,
-    message: Message,
-) -> Result<AdvancedPublisher<'static>> {
+fn keep_published(session: &Session, base: &str, kept: &Kept, message: Message) -> Result<AdvancedPublisher<'static>> {
     let key = OwnedKeyExpr::new(format!("{base}/{}", message.key))?;
     let publisher = session
         .declare_publisher(key.clone())
@@ -130,11 +109,8 @@ fn answer(kept: &Kept, query: &Query) {
     for (key, message) in answers {
         let encoding = encoding(&message);
         // It is no failure if the one who asked has gone away.
-        let _gone = query
-            .reply(KeyExpr::from(key), message.payload)
-            .encoding(encoding)
-            .attachment(message.attachment)
-            .wait();
+        let _gone =
+            query.reply(KeyExpr::from(key), message.payload).encoding(encoding).attachment(message.attachment).wait();
     }
 }
 
@@ -149,17 +125,11 @@ fn command(own: &keyexpr, asked: &keyexpr) -> Option<(String, OwnedKeyExpr)> {
 
 /// Does a command of the control plane, which answers the query: at once, or when it is done.
 fn obey(plane: &Plane, command: &str, key: OwnedKeyExpr, query: Query) {
-    let parameter = ["s", "times"]
-        .iter()
-        .find_map(|name| query.parameters().get(*name))
-        .map(str::to_owned);
+    let parameter = ["s", "times"].iter().find_map(|name| query.parameters().get(*name)).map(str::to_owned);
     plane.command(command, parameter.as_deref(), move |told| {
         // It is no failure if the one who asked has gone away.
         let _gone = match told {
-            Ok(told) => query
-                .reply(KeyExpr::from(key), told.to_string())
-                .encoding(Encoding::APPLICATION_JSON)
-                .wait(),
+            Ok(told) => query.reply(KeyExpr::from(key), told.to_string()).encoding(Encoding::APPLICATION_JSON).wait(),
             Err(why) => query.reply_err(why).wait(),
         };
     });
@@ -190,12 +160,7 @@ mod tests {
         for asked in ["rheotaxis/run_1", "rheotaxis/*", "rheotaxis/**", "**"] {
             assert_eq!(of(&format!("{asked}/rpc/step")).as_deref(), Some("step"));
         }
-        for asked in [
-            "rheotaxis/run_2/rpc/step",
-            "rheotaxis/run_1/**",
-            "rheotaxis/run_1/*/step",
-            "**",
-        ] {
+        for asked in ["rheotaxis/run_2/rpc/step", "rheotaxis/run_1/**", "rheotaxis/run_1/*/step", "**"] {
             assert_eq!(of(asked), None, "{asked}");
         }
     }

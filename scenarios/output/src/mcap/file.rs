@@ -77,26 +77,15 @@ impl McapFile {
     /// # Errors
     /// If the file cannot be made or written, or if `path` exists and is not a regular file.
     pub fn create(path: &Path, library: &str) -> Result<Self, RecordError> {
-        let file = Output::create_kept(path).map_err(|e| RecordError::Create {
-            path: e.path,
-            source: e.source,
-        })?;
+        let file = Output::create_kept(path).map_err(|e| RecordError::Create { path: e.path, source: e.source })?;
         let temporary = file.temporary().to_owned();
         let writer = WriteOptions::new()
             .profile("ros2")
             .library(library)
             .compression(Some(Compression::Lz4))
             .create(BufWriter::new(file))
-            .map_err(|source| RecordError::Write {
-                path: temporary.clone(),
-                source,
-            })?;
-        Ok(Self {
-            writer,
-            temporary,
-            channels: BTreeMap::new(),
-            flushed_ns: 0,
-        })
+            .map_err(|source| RecordError::Write { path: temporary.clone(), source })?;
+        Ok(Self { writer, temporary, channels: BTreeMap::new(), flushed_ns: 0 })
     }
 
     /// The temporary path, until the file is complete.
@@ -107,23 +96,14 @@ impl McapFile {
 
     fn failed(&self) -> impl Fn(McapError) -> RecordError + use<> {
         let path = self.temporary.clone();
-        move |source| RecordError::Write {
-            path: path.clone(),
-            source,
-        }
+        move |source| RecordError::Write { path: path.clone(), source }
     }
 
     /// Writes one CDR message at a simulated time; a topic keeps its first message type.
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn write(
-        &mut self,
-        topic: &str,
-        kind: MessageKind,
-        t_ns: u64,
-        cdr: &[u8],
-    ) -> Result<(), RecordError> {
+    pub fn write(&mut self, topic: &str, kind: MessageKind, t_ns: u64, cdr: &[u8]) -> Result<(), RecordError> {
         let form = |file: &mut Self| {
             let schema = kind.schema();
             file.add_channel(topic, kind.name(), ["ros2msg", "cdr"], schema.as_bytes())
@@ -159,12 +139,8 @@ impl McapFile {
         schema: &[u8],
     ) -> Result<(), RecordError> {
         let failed = self.failed();
-        let schema = (self.writer)
-            .add_schema(schema_name, schema_encoding, schema)
-            .map_err(&failed)?;
-        let id = (self.writer)
-            .add_channel(schema, topic, encoding, &BTreeMap::new())
-            .map_err(&failed)?;
+        let schema = (self.writer).add_schema(schema_name, schema_encoding, schema).map_err(&failed)?;
+        let id = (self.writer).add_channel(schema, topic, encoding, &BTreeMap::new()).map_err(&failed)?;
         let channel = Channel { id, sequence: 0 };
         self.channels.insert(topic.to_owned(), channel);
         Ok(())
@@ -185,20 +161,11 @@ impl McapFile {
         if !self.channels.contains_key(topic) {
             add(self)?;
         }
-        let channel = self
-            .channels
-            .get_mut(topic)
-            .expect("the channel was added just above");
-        let header = MessageHeader {
-            channel_id: channel.id,
-            sequence: channel.sequence,
-            log_time: t_ns,
-            publish_time: t_ns,
-        };
+        let channel = self.channels.get_mut(topic).expect("the channel was added just above");
+        let header =
+            MessageHeader { channel_id: channel.id, sequence: channel.sequence, log_time: t_ns, publish_time: t_ns };
         channel.sequence = channel.sequence.wrapping_add(1);
-        self.writer
-            .write_to_known_channel(&header, data)
-            .map_err(&failed)
+        self.writer.write_to_known_channel(&header, data).map_err(&failed)
     }
 
     /// Adds a named table of texts.
@@ -208,10 +175,7 @@ impl McapFile {
     pub fn metadata(&mut self, name: &str, entries: &[(&str, &str)]) -> Result<(), RecordError> {
         let metadata = Metadata {
             name: name.to_owned(),
-            metadata: entries
-                .iter()
-                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
-                .collect(),
+            metadata: entries.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect(),
         };
         let failed = self.failed();
         self.writer.write_metadata(&metadata).map_err(failed)
@@ -242,11 +206,7 @@ impl McapFile {
         self.writer.finish().map_err(&failed)?;
         let file = self.writer.into_inner();
         let file = (file.into_inner()).map_err(|e| failed(McapError::Io(e.into_error())))?;
-        file.finish().map_err(|e| RecordError::Rename {
-            from: self.temporary,
-            to: e.path,
-            source: e.source,
-        })
+        file.finish().map_err(|e| RecordError::Rename { from: self.temporary, to: e.path, source: e.source })
     }
 }
 
@@ -274,8 +234,7 @@ mod tests {
         for k in 0..3u64 {
             let t = k * FLUSH_NS;
             f.write("/clock", MessageKind::Clock, t, &clock(t)).unwrap();
-            f.write("/a/chemical", MessageKind::Float64, t, &float64(0.5))
-                .unwrap();
+            f.write("/a/chemical", MessageKind::Float64, t, &float64(0.5)).unwrap();
         }
         assert!(!path.exists());
         let temporary = f.temporary().to_owned();
@@ -294,28 +253,19 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("run.mcap");
         let mut f = McapFile::create(&path, "test").unwrap();
-        let (schema, value) = (
-            serde_json::json!({"type": "object"}),
-            serde_json::json!({"m": 2}),
-        );
+        let (schema, value) = (serde_json::json!({"type": "object"}), serde_json::json!({"m": 2}));
         for t in [0, 1] {
-            f.write_json("/own/depth", "depth", || schema.clone(), t, &value)
-                .unwrap();
+            f.write_json("/own/depth", "depth", || schema.clone(), t, &value).unwrap();
         }
         f.finish().unwrap();
         let bytes = fs::read(&path).unwrap();
-        let messages: Vec<_> = (::mcap::MessageStream::new(&bytes).unwrap())
-            .map(Result::unwrap)
-            .collect();
+        let messages: Vec<_> = (::mcap::MessageStream::new(&bytes).unwrap()).map(Result::unwrap).collect();
         assert_eq!(messages.len(), 2);
         let (channel, schema) = (&messages[1].channel, messages[1].channel.schema.as_ref());
         let schema = schema.unwrap();
         let said = (channel.message_encoding.as_str(), schema.encoding.as_str());
         assert_eq!(said, ("json", "jsonschema"));
-        assert_eq!(
-            (schema.name.as_str(), &*messages[1].data),
-            ("depth", &b"{\"m\":2}"[..])
-        );
+        assert_eq!((schema.name.as_str(), &*messages[1].data), ("depth", &b"{\"m\":2}"[..]));
     }
 
     #[test]

@@ -17,8 +17,7 @@ const LONGEST: u64 = 4 << 30;
 const LONGEST_RECORD: usize = 256 << 20;
 /// How often as long as its file a record can be, unpacked: LZ4 packs a byte into no less than a 255th.
 const MOST_PACKED: usize = 256;
-const DAMAGED: &str =
-    "it is damaged, and what it says cannot be relied on; copy it anew from where it was made";
+const DAMAGED: &str = "it is damaged, and what it says cannot be relied on; copy it anew from where it was made";
 /// Last part of the topics with what searchers outside the program answered.
 pub const CONTROL: &str = "control";
 
@@ -65,14 +64,9 @@ pub enum ReadError {
 /// # Errors
 /// If the file cannot be read, or lacks what a run is made from.
 pub fn read_recording(path: &Path) -> Result<Recorded, ReadError> {
-    let bytes = files::read(path, LONGEST).map_err(|e| ReadError::File {
-        path: path.to_owned(),
-        why: e.to_string(),
-    })?;
-    let content = |why: String| ReadError::Content {
-        path: path.to_owned(),
-        why,
-    };
+    let bytes =
+        files::read(path, LONGEST).map_err(|e| ReadError::File { path: path.to_owned(), why: e.to_string() })?;
+    let content = |why: String| ReadError::Content { path: path.to_owned(), why };
     recorded(&bytes).map_err(content)
 }
 
@@ -128,10 +122,7 @@ struct Reading {
 
 impl Reading {
     fn take(&mut self, opcode: u8, data: &[u8]) -> Result<(), String> {
-        if !matches!(
-            opcode,
-            op::CHANNEL | op::MESSAGE | op::METADATA | op::ATTACHMENT
-        ) {
+        if !matches!(opcode, op::CHANNEL | op::MESSAGE | op::METADATA | op::ATTACHMENT) {
             return Ok(());
         }
         if !is_whole(opcode, data) {
@@ -157,8 +148,8 @@ impl Reading {
                 _ => {}
             },
             Record::Attachment { header, data, .. } if header.name == "scenario.ron" => {
-                run.scenario_text = String::from_utf8(data.into_owned())
-                    .map_err(|_| "its scenario is not UTF-8 text")?;
+                run.scenario_text =
+                    String::from_utf8(data.into_owned()).map_err(|_| "its scenario is not UTF-8 text")?;
             }
             _ => {}
         }
@@ -240,13 +231,11 @@ mod tests {
         let mut f = McapFile::create(&path, "test").unwrap();
         let about = [("seed", "7"), ("scenario", "pond"), ("version", "0.2.0")];
         f.metadata("run", &about).unwrap();
-        f.attach("scenario.ron", "text/plain", b"(version: 2)")
-            .unwrap();
+        f.attach("scenario.ron", "text/plain", b"(version: 2)").unwrap();
         for t in 0..20 {
             f.write("/clock", MessageKind::Clock, t, &clock(t)).unwrap();
         }
-        f.metadata("result", &[("digest", "5eed"), ("steps", "20")])
-            .unwrap();
+        f.metadata("result", &[("digest", "5eed"), ("steps", "20")]).unwrap();
         f.finish().unwrap();
         std::fs::read(path).unwrap()
     }

@@ -17,10 +17,7 @@ pub(super) const FIELDS: [&str; 5] = ["x", "y", "z", "probability", "share_of_la
 /// share of the largest.
 pub(super) fn points(b: &Belief, centre: Vector2<f64>) -> Vec<[f32; 5]> {
     let most = b.p[b.best];
-    let kept =
-        b.p.iter()
-            .enumerate()
-            .filter(|(_, p)| **p >= LEAST_SHARE * most);
+    let kept = b.p.iter().enumerate().filter(|(_, p)| **p >= LEAST_SHARE * most);
     kept.map(|(i, p)| {
         let c = b.grid.centre(i);
         [c.x - centre.x, c.y - centre.y, c.z, *p, p / most].map(|v| v as f32)

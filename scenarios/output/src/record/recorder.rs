@@ -9,8 +9,8 @@ use crate::files::ReportError;
 use crate::mcap::{CONTROL, McapFile, RecordError};
 use crate::results::RunInfo;
 use crate::ros::{
-    MessageKind, Odometry, Transform, clock, echo_cloud, float64, nanoseconds, point_cloud,
-    pose_stamped, text, transforms, vector3_stamped,
+    MessageKind, Odometry, Transform, clock, echo_cloud, float64, nanoseconds, point_cloud, pose_stamped, text,
+    transforms, vector3_stamped,
 };
 use crate::scene::Scene;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -46,24 +46,12 @@ pub struct Recorder {
 /// Meaning of the numbers of `/plume`; the schema has only their names.
 const PLUME: [(&str, &str); 7] = [
     ("topic", "/plume"),
-    (
-        "x, y, z",
-        "middle of a filament, east and north of the centre of the area (frame world/area), up, m",
-    ),
+    ("x, y, z", "middle of a filament, east and north of the centre of the area (frame world/area), up, m"),
     ("size", "its horizontal size, m"),
-    (
-        "mass",
-        "mass of all filaments that it stands for, kg: the masses of a message sum to what is in the water",
-    ),
+    ("mass", "mass of all filaments that it stands for, kg: the masses of a message sum to what is in the water"),
     ("concentration", "at its own middle, of it alone, kg/m3"),
-    (
-        "stands_for",
-        "how many filaments it stands for; its own mass is mass / stands_for",
-    ),
-    (
-        "shown",
-        "at most record.plume_points of the scenario, every k-th of each source",
-    ),
+    ("stands_for", "how many filaments it stands for; its own mass is mass / stands_for"),
+    ("shown", "at most record.plume_points of the scenario, every k-th of each source"),
 ];
 
 /// Default time between two recorded maps, s.
@@ -137,8 +125,7 @@ impl Recorder {
     pub fn consulted(&mut self, told: &Consultation) -> Result<(), ReportError> {
         let (t, said) = (nanoseconds(told.t_s), consultation_json(told).to_string());
         let topic = format!("/{}/{CONTROL}", told.robot);
-        self.file
-            .write(&topic, MessageKind::Text, t, &text(&said))?;
+        self.file.write(&topic, MessageKind::Text, t, &text(&said))?;
         Ok(())
     }
 
@@ -148,8 +135,7 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn frame(&mut self, frame: &Frame) -> Result<(), ReportError> {
         let t = nanoseconds(frame.t_s);
-        self.file
-            .write("/clock", MessageKind::Clock, t, &clock(t))?;
+        self.file.write("/clock", MessageKind::Clock, t, &clock(t))?;
         self.behaviours.resize(frame.robots.len(), "");
         self.declared.resize(frame.robots.len(), Vec::new());
         self.regions.resize(frame.robots.len(), None);
@@ -158,8 +144,7 @@ impl Recorder {
             self.robot(t, k, robot)?;
             self.map(frame.t_s, robot)?;
         }
-        self.gantries
-            .resize_with(frame.gantries.len(), GantryRecorder::default);
+        self.gantries.resize_with(frame.gantries.len(), GantryRecorder::default);
         for (known, gantry) in self.gantries.iter_mut().zip(&frame.gantries) {
             known.record(&mut self.file, t, gantry)?;
         }
@@ -207,9 +192,7 @@ impl Recorder {
             angular: e.attitude.rates_rad_s,
         };
         let file = &mut self.file;
-        let mut put = |name: &str, kind: MessageKind, cdr: &[u8]| {
-            file.write(&format!("/{id}/{name}"), kind, t, cdr)
-        };
+        let mut put = |name: &str, kind: MessageKind, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
         put("truth", MessageKind::Odometry, &truth.cdr())?;
         put("estimate", MessageKind::Odometry, &estimate.cdr())?;
         put("altitude", MessageKind::Float64, &float64(r.altitude_m))?;
@@ -222,18 +205,10 @@ impl Recorder {
         }
         if let Some(flow) = e.flow {
             let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
-            put(
-                "flow",
-                MessageKind::Vector3Stamped,
-                &vector3_stamped(t, WORLD, &v),
-            )?;
+            put("flow", MessageKind::Vector3Stamped, &vector3_stamped(t, WORLD, &v))?;
         }
         for (name, v) in r.actuators.named() {
-            put(
-                &format!("actuators/{name}"),
-                MessageKind::Float64,
-                &float64(v),
-            )?;
+            put(&format!("actuators/{name}"), MessageKind::Float64, &float64(v))?;
         }
         let asked = match r.command {
             Some(Command::Steer(s)) => Some((s.heading, s.water_speed_m_s, None)),
@@ -244,17 +219,9 @@ impl Recorder {
             Some(Command::Direct(_) | Command::Drives(_)) | None => None,
         };
         if let Some((heading, speed_m_s, over_ground)) = asked {
-            put(
-                "command/heading_rad",
-                MessageKind::Float64,
-                &float64(heading.rad()),
-            )?;
+            put("command/heading_rad", MessageKind::Float64, &float64(heading.rad()))?;
             match over_ground {
-                None => put(
-                    "command/water_speed_m_s",
-                    MessageKind::Float64,
-                    &float64(speed_m_s),
-                )?,
+                None => put("command/water_speed_m_s", MessageKind::Float64, &float64(speed_m_s))?,
                 Some(v) => {
                     put("command/east_m_s", MessageKind::Float64, &float64(v.x))?;
                     put("command/north_m_s", MessageKind::Float64, &float64(v.y))?;
@@ -341,19 +308,8 @@ impl Recorder {
 }
 
 /// A frame's pose in the world.
-pub(super) fn in_world(
-    t_ns: u64,
-    child: String,
-    position: Vector3<f64>,
-    attitude: UnitQuaternion<f64>,
-) -> Transform {
-    Transform {
-        t_ns,
-        parent: WORLD.to_owned(),
-        child,
-        position,
-        attitude,
-    }
+pub(super) fn in_world(t_ns: u64, child: String, position: Vector3<f64>, attitude: UnitQuaternion<f64>) -> Transform {
+    Transform { t_ns, parent: WORLD.to_owned(), child, position, attitude }
 }
 
 fn believed_frame(id: &str) -> String {
@@ -362,9 +318,7 @@ fn believed_frame(id: &str) -> String {
 
 /// `find suppressed, maintain holds, ...`, the lowest layer first.
 fn layers_line(layers: &[Layer]) -> String {
-    let words: Vec<String> = (layers.iter())
-        .map(|l| format!("{} {}", l.name, l.state.name()))
-        .collect();
+    let words: Vec<String> = (layers.iter()).map(|l| format!("{} {}", l.name, l.state.name())).collect();
     words.join(", ")
 }
 

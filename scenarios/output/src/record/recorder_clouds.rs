@@ -5,8 +5,7 @@ use super::recorder::AREA;
 use crate::files::ReportError;
 use crate::results::Echoes;
 use crate::ros::{
-    MessageKind, Transform, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms,
-    water_cloud,
+    MessageKind, Transform, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud,
 };
 use rheotaxis::frame::{PictureFrame, PlumeFrame, WaterFrame};
 use robots::survey::Row;
@@ -18,8 +17,7 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn water(&mut self, water: &WaterFrame) -> Result<(), ReportError> {
         let (t, cloud) = (nanoseconds(water.t_s), water_cloud(water, AREA));
-        self.file
-            .write("/water", MessageKind::PointCloud2, t, &cloud)?;
+        self.file.write("/water", MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
     }
 
@@ -29,8 +27,7 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
         let (t, cloud) = (nanoseconds(plume.t_s), plume_cloud(plume, AREA));
-        self.file
-            .write("/plume", MessageKind::PointCloud2, t, &cloud)?;
+        self.file.write("/plume", MessageKind::PointCloud2, t, &cloud)?;
         self.ways.whole(&mut self.file, t)?;
         Ok(())
     }
@@ -54,8 +51,7 @@ impl Recorder {
         }
         let cloud = point_cloud(t, AREA, ["x", "y", "z", "level"], &rows);
         let topic = format!("/{robot}/sidescan");
-        self.file
-            .write(&topic, MessageKind::PointCloud2, t, &cloud)?;
+        self.file.write(&topic, MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
     }
 
@@ -66,19 +62,13 @@ impl Recorder {
     pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
         let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
         let (camera, optical) = (format!("{id}/camera"), format!("{id}/camera_optical"));
-        let mount = Transform {
-            t_ns: t,
-            parent: id.clone(),
-            child: optical.clone(),
-            position: p.p_BC,
-            attitude: p.R_BC,
-        };
+        let mount =
+            Transform { t_ns: t, parent: id.clone(), child: optical.clone(), position: p.p_BC, attitude: p.R_BC };
         let mount = transforms(&[mount]);
         self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
         let image = compressed_image(t, &optical, "png", png);
         let topic = format!("/{camera}/compressed");
-        self.file
-            .write(&topic, MessageKind::CompressedImage, t, &image)?;
+        self.file.write(&topic, MessageKind::CompressedImage, t, &image)?;
         Ok(())
     }
 }

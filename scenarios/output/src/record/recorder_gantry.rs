@@ -2,9 +2,7 @@
 
 use super::recorder::{WORLD, in_world, on_plane};
 use crate::mcap::{McapFile, RecordError};
-use crate::ros::{
-    MessageKind, Transform, float64, joint_state, joints, nanoseconds, pose_stamped, text,
-};
+use crate::ros::{MessageKind, Transform, float64, joint_state, joints, nanoseconds, pose_stamped, text};
 use nalgebra::UnitQuaternion;
 use rheotaxis::gantry::GantryFrame;
 use world::math;
@@ -20,16 +18,10 @@ pub(super) struct GantryRecorder {
 impl GantryRecorder {
     /// Records one frame under `/<id>/`: `joint_states`; `probes/<n>`, `thresholds/<n>` (V) and `spikes/<n>` (0 or 1)
     /// in the order of the URDF, one message for each scan; `spike_hz`, `behaviour`, `declaration`.
-    pub(super) fn record(
-        &mut self,
-        file: &mut McapFile,
-        t: u64,
-        g: &GantryFrame,
-    ) -> Result<(), RecordError> {
+    pub(super) fn record(&mut self, file: &mut McapFile, t: u64, g: &GantryFrame) -> Result<(), RecordError> {
         let id = &g.id;
-        let mut put = |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| {
-            file.write(&format!("/{id}/{name}"), kind, t, cdr)
-        };
+        let mut put =
+            |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
         let joints = joint_state(t, WORLD, &joints(g));
         put("joint_states", MessageKind::JointState, t, &joints)?;
         let w = &g.decision.working;
@@ -38,17 +30,8 @@ impl GantryRecorder {
             let at = nanoseconds(scan.t_s);
             for (n, volts) in scan.volts[..scan.count].iter().enumerate() {
                 let spike = f64::from(u8::from(w.spike[n]));
-                for (name, v) in [
-                    ("probes", *volts),
-                    ("thresholds", w.threshold_v[n]),
-                    ("spikes", spike),
-                ] {
-                    put(
-                        &format!("{name}/{n}"),
-                        MessageKind::Float64,
-                        at,
-                        &float64(v),
-                    )?;
+                for (name, v) in [("probes", *volts), ("thresholds", w.threshold_v[n]), ("spikes", spike)] {
+                    put(&format!("{name}/{n}"), MessageKind::Float64, at, &float64(v))?;
                 }
             }
             put("spike_hz", MessageKind::Float64, at, &float64(w.spike_hz))?;
@@ -72,7 +55,6 @@ impl GantryRecorder {
 /// Frames of its head and of its probes' tips, all in the direction of the gantry.
 pub(super) fn frames_of(t: u64, g: &GantryFrame) -> impl Iterator<Item = Transform> {
     let facing = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
-    let tips = (g.tips_W.iter().enumerate())
-        .map(move |(n, p)| in_world(t, format!("{}/probe_{n}", g.id), *p, facing));
+    let tips = (g.tips_W.iter().enumerate()).map(move |(n, p)| in_world(t, format!("{}/probe_{n}", g.id), *p, facing));
     std::iter::once(in_world(t, format!("{}/head", g.id), g.head_W, facing)).chain(tips)
 }

@@ -31,27 +31,16 @@ struct Told {
 
 impl LogRecorder {
     /// Tells what is new in a frame.
-    pub(super) fn frame(
-        &mut self,
-        file: &mut McapFile,
-        t_ns: u64,
-        frame: &Frame,
-    ) -> Result<(), RecordError> {
+    pub(super) fn frame(&mut self, file: &mut McapFile, t_ns: u64, frame: &Frame) -> Result<(), RecordError> {
         let mut lines: Vec<(LogLevel, &str, String)> = Vec::new();
         for r in &frame.robots {
             let told = self.told.entry(r.id.clone()).or_default();
             let new = told.robot(frame.t_s, r);
-            lines.extend(
-                new.into_iter()
-                    .map(|line| (LogLevel::Info, r.id.as_str(), line)),
-            );
+            lines.extend(new.into_iter().map(|line| (LogLevel::Info, r.id.as_str(), line)));
         }
         for g in &frame.gantries {
             let told = self.told.entry(g.id.clone()).or_default();
-            lines.extend(
-                told.gantry(g)
-                    .map(|(level, line)| (level, g.id.as_str(), line)),
-            );
+            lines.extend(told.gantry(g).map(|(level, line)| (level, g.id.as_str(), line)));
         }
         for a in frame.abnormal.iter().skip(self.abnormal) {
             lines.push((LogLevel::Warn, &a.robot, a.words()));
@@ -140,9 +129,7 @@ mod tests {
     #[test]
     fn a_mission_is_told_in_its_order() {
         let mut told = Told::default();
-        let lines: Vec<String> = (frames(100).iter())
-            .flat_map(|f| told.robot(f.t_s, &f.robots[0]))
-            .collect();
+        let lines: Vec<String> = (frames(100).iter()).flat_map(|f| told.robot(f.t_s, &f.robots[0])).collect();
         let find = |beginning: &str| {
             let found = lines.iter().position(|l| l.starts_with(beginning));
             found.unwrap_or_else(|| panic!("{beginning}: {lines:#?}"))
@@ -168,10 +155,7 @@ mod tests {
         let mut told = Told::default();
         let mut d = Declaration::first(1.0, Vector2::new(2.0, 3.0), "along_flow");
         let first = told.declares(&d);
-        assert_eq!(
-            first.as_deref(),
-            Some("declares source 1 at east 2.0 m, north 3.0 m, by along_flow")
-        );
+        assert_eq!(first.as_deref(), Some("declares source 1 at east 2.0 m, north 3.0 m, by along_flow"));
         assert_eq!(told.declares(&d), None);
         d.verdict = Verdict::Verified;
         assert_eq!(told.declares(&d).as_deref(), Some("source 1: verified"));

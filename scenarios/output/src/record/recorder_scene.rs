@@ -32,11 +32,7 @@ pub(super) struct SceneRecorder {
 
 impl SceneRecorder {
     /// Records what does not move.
-    pub(super) fn begin(
-        scene: &Arc<Scene>,
-        file: &mut McapFile,
-        seed: u64,
-    ) -> Result<Self, RecordError> {
+    pub(super) fn begin(scene: &Arc<Scene>, file: &mut McapFile, seed: u64) -> Result<Self, RecordError> {
         let document = scene.document(seed);
         file.attach("scene.json", "application/json", document.as_bytes())?;
         let surfaces = marker_array(0, WORLD, &scene.markers());
@@ -47,10 +43,7 @@ impl SceneRecorder {
             let moved = moved(machine, &names);
             if machine.base.is_none() {
                 // The frame of a robot is that of its body.
-                let here = Pose {
-                    p_WB: Vector3::zeros(),
-                    R_WB: UnitQuaternion::identity(),
-                };
+                let here = Pose { p_WB: Vector3::zeros(), R_WB: UnitQuaternion::identity() };
                 still.push(transform(0, &machine.id, names.frame(BODY), &here));
             }
             let fixed = fixed(machine, &names).into_iter();
@@ -61,11 +54,7 @@ impl SceneRecorder {
         }
         let still = transforms(&still);
         file.write("/tf_static", MessageKind::TfMessage, 0, &still)?;
-        Ok(Self {
-            scene: Arc::clone(scene),
-            turns: BTreeMap::new(),
-            last_ns: None,
-        })
+        Ok(Self { scene: Arc::clone(scene), turns: BTreeMap::new(), last_ns: None })
     }
 
     /// Centre of the area (east, north), m.
@@ -83,9 +72,7 @@ impl SceneRecorder {
                 continue;
             };
             let names = names(machine);
-            let links: BTreeSet<String> = (machine.description.links.iter())
-                .map(|l| names.frame(&l.name))
-                .collect();
+            let links: BTreeSet<String> = (machine.description.links.iter()).map(|l| names.frame(&l.name)).collect();
             tf.retain(|t| !links.contains(&t.child));
             let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
             tf.extend(slid(t_ns, machine, &names, &positions));
@@ -137,17 +124,13 @@ impl SceneRecorder {
 
 /// Frames in a recording have the machine's id before them.
 fn names(machine: &Machine) -> Names<'_> {
-    Names {
-        world: WORLD,
-        own: &machine.id,
-    }
+    Names { world: WORLD, own: &machine.id }
 }
 
 /// Frames of the links that drives move.
 fn moved(machine: &Machine, names: &Names) -> BTreeSet<String> {
     let d = &machine.description;
-    let joints = d.joints.iter().filter(|j| {
-        j.kind != JointKind::Fixed && d.moved.iter().any(|moved| moved.joint == j.joint)
-    });
+    let joints =
+        d.joints.iter().filter(|j| j.kind != JointKind::Fixed && d.moved.iter().any(|moved| moved.joint == j.joint));
     joints.map(|j| names.frame(&j.child)).collect()
 }

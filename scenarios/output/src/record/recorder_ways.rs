@@ -41,19 +41,11 @@ impl WayRecorder {
     /// Of a scene.
     pub(super) fn of(scene: &Scene) -> Self {
         let diagonal = |c: &[Vector2<f64>]| Some((c.get(2)? - c.first()?).norm());
-        Self {
-            diagonal_m: diagonal(&scene.corners),
-            ..Self::default()
-        }
+        Self { diagonal_m: diagonal(&scene.corners), ..Self::default() }
     }
 
     /// Notes where all are, and records plans and marks that are new.
-    pub(super) fn frame(
-        &mut self,
-        file: &mut McapFile,
-        t_ns: u64,
-        frame: &Frame,
-    ) -> Result<(), RecordError> {
+    pub(super) fn frame(&mut self, file: &mut McapFile, t_ns: u64, frame: &Frame) -> Result<(), RecordError> {
         for r in &frame.robots {
             let believed = r.estimate.p_WB();
             self.pass(["/", &r.id, "/truth/path"].concat(), r.truth.pose.p_WB);
@@ -87,14 +79,7 @@ impl WayRecorder {
     }
 
     /// The outline of what the declaration rule looked at, closed, at the height of its machine.
-    fn zone(
-        &mut self,
-        file: &mut McapFile,
-        t_ns: u64,
-        id: &str,
-        z: f64,
-        zone: &Arc<Zone>,
-    ) -> Result<(), RecordError> {
+    fn zone(&mut self, file: &mut McapFile, t_ns: u64, id: &str, z: f64, zone: &Arc<Zone>) -> Result<(), RecordError> {
         let topic = ["/", id, "/zone"].concat();
         let known = self.zones.get(&topic);
         if known.map_or(zone.corners.is_empty(), |k| k == zone) {
@@ -137,12 +122,7 @@ impl WayRecorder {
         });
         let diameter_m = self.diagonal_m.map_or(MARK_M, |m| MARK * m);
         let shown: Vec<Balls> = (MARKS.into_iter().zip(&raised))
-            .map(|((name, colour), places)| Balls {
-                name,
-                colour,
-                diameter_m,
-                places,
-            })
+            .map(|((name, colour), places)| Balls { name, colour, diameter_m, places })
             .collect();
         let cdr = balls(t_ns, WORLD, &shown);
         file.write(&topic, MessageKind::MarkerArray, t_ns, &cdr)?;

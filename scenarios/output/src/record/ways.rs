@@ -22,12 +22,7 @@ pub(super) struct Way {
 impl Way {
     /// An empty way with a tolerance, m.
     pub(super) fn new(tolerance_m: f64) -> Self {
-        Self {
-            tolerance_m,
-            corners: Vec::new(),
-            leg: Vec::new(),
-            newest: None,
-        }
+        Self { tolerance_m, corners: Vec::new(), leg: Vec::new(), newest: None }
     }
 
     /// The next place. One that is not a number is left out.

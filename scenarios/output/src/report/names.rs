@@ -35,8 +35,7 @@ pub fn is_result(scenario: &Scenario, name: &str) -> bool {
             _ => &[],
         };
         let id = file_name(id);
-        let is =
-            |kind: &&str| stem.strip_prefix(*kind).and_then(|s| s.strip_prefix('-')) == Some(&id);
+        let is = |kind: &&str| stem.strip_prefix(*kind).and_then(|s| s.strip_prefix('-')) == Some(&id);
         kinds.iter().any(is)
     };
     let picture = |id: &str| {

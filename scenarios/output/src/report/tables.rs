@@ -41,11 +41,7 @@ pub fn tables() -> Vec<TableInfo> {
             pictures::COLUMNS.to_vec(),
         ),
     ];
-    let info = |(file, what, columns)| TableInfo {
-        file,
-        what,
-        columns,
-    };
+    let info = |(file, what, columns)| TableInfo { file, what, columns };
     tables.map(info).into()
 }
 

@@ -2,9 +2,7 @@
 
 use super::write_all;
 use crate::record::Recorder;
-use crate::results::{
-    BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable,
-};
+use crate::results::{BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable};
 use crate::sample::{area, folder, frames, info, plume, robots, scored, source, terrain};
 use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -43,10 +41,7 @@ pub(super) fn told(frames: &[Frame]) -> (Summary, Track) {
         builder.observe(f);
         table.push(f).unwrap();
     }
-    (
-        builder.finish(&end(RunOutcome::Found, frames), &[source()]),
-        table.finish(),
-    )
+    (builder.finish(&end(RunOutcome::Found, frames), &[source()]), table.finish())
 }
 
 #[test]
@@ -103,34 +98,15 @@ fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaratio
     known[0].regions = true;
     let mut table = TrackTable::create(&path, known).unwrap();
     let mut run = frames(20);
-    let half = Area {
-        length_m: 500.0,
-        ..area()
-    };
-    let region = |state| Region {
-        area: half,
-        state,
-        from_s: Some(1.0),
-        until_s: None,
-    };
-    let all: Arc<[Region]> = Arc::new([
-        region(RegionState::SourceFree),
-        region(RegionState::Searching),
-    ]);
+    let half = Area { length_m: 500.0, ..area() };
+    let region = |state| Region { area: half, state, from_s: Some(1.0), until_s: None };
+    let all: Arc<[Region]> = Arc::new([region(RegionState::SourceFree), region(RegionState::Searching)]);
     let mut builder = SummaryBuilder::new(&info());
     for (k, f) in run.iter_mut().enumerate() {
         let r = &mut f.robots[0];
-        r.regions = Regions {
-            all: all.clone(),
-            now: (k > 50).then_some(1),
-        };
+        r.regions = Regions { all: all.clone(), now: (k > 50).then_some(1) };
         if let Some(first) = r.declarations.first().copied() {
-            r.declarations.push(Declaration {
-                number: 1,
-                region: Some(1),
-                verdict: Verdict::Verified,
-                ..first
-            });
+            r.declarations.push(Declaration { number: 1, region: Some(1), verdict: Verdict::Verified, ..first });
         }
         table.push(f).unwrap();
         builder.observe(f);
@@ -163,9 +139,7 @@ fn long_tracks_are_thinned_evenly() {
     let rows = &table.finish().robots[0].rows;
     assert!(rows.len() <= 40_001, "{}", rows.len());
     let step = rows[1].t_s - rows[0].t_s;
-    let even = rows
-        .windows(2)
-        .all(|w| (w[1].t_s - w[0].t_s - step).abs() < 1e-6);
+    let even = rows.windows(2).all(|w| (w[1].t_s - w[0].t_s - step).abs() < 1e-6);
     assert!(even);
 }
 
@@ -314,10 +288,7 @@ fn whole_report_of_a_run() {
 fn runs_in_which_nothing_happened() {
     let nobody = SummaryBuilder::new(&info()).finish(&end(RunOutcome::Failed, &[]), &[]);
     let none = Track::default();
-    assert_eq!(
-        report_of(&nobody, &none, &[], None, &area(), &terrain()).len(),
-        4
-    );
+    assert_eq!(report_of(&nobody, &none, &[], None, &area(), &terrain()).len(), 4);
     // No frames, and a robot known beforehand.
     let track = TrackTable::in_memory(robots()).finish();
     report_of(&nobody, &track, &[], None, &area(), &terrain());
@@ -331,20 +302,8 @@ fn runs_in_which_nothing_happened() {
 #[test]
 fn areas_from_a_flume_to_an_ocean() {
     for (length_m, width_m, depth_m) in [(24.0, 1.07, 0.2), (2e5, 1e5, 4000.0)] {
-        let area = Area {
-            centre: Vector2::zeros(),
-            length_m,
-            width_m,
-            axis: Heading::from_deg(90.0),
-        };
+        let area = Area { centre: Vector2::zeros(), length_m, width_m, axis: Heading::from_deg(90.0) };
         let nobody = SummaryBuilder::new(&info()).finish(&end(RunOutcome::Completed, &[]), &[]);
-        report_of(
-            &nobody,
-            &Track::default(),
-            &[],
-            None,
-            &area,
-            &Terrain::Level { depth_m },
-        );
+        report_of(&nobody, &Track::default(), &[], None, &area, &Terrain::Level { depth_m });
     }
 }

@@ -3,9 +3,7 @@
 use super::write_all;
 use crate::files::ReportError;
 use crate::record::Recorder;
-use crate::results::{
-    GantryInfo, ProbeTables, RunEnd, RunReport, SourceTruth, Summary, SummaryBuilder, Totals, Track,
-};
+use crate::results::{GantryInfo, ProbeTables, RunEnd, RunReport, SourceTruth, Summary, SummaryBuilder, Totals, Track};
 use crate::sample::{folder, info, scored};
 use crate::sample_gantry as sample;
 use nalgebra::{Vector2, Vector3};
@@ -42,20 +40,11 @@ fn gantries() -> Vec<GantryInfo> {
 }
 
 fn source() -> SourceTruth {
-    SourceTruth {
-        id: "nozzle".into(),
-        position: Vector3::new(0.0, 0.0, -0.162),
-        flow: Vector2::new(0.05, 0.0),
-    }
+    SourceTruth { id: "nozzle".into(), position: Vector3::new(0.0, 0.0, -0.162), flow: Vector2::new(0.05, 0.0) }
 }
 
 fn flume() -> Area {
-    Area {
-        centre: Vector2::new(0.85, 0.0),
-        length_m: 2.5,
-        width_m: 1.07,
-        axis: Heading::from_deg(90.0),
-    }
+    Area { centre: Vector2::new(0.85, 0.0), length_m: 2.5, width_m: 1.07, axis: Heading::from_deg(90.0) }
 }
 
 const DT_S: f64 = 0.025;
@@ -79,11 +68,7 @@ fn frames() -> Vec<Frame> {
             let scan = k / 2;
             let mut volts = [-5.0; MAX_PROBES];
             volts[0] += if scan % 10 == 9 { 0.4 } else { 0.02 };
-            g.scan = Some(ProbeScan {
-                t_s: f64::from(scan) * 2.0 * DT_S,
-                volts,
-                count: 1,
-            });
+            g.scan = Some(ProbeScan { t_s: f64::from(scan) * 2.0 * DT_S, volts, count: 1 });
             g.decision.id = match behaviour {
                 GantryBehaviour::Sweep => 1,
                 GantryBehaviour::StepUp => 2 + (t_s - 20.0) as u32 / 3,
@@ -94,10 +79,7 @@ fn frames() -> Vec<Frame> {
             w.spike[0] = scan > 0 && scan % 10 == 0;
             w.spike_hz = 2.0;
             g.decision.stopped = (behaviour == GantryBehaviour::Done).then_some(true);
-            g.declaration = g
-                .decision
-                .stopped
-                .map(|_| Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop"));
+            g.declaration = g.decision.stopped.map(|_| Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop"));
             Frame {
                 t_s,
                 step: u64::from(k),
@@ -148,11 +130,7 @@ fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
     // A spike is known one scan later, and reported once although two rows show that scan.
     let spikes = [18, 19, 20, 21, 22].map(|row| of(row, "probe_left_spike"));
     assert_eq!(spikes, ["0", "0", "1", "0", "0"]);
-    let counted = tables.finish()[0]
-        .rows
-        .iter()
-        .filter(|r| r.spike[0])
-        .count();
+    let counted = tables.finish()[0].rows.iter().filter(|r| r.spike[0]).count();
     assert_eq!(counted, 79);
 }
 
@@ -231,11 +209,7 @@ fn write_into(
     )
 }
 
-fn written(
-    frames: &[Frame],
-    dye: Option<&dyn Concentration>,
-    sources: &[SourceTruth],
-) -> Vec<(String, String)> {
+fn written(frames: &[Frame], dye: Option<&dyn Concentration>, sources: &[SourceTruth]) -> Vec<(String, String)> {
     let dir = tempfile::tempdir().unwrap();
     let files = write_into(dir.path(), frames, dye, sources);
     let text = |path: &PathBuf| {
@@ -244,10 +218,7 @@ fn written(
         assert!(!bytes.is_empty(), "{name}");
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let drawn = name.ends_with(".svg") || name.ends_with(".html");
-        assert!(
-            !drawn || !(text.contains("NaN") || text.contains("inf\"")),
-            "{name}"
-        );
+        assert!(!drawn || !(text.contains("NaN") || text.contains("inf\"")), "{name}");
         (name, text)
     };
     files.unwrap().iter().map(text).collect()
@@ -298,12 +269,7 @@ fn a_figure_that_fails_is_an_error_of_that_figure_alone() {
     assert!(said.starts_with("cannot draw "), "{said}");
     assert!(said.ends_with("flume-crab0.png: no such place"), "{said}");
     let there = |name: &str| dir.path().join(name).is_file();
-    for name in [
-        "summary.json",
-        "probes-crab0.png",
-        "approach-crab0.svg",
-        "report.html",
-    ] {
+    for name in ["summary.json", "probes-crab0.png", "approach-crab0.svg", "report.html"] {
         assert!(there(name), "{name}");
     }
     assert!(!there("flume-crab0.svg") && !there("flume-crab0.png"));
@@ -313,11 +279,7 @@ fn a_figure_that_fails_is_an_error_of_that_figure_alone() {
 fn a_gantry_of_which_little_is_known_breaks_no_figure() {
     let run = frames();
     // Without source or chemical; with one moment; with none at all.
-    assert!(
-        written(&run, None, &[])
-            .iter()
-            .any(|f| f.0 == "flume-crab0.png")
-    );
+    assert!(written(&run, None, &[]).iter().any(|f| f.0 == "flume-crab0.png"));
     written(&run[..1], Some(&Straight), &[source()]);
     let nothing = written(&[], Some(&Straight), &[source()]);
     assert_eq!(nothing.len(), 2, "summary and report");

@@ -12,27 +12,13 @@ use std::sync::Arc;
 /// A mission over two subregions: the first ended at the plume's edge, the second timed out.
 fn over_subregions() -> Vec<Frame> {
     let mut run = frames(20);
-    let region = |state| Region {
-        area: area(),
-        state,
-        from_s: Some(1.0),
-        until_s: Some(9.0),
-    };
-    let all: Arc<[Region]> = Arc::new([
-        region(RegionState::UpFlowEdge),
-        region(RegionState::TimedOut),
-    ]);
-    let edge = Declaration {
-        region: Some(0),
-        ..Declaration::first(9.0, Vector2::new(150.0, 100.0), UP_FLOW_EDGE)
-    };
+    let region = |state| Region { area: area(), state, from_s: Some(1.0), until_s: Some(9.0) };
+    let all: Arc<[Region]> = Arc::new([region(RegionState::UpFlowEdge), region(RegionState::TimedOut)]);
+    let edge = Declaration { region: Some(0), ..Declaration::first(9.0, Vector2::new(150.0, 100.0), UP_FLOW_EDGE) };
     for f in &mut run {
         let r = &mut f.robots[0];
         r.declarations = vec![edge];
-        r.regions = Regions {
-            all: all.clone(),
-            now: None,
-        };
+        r.regions = Regions { all: all.clone(), now: None };
     }
     run
 }
@@ -43,11 +29,7 @@ fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
     let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
     let robot = &json["robots"][0];
     assert_eq!(
-        (
-            &robot["sources_declared"],
-            &robot["up_flow_edges"],
-            &robot["regions_timed_out"]
-        ),
+        (&robot["sources_declared"], &robot["up_flow_edges"], &robot["regions_timed_out"]),
         (&0.into(), &1.into(), &1.into())
     );
     let edge = &robot["declarations"][0];
@@ -76,18 +58,11 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
     let page = super::html::page(&summary, None, &[], &[], "()");
     let top = &page[page.find("<h1>").unwrap()..page.find("<table").unwrap()];
     assert!(top.contains("<h1>A sample &lt;&amp;&gt;</h1>"), "{top}");
-    assert!(
-        top.contains("Success: a source is declared within 20 m of a true one"),
-        "{top}"
-    );
+    assert!(top.contains("Success: a source is declared within 20 m of a true one"), "{top}");
     // For paper and telephone: figures whole on a sheet, and nothing wider than the screen.
-    for rule in [
-        "initial-scale=1",
-        "@media print",
-        "break-inside:avoid",
-        "@media(max-width:600px)",
-        "img{max-width:100%",
-    ] {
+    for rule in
+        ["initial-scale=1", "@media print", "break-inside:avoid", "@media(max-width:600px)", "img{max-width:100%"]
+    {
         assert!(page.contains(rule), "{rule}");
     }
     let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
@@ -158,19 +133,13 @@ fn a_headline_says_how_the_run_ended() {
     summary.robots[0].declarations = vec![one.clone()];
     assert_eq!(ended(&summary), "found after 1234 s, 2.1 m off");
     summary.outcome = RunOutcome::NotFound;
-    assert_eq!(
-        ended(&summary),
-        "not found: declared after 1234 s, 2.1 m off"
-    );
+    assert_eq!(ended(&summary), "not found: declared after 1234 s, 2.1 m off");
     let mut second = one.clone();
     second.t_s = 1500.0;
     second.error.as_mut().expect("an error").total_m = 0.25;
     summary.robots[0].declarations.push(second);
     summary.outcome = RunOutcome::Found;
-    assert_eq!(
-        ended(&summary),
-        "2 declarations, found after 1500 s, at most 2.1 m off"
-    );
+    assert_eq!(ended(&summary), "2 declarations, found after 1500 s, at most 2.1 m off");
     // An edge of a subregion is no source.
     one.kind = DeclaredKind::UpFlowEdge;
     summary.robots[0].declarations = vec![one];

@@ -41,8 +41,7 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     }
     let figures = figures(run);
     // The pictures are painted beside each other, and while the animation is made.
-    let (film, painted) =
-        beside_each_other(2, &figures, Figure::png, || guarded(|| film::film(run)));
+    let (film, painted) = beside_each_other(2, &figures, Figure::png, || guarded(|| film::film(run)));
     let mut shown = Vec::new();
     for (Figure { name, title, svg }, png) in figures.into_iter().zip(painted) {
         if let Ok(svg) = svg {
@@ -60,13 +59,7 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
         }
         None => None,
     };
-    let page = html::page(
-        run.summary,
-        film.as_deref(),
-        &shown,
-        run.pictures,
-        run.scenario_text,
-    );
+    let page = html::page(run.summary, film.as_deref(), &shown, run.pictures, run.scenario_text);
     kept.write("report.html", page.as_bytes());
     kept.done()
 }
@@ -132,11 +125,7 @@ pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     // A gantry's own figures show all of a flume.
     if run.gantries.is_empty() || !run.track.robots.is_empty() {
-        figures.push(Figure::new(
-            "map".to_owned(),
-            "Map".to_owned(),
-            guarded(|| draw::map(run)),
-        ));
+        figures.push(Figure::new("map".to_owned(), "Map".to_owned(), guarded(|| draw::map(run))));
     }
     for robot in &run.track.robots {
         let id = &robot.info.id;
@@ -169,30 +158,14 @@ pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
     }
     if !run.beliefs.robots.is_empty() {
         let title = "Convergence of the maps".to_owned();
-        figures.push(Figure::new(
-            "convergence".to_owned(),
-            title,
-            guarded(|| draw::convergence(run)),
-        ));
+        figures.push(Figure::new("convergence".to_owned(), title, guarded(|| draw::convergence(run))));
     }
     for t in run.gantries {
         let id = &t.info.id;
         let kinds = [
-            (
-                "flume",
-                "Track over the plume",
-                guarded(|| draw::flume(run, t)),
-            ),
-            (
-                "probes",
-                "Probes, thresholds and spikes",
-                guarded(|| draw::probe_records(run, t)),
-            ),
-            (
-                "approach",
-                "Speed and distance from the centreline",
-                guarded(|| draw::approach(run, t)),
-            ),
+            ("flume", "Track over the plume", guarded(|| draw::flume(run, t))),
+            ("probes", "Probes, thresholds and spikes", guarded(|| draw::probe_records(run, t))),
+            ("approach", "Speed and distance from the centreline", guarded(|| draw::approach(run, t))),
         ];
         for (name, title, svg) in kinds {
             figures.extend(svg.transpose().map(|svg| {
@@ -219,19 +192,11 @@ pub(super) const PLUME: [ColumnInfo; 7] = columns! {
 /// to the mass in the water; `stands_for` is their number. Places are rounded to a hundredth of a metre, in a flume of
 /// a millimetre.
 pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
-    let (d, d_z, s) = if area.width_m < 10.0 {
-        (5, 5, 6)
-    } else {
-        (2, 3, 4)
-    };
+    let (d, d_z, s) = if area.width_m < 10.0 { (5, 5, 6) } else { (2, 3, 4) };
     let mut text = header(&PLUME) + "\n";
     for [x, y, z, size, mass, n] in &plume.points {
-        writeln!(
-            text,
-            "{:.2},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}",
-            plume.t_s
-        )
-        .expect("writing to a String succeeds");
+        writeln!(text, "{:.2},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}", plume.t_s)
+            .expect("writing to a String succeeds");
     }
     text
 }

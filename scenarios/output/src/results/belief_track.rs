@@ -92,11 +92,7 @@ impl BeliefTrack {
     }
 
     fn snapshot(&self, r: &RobotFrame, belief: &Belief) -> BeliefSnapshot {
-        BeliefSnapshot {
-            belief: belief.clone(),
-            planned: r.planned.clone(),
-            plume: self.plume.clone(),
-        }
+        BeliefSnapshot { belief: belief.clone(), planned: r.planned.clone(), plume: self.plume.clone() }
     }
 }
 
@@ -206,11 +202,7 @@ pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
     let mut text = format!("{},{}\n", header(&COLUMNS), size.name);
     for r in &robot.rows {
         // A map of the plane does not tell the height.
-        let up = if plane {
-            String::new()
-        } else {
-            format!("{:.3}", r.best.z)
-        };
+        let up = if plane { String::new() } else { format!("{:.3}", r.best.z) };
         let off = off(&r.best, sources).map_or_else(String::new, |m| format!("{m:.3}"));
         writeln!(
             text,
@@ -267,13 +259,7 @@ mod tests {
     #[test]
     fn it_settles_when_the_best_cell_last_changed() {
         let at = |t: f64, best: usize| BeliefSnapshot {
-            belief: Belief {
-                t_s: t,
-                updates: t as u64,
-                informed: true,
-                best,
-                ..belief(50.0)
-            },
+            belief: Belief { t_s: t, updates: t as u64, informed: true, best, ..belief(50.0) },
             planned: Arc::default(),
             plume: None,
         };

@@ -81,12 +81,7 @@ mod tests {
     #[test]
     fn straight_passes_are_kept_and_turns_are_not() {
         let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
-        let ping = SidescanPing {
-            p_BS: Vector3::zeros(),
-            max_m: 20.0,
-            port_db: level.clone(),
-            starboard_db: level,
-        };
+        let ping = SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level };
         let mut estimate = frames(1)[0].robots[0].estimate;
         let mut echoes = Echoes::default();
         let mut lines = 0;
@@ -95,12 +90,7 @@ mod tests {
             estimate.t_s = t_s;
             // 30 s straight, 10 s of turning, and the same again.
             estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
-            let frame = PingFrame {
-                t_s,
-                robot: "a".into(),
-                ping: ping.clone(),
-                estimate,
-            };
+            let frame = PingFrame { t_s, robot: "a".into(), ping: ping.clone(), estimate };
             lines += usize::from(echoes.push(&frame).is_some());
         }
         let kept: Vec<usize> = echoes.robots[0].passes().map(|p| p.rows().len()).collect();

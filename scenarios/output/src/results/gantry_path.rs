@@ -131,9 +131,7 @@ impl GantryPath {
     #[must_use]
     pub fn summary(&self, score: &SearcherScore, sources: &[SourceTruth]) -> GantrySummary {
         let nearest = |s: &&SourceTruth| (s.position.xy() - self.last).norm();
-        let source = sources
-            .iter()
-            .min_by(|a, b| nearest(a).total_cmp(&nearest(b)));
+        let source = sources.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)));
         let way = self.track.first().zip(self.track.last());
         let tracked_m = way.map(|_| length(self.track.windows(2)));
         let in_range = |range: [f64; 2]| -> (Option<f64>, Option<f64>) {
@@ -152,12 +150,8 @@ impl GantryPath {
             blocked: self.blocked,
             travelled_m: score.travelled_m,
             tracked_m,
-            speed_m_s: way
-                .zip(tracked_m)
-                .and_then(|((a, b), m)| ratio(m, b.0 - a.0)),
-            ngdr: way
-                .zip(tracked_m)
-                .and_then(|((a, b), m)| ratio((b.1 - a.1).norm(), m)),
+            speed_m_s: way.zip(tracked_m).and_then(|((a, b), m)| ratio(m, b.0 - a.0)),
+            ngdr: way.zip(tracked_m).and_then(|((a, b), m)| ratio((b.1 - a.1).norm(), m)),
             speed_far_near_m_s: [far.0, near.0],
             offset_far_near_m: [far.1, near.1],
         }
@@ -166,11 +160,7 @@ impl GantryPath {
     /// Speed, and mean distance from that line, while the distance to the source along the stream is in a range.
     fn within(&self, source: Vector2<f64>, [from, to]: [f64; 2]) -> (Option<f64>, Option<f64>) {
         let inside = |p: &Vector2<f64>| (from..to).contains(&(source - p).dot(&self.forward));
-        let pieces = || {
-            self.track
-                .windows(2)
-                .filter(|w| inside(&w[0].1) && inside(&w[1].1))
-        };
+        let pieces = || self.track.windows(2).filter(|w| inside(&w[0].1) && inside(&w[1].1));
         let time: f64 = pieces().map(|w| w[1].0 - w[0].0).sum();
         let off = |p: &Vector2<f64>| (source - p).perp(&self.forward).abs();
         let area: f64 = pieces().map(|w| off(&w[0].1) * (w[1].0 - w[0].0)).sum();
@@ -214,12 +204,7 @@ mod tests {
         }));
         frames.extend((1..=5).map(|k| {
             let k = f64::from(k);
-            at(
-                49.0 + k,
-                line(19.0) - 0.06 * k,
-                0.1,
-                GantryBehaviour::StepUp,
-            )
+            at(49.0 + k, line(19.0) - 0.06 * k, 0.1, GantryBehaviour::StepUp)
         }));
         let mut path = GantryPath::new(&frames[0].1);
         for (t_s, g) in &frames {

@@ -14,9 +14,8 @@ impl Summary {
     fn ended(&self) -> String {
         let robots = self.robots.iter().flat_map(|r| &r.declarations);
         let gantries = self.gantries.iter().flat_map(|g| &g.declaration);
-        let declared: Vec<&DeclarationSummary> = (robots.chain(gantries))
-            .filter(|d| d.kind == DeclaredKind::Source)
-            .collect();
+        let declared: Vec<&DeclarationSummary> =
+            (robots.chain(gantries)).filter(|d| d.kind == DeclaredKind::Source).collect();
         let last_s = declared.iter().map(|d| d.t_s).reduce(f64::max);
         let mission_s = self.run.totals.mission_s;
         let errors = declared.iter().filter_map(|d| d.error.as_ref());

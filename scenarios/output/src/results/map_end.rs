@@ -46,8 +46,7 @@ impl MapEnd {
         let stands = |d: &&Declaration| d.verdict != Verdict::Rejected && !d.at_edge();
         let declared = nearest(&mut declarations.iter().filter(stands).map(|d| d.position));
         let off = |p: Option<Vector2<f64>>| p.map(|p| (p - best).norm());
-        let elsewhere =
-            |p: Option<Vector2<f64>>| off(p).filter(|_| p.is_some_and(|p| cells(p) >= CELLS_OFF));
+        let elsewhere = |p: Option<Vector2<f64>>| off(p).filter(|_| p.is_some_and(|p| cells(p) >= CELLS_OFF));
         let mut remark = format!("the map is sure ({probability:.3}) of a cell");
         let bare = remark.len();
         if probability >= SURE {
@@ -83,11 +82,7 @@ mod tests {
         let mut b = belief(50.0);
         b.best = b.grid.cell(&place.push(0.0)).unwrap();
         let others = (1.0 - p) / (b.p.len() - 1) as f64;
-        b.p = Arc::new(
-            (0..b.p.len())
-                .map(|i| if i == b.best { p } else { others })
-                .collect(),
-        );
+        b.p = Arc::new((0..b.p.len()).map(|i| if i == b.best { p } else { others }).collect());
         b
     }
 
@@ -100,46 +95,25 @@ mod tests {
         let s = source();
         // Cells of 27 by 24 m; the place is four cells away.
         let away = s.position.xy() + Vector2::new(60.0, -85.0);
-        let end = MapEnd::of(
-            &sure_of(away, 0.99),
-            &[declared(s.position.xy())],
-            std::slice::from_ref(&s),
-        );
+        let end = MapEnd::of(&sure_of(away, 0.99), &[declared(s.position.xy())], std::slice::from_ref(&s));
         let m = end.off_m.unwrap();
         assert!(m > 80.0 && end.off_cells.unwrap() >= 3.0, "{end:?}");
         let said = end.remark.unwrap();
         assert_eq!(
             said,
-            format!(
-                "the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared"
-            )
+            format!("the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared")
         );
         // Declared where the map says: only the truth disagrees.
-        let end = MapEnd::of(
-            &sure_of(away, 0.99),
-            &[declared(away)],
-            std::slice::from_ref(&s),
-        );
+        let end = MapEnd::of(&sure_of(away, 0.99), &[declared(away)], std::slice::from_ref(&s));
         let said = end.remark.unwrap();
-        assert!(
-            said.contains("from the source") && !said.contains("declared"),
-            "{said}"
-        );
+        assert!(said.contains("from the source") && !said.contains("declared"), "{said}");
     }
 
     #[test]
     fn it_says_nothing_of_a_map_that_is_right_or_unsure() {
         let s = source();
         let (here, away) = (s.position.xy(), s.position.xy() + Vector2::new(60.0, -85.0));
-        assert_eq!(
-            MapEnd::of(
-                &sure_of(here, 0.99),
-                &[declared(here)],
-                std::slice::from_ref(&s)
-            )
-            .remark,
-            None
-        );
+        assert_eq!(MapEnd::of(&sure_of(here, 0.99), &[declared(here)], std::slice::from_ref(&s)).remark, None);
         assert_eq!(MapEnd::of(&sure_of(away, 0.5), &[], &[s]).remark, None);
         assert_eq!(MapEnd::of(&sure_of(away, 0.99), &[], &[]).off_m, None);
     }

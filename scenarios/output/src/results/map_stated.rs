@@ -34,9 +34,7 @@ impl MapStated {
     #[must_use]
     pub fn of(map: &Belief, at_declaration: bool, sources: &[SourceTruth]) -> Self {
         let best = map.grid.centre(map.best).xy();
-        let any = |yes: &dyn Fn(&SourceTruth) -> bool| {
-            (!sources.is_empty()).then(|| sources.iter().any(yes))
-        };
+        let any = |yes: &dyn Fn(&SourceTruth) -> bool| (!sources.is_empty()).then(|| sources.iter().any(yes));
         Self {
             t_s: map.t_s,
             at_declaration,
@@ -61,30 +59,18 @@ mod tests {
 
     /// Cells of 2.5 by 4 m, two layers, with probability 1/2 in each layer of one column.
     fn column() -> Belief {
-        let area = Area {
-            centre: Vector2::new(50.0, 50.0),
-            length_m: 100.0,
-            width_m: 100.0,
-            axis: Heading::from_deg(90.0),
-        };
+        let area =
+            Area { centre: Vector2::new(50.0, 50.0), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(90.0) };
         let grid = BeliefGrid::over(&area, 0.0, 10.0, [40, 25, 2]);
         let best = grid.index([8, 12, 0]);
         let mut p = vec![0.0; grid.len()];
         p[best] = 0.5;
         p[grid.index([8, 12, 1])] = 0.5;
-        Belief {
-            best,
-            p: Arc::new(p),
-            grid: Arc::new(grid),
-            ..belief(50.0)
-        }
+        Belief { best, p: Arc::new(p), grid: Arc::new(grid), ..belief(50.0) }
     }
 
     fn at(p: Vector3<f64>) -> SourceTruth {
-        SourceTruth {
-            position: p,
-            ..source()
-        }
+        SourceTruth { position: p, ..source() }
     }
 
     #[test]
@@ -95,10 +81,7 @@ mod tests {
         assert_eq!((said.cell_p, said.near_p), (0.5, 1.0));
         assert_eq!((said.cell_true, said.near_true), (Some(true), Some(true)));
         let above = MapStated::of(&map, true, &[at(middle + Vector3::new(0.0, 0.0, 5.0))]);
-        assert_eq!(
-            (above.cell_true, above.near_true),
-            (Some(false), Some(true))
-        );
+        assert_eq!((above.cell_true, above.near_true), (Some(false), Some(true)));
         let beside = [4.9, 5.1].map(|m| {
             let said = MapStated::of(&map, true, &[at(middle + Vector3::new(m, 0.0, 0.0))]);
             (said.cell_true, said.near_true)

@@ -28,8 +28,8 @@ pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use run::{ObstacleOutline, RunInfo, RunReport};
 pub use sources::SourceTruth;
 pub use summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary,
-    RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary, RobotSummary, RunSummary,
+    SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SummaryBuilder};
 pub use track::{LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

@@ -23,27 +23,15 @@ pub(crate) fn csv(said: &[Arc<Odour>]) -> String {
     let mut text = header(&COLUMNS) + "\n";
     for o in said {
         let likely = (0..o.detection.len()).filter(|c| o.detection[*c] >= LEAST);
-        let all = [
-            ("detection", likely.collect()),
-            ("came", o.came.clone()),
-            ("walk", o.walk.clone()),
-        ];
+        let all = [("detection", likely.collect()), ("came", o.came.clone()), ("walk", o.walk.clone())];
         for (what, cells) in all {
             for (step, cell) in cells.into_iter().enumerate() {
                 let p = o.grid.centre(cell);
                 // A map of the plane does not tell the height.
-                let up = if o.grid.n[2] == 1 {
-                    String::new()
-                } else {
-                    format!("{:.3}", p.z)
-                };
+                let up = if o.grid.n[2] == 1 { String::new() } else { format!("{:.3}", p.z) };
                 let (t_s, chance) = (o.t_s, o.detection[cell]);
-                writeln!(
-                    text,
-                    "{t_s:.3},{what},{step},{:.3},{:.3},{up},{chance:.6}",
-                    p.x, p.y
-                )
-                .expect("writing to a String succeeds");
+                writeln!(text, "{t_s:.3},{what},{step},{:.3},{:.3},{up},{chance:.6}", p.x, p.y)
+                    .expect("writing to a String succeeds");
             }
         }
     }
@@ -60,16 +48,9 @@ mod tests {
         let text = csv(&[Arc::new(odour(40.0)), Arc::new(odour(80.0))]);
         let columns = text.lines().next().unwrap().split(',').count();
         assert!(text.lines().all(|l| l.split(',').count() == columns));
-        let rows = |what: &str| {
-            text.lines()
-                .filter(|l| l.starts_with("80.000") && l.contains(what))
-                .count()
-        };
+        let rows = |what: &str| text.lines().filter(|l| l.starts_with("80.000") && l.contains(what)).count();
         let o = odour(80.0);
-        assert_eq!(
-            (rows(",came,"), rows(",walk,")),
-            (o.came.len(), o.walk.len())
-        );
+        assert_eq!((rows(",came,"), rows(",walk,")), (o.came.len(), o.walk.len()));
         assert!(rows(",detection,") > 0);
     }
 }

@@ -53,11 +53,7 @@ impl ShownPicture {
 
     /// The picture as it is embedded in the self-contained page.
     pub(crate) fn html(&self) -> String {
-        format!(
-            "<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
-            self.file,
-            BASE64_STANDARD.encode(&self.jpeg)
-        )
+        format!("<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">", self.file, BASE64_STANDARD.encode(&self.jpeg))
     }
 }
 
@@ -75,12 +71,7 @@ impl Pictures {
     /// Writes into a folder, at most `most` pictures.
     #[must_use]
     pub fn new(out: &Folder, most: u32) -> Self {
-        Self {
-            out: out.clone(),
-            most: most as usize,
-            rows: Vec::new(),
-            shown: Vec::new(),
-        }
+        Self { out: out.clone(), most: most as usize, rows: Vec::new(), shown: Vec::new() }
     }
 
     /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns the bytes of the file; `None` once
@@ -92,31 +83,19 @@ impl Pictures {
         if self.shown.len() >= self.most {
             return Ok(None);
         }
-        let number = (self.shown.iter())
-            .filter(|p| p.robot == taken.robot)
-            .count();
+        let number = (self.shown.iter()).filter(|p| p.robot == taken.robot).count();
         let file = format!("picture-{}-{number}.png", file_name(&taken.robot));
         let path = self.out.file(&file)?;
-        let drawn = |e: ImageError| ReportError::Draw {
-            path: path.clone(),
-            cause: e.to_string(),
-        };
+        let drawn = |e: ImageError| ReportError::Draw { path: path.clone(), cause: e.to_string() };
         let image = &*taken.picture.image;
         let png = picture_png(image).map_err(drawn)?;
         let mut jpeg = Vec::new();
-        JpegEncoder::new_with_quality(&mut jpeg, PAGE_QUALITY)
-            .encode_image(image)
-            .map_err(drawn)?;
+        JpegEncoder::new_with_quality(&mut jpeg, PAGE_QUALITY).encode_image(image).map_err(drawn)?;
         write_whole(&path, &png)?;
         self.row(&file, taken);
         let table = csv_text(&header(&COLUMNS), &self.rows);
         write_whole(&self.out.file("pictures.csv")?, table.as_bytes())?;
-        self.shown.push(ShownPicture {
-            file,
-            robot: taken.robot.clone(),
-            t_s: taken.t_s,
-            jpeg,
-        });
+        self.shown.push(ShownPicture { file, robot: taken.robot.clone(), t_s: taken.t_s, jpeg });
         Ok(Some(png))
     }
 
@@ -184,10 +163,7 @@ mod tests {
             assert_eq!(file.is_some(), t < 4.0, "three are enough");
         }
         let names: Vec<_> = kept.shown().iter().map(|p| p.file.as_str()).collect();
-        assert_eq!(
-            names,
-            ["picture-a-0.png", "picture-b-0.png", "picture-a-1.png"]
-        );
+        assert_eq!(names, ["picture-a-0.png", "picture-b-0.png", "picture-a-1.png"]);
         let back = image::open(dir.path().join(names[2])).unwrap().into_rgb8();
         assert_eq!(back, *taken("a", 3.0).picture.image);
         let csv = fs::read_to_string(dir.path().join("pictures.csv")).unwrap();
@@ -197,31 +173,16 @@ mod tests {
         // The camera sits half a metre ahead and looks east, 30° down.
         assert_eq!(
             rows[1][..9],
-            [
-                "picture-a-0.png",
-                "a",
-                "1.000",
-                "1.500",
-                "2.000",
-                "-3.100",
-                "90.00",
-                "30.00",
-                "60.00"
-            ]
+            ["picture-a-0.png", "a", "1.000", "1.500", "2.000", "-3.100", "90.00", "30.00", "60.00"]
         );
     }
 
     #[test]
     fn a_picture_stands_in_the_page() {
         assert!(
-            ShownPicture {
-                file: "a.png".into(),
-                robot: "a".into(),
-                t_s: 0.0,
-                jpeg: vec![255, 216],
-            }
-            .html()
-            .contains("base64,/9g=")
+            ShownPicture { file: "a.png".into(), robot: "a".into(), t_s: 0.0, jpeg: vec![255, 216] }
+                .html()
+                .contains("base64,/9g=")
         );
     }
 }

@@ -56,11 +56,7 @@ fn wisp(&[x, y, z, size_m, mass, n]: &[f64; 6]) -> Option<Wisp> {
     // A Gaussian of standard deviation `size` holds mass / n; its middle has that over (2 pi)^1.5 size^3.
     let dense_kg_m3 = mass / n.max(1e-9) / (15.75 * size_m.powi(3));
     let sound = [x, y, z, size_m, dense_kg_m3].iter().all(|v| v.is_finite());
-    (sound && size_m > 0.0 && dense_kg_m3 > 0.0).then_some(Wisp {
-        p: [x, y, z],
-        size_m,
-        dense_kg_m3,
-    })
+    (sound && size_m > 0.0 && dense_kg_m3 > 0.0).then_some(Wisp { p: [x, y, z], size_m, dense_kg_m3 })
 }
 
 #[cfg(test)]

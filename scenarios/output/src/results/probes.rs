@@ -74,11 +74,7 @@ const KEPT: usize = 40_000;
 
 impl GantryTrack {
     fn new(info: GantryInfo) -> Self {
-        Self {
-            info,
-            stride: 1,
-            ..Self::default()
-        }
+        Self { info, stride: 1, ..Self::default() }
     }
 
     /// Adds a frame; returns what it says about the latest scan, if that is new.
@@ -99,12 +95,8 @@ impl GantryTrack {
         };
         self.forward = [g.forward.x, g.forward.y];
         self.tips = g.tips_W.iter().map(|p| [p.x, p.y, p.z]).collect();
-        self.declared = self
-            .declared
-            .or(g.declaration.map(|d| [d.position.x, d.position.y]));
-        self.stopped = self
-            .stopped
-            .or(g.decision.stopped.map(|found| (t_s, found)));
+        self.declared = self.declared.or(g.declaration.map(|d| [d.position.x, d.position.y]));
+        self.stopped = self.stopped.or(g.decision.stopped.map(|found| (t_s, found)));
         self.keep(row);
         row
     }
@@ -162,20 +154,13 @@ impl ProbeTables {
             file.place()?;
             files.push(file);
         }
-        Ok(Self {
-            files,
-            ..Self::in_memory(gantries)
-        })
+        Ok(Self { files, ..Self::in_memory(gantries) })
     }
 
     /// Keeps data for the figures only, without files.
     #[must_use]
     pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
-        Self {
-            files: Vec::new(),
-            line: String::new(),
-            tracks: gantries.into_iter().map(GantryTrack::new).collect(),
-        }
+        Self { files: Vec::new(), line: String::new(), tracks: gantries.into_iter().map(GantryTrack::new).collect() }
     }
 
     /// Adds a row for each gantry.
@@ -206,9 +191,7 @@ impl ProbeTables {
 
 /// An id may contain characters that a file's name must not.
 pub(crate) fn file_name(id: &str) -> String {
-    id.chars()
-        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-        .collect()
+    id.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
 
 const TEXT: &str = "writing to a String succeeds";

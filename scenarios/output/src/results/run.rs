@@ -1,9 +1,6 @@
 //! The identity of a run, and all data for its figures and report.
 
-use super::{
-    BeliefTrack, Echoes, GantryTrack, PlumeFilm, RobotTrack, ShownPicture, SourceTruth, Summary,
-    Track,
-};
+use super::{BeliefTrack, Echoes, GantryTrack, PlumeFilm, RobotTrack, ShownPicture, SourceTruth, Summary, Track};
 use nalgebra::Vector2;
 use rheotaxis::frame::PlumeFrame;
 use world::area::Area;
@@ -89,8 +86,6 @@ impl<'a> RunReport<'a> {
             let all = declared.iter().map(|d| (s.position.xy() - d).norm());
             all.fold(f64::INFINITY, f64::min)
         };
-        self.sources
-            .iter()
-            .min_by(|a, b| away(a).total_cmp(&away(b)))
+        self.sources.iter().min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 }

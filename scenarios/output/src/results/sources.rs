@@ -25,11 +25,7 @@ impl SourceTruth {
     pub fn of(trial: &Trial, ended: &Ended) -> Vec<Self> {
         let plume = trial.simulation.ocean().plume();
         (plume.sources().iter().zip(&ended.flow_at_sources))
-            .map(|(s, flow)| Self {
-                id: s.id.clone(),
-                position: s.p_W,
-                flow: flow.xy(),
-            })
+            .map(|(s, flow)| Self { id: s.id.clone(), position: s.p_W, flow: flow.xy() })
             .collect()
     }
 
@@ -56,9 +52,7 @@ impl SourceTruth {
 
 /// Compares a place with the true source nearest to it.
 fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> {
-    (sources.iter())
-        .map(|s| s.error_of(place))
-        .min_by(|a, b| a.total_m.total_cmp(&b.total_m))
+    (sources.iter()).map(|s| s.error_of(place)).min_by(|a, b| a.total_m.total_cmp(&b.total_m))
 }
 
 impl DeclarationSummary {
@@ -95,9 +89,6 @@ impl DeclarationSummary {
 
 impl From<Vector2<f64>> for Position {
     fn from(p: Vector2<f64>) -> Self {
-        Self {
-            east_m: p.x,
-            north_m: p.y,
-        }
+        Self { east_m: p.x, north_m: p.y }
     }
 }

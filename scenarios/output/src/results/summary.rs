@@ -235,12 +235,7 @@ impl MassBalance {
     /// From its three terms.
     #[must_use]
     pub fn new(released_kg: f64, in_water_kg: f64, left_kg: f64) -> Self {
-        Self {
-            released_kg,
-            in_water_kg,
-            left_kg,
-            imbalance_kg: released_kg - in_water_kg - left_kg,
-        }
+        Self { released_kg, in_water_kg, left_kg, imbalance_kg: released_kg - in_water_kg - left_kg }
     }
 }
 
@@ -293,11 +288,7 @@ pub struct Versions {
 
 impl Versions {
     pub(crate) fn of(rheotaxis: &str) -> Self {
-        Self {
-            rheotaxis: rheotaxis.to_string(),
-            scenario: VERSION,
-            rapier3d: RAPIER,
-        }
+        Self { rheotaxis: rheotaxis.to_string(), scenario: VERSION, rapier3d: RAPIER }
     }
 }
 

@@ -4,8 +4,8 @@ use super::GantryPath;
 use super::RunInfo;
 use super::sources::SourceTruth;
 use super::summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, EnergySummary, Position, RegionSummary,
-    RobotSummary, RunSummary, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, EnergySummary, Position, RegionSummary, RobotSummary,
+    RunSummary, SourceSummary, Summary, Totals, Versions,
 };
 use super::{MapEnd, MapStated};
 use nalgebra::Vector2;
@@ -77,11 +77,7 @@ impl Robot {
 
     fn observe(&mut self, t_s: f64, r: &RobotFrame) {
         let spent = t_s - self.last_t_s;
-        match self
-            .behaviour_s
-            .iter_mut()
-            .find(|(b, _)| *b == self.behaviour)
-        {
+        match self.behaviour_s.iter_mut().find(|(b, _)| *b == self.behaviour) {
             Some((_, s)) => *s += spent,
             None => self.behaviour_s.push((self.behaviour, spent)),
         }
@@ -89,10 +85,7 @@ impl Robot {
         self.behaviour = r.behaviour;
         self.declared(t_s, r);
         if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
-            && self
-                .best
-                .as_ref()
-                .is_none_or(|(_, cell, _)| *cell != b.best)
+            && self.best.as_ref().is_none_or(|(_, cell, _)| *cell != b.best)
         {
             self.best = Some((b.t_s, b.best, b.grid.clone()));
         }
@@ -129,18 +122,11 @@ impl Robot {
         let mut declarations: Vec<DeclarationSummary> = (score.declarations.iter())
             .map(|d| {
                 let [traced_m, fix_m] = self.made.get(&d.number).copied().unwrap_or_default();
-                DeclarationSummary {
-                    traced_m,
-                    fix_m,
-                    ..DeclarationSummary::of(d, sources)
-                }
+                DeclarationSummary { traced_m, fix_m, ..DeclarationSummary::of(d, sources) }
             })
             .collect();
         let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
-        let sources_declared = found
-            .enumerate()
-            .map(|(k, d)| d.name = format!("source {}", k + 1))
-            .count();
+        let sources_declared = found.enumerate().map(|(k, d)| d.name = format!("source {}", k + 1)).count();
         let timed_out = |r: &&Region| r.state == RegionState::TimedOut;
         RobotSummary {
             id: self.id.clone(),
@@ -167,11 +153,7 @@ impl Robot {
             detections: score.detections,
             traced_m: score.traced_m(),
             correct_cell_s: (self.best.as_ref())
-                .filter(|(_, best, grid)| {
-                    sources
-                        .iter()
-                        .any(|s| grid.cell(&s.position) == Some(*best))
-                })
+                .filter(|(_, best, grid)| sources.iter().any(|s| grid.cell(&s.position) == Some(*best)))
                 .map(|(since_s, ..)| *since_s),
             travelled_m: score.travelled_m,
             final_position_error_m: score.final_position_error_m,
@@ -272,21 +254,11 @@ impl SummaryBuilder {
                     flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
                 })
                 .collect(),
-            robots: self
-                .robots
-                .iter()
-                .map(|r| r.summary(score(&r.id), sources))
-                .collect(),
-            gantries: self
-                .gantries
-                .iter()
-                .map(|g| g.summary(score(g.id()), sources))
-                .collect(),
+            robots: self.robots.iter().map(|r| r.summary(score(&r.id), sources)).collect(),
+            gantries: self.gantries.iter().map(|g| g.summary(score(g.id()), sources)).collect(),
             apparatus: self.apparatus.clone(),
             published: self.published.clone(),
-            abnormal: (end.score.abnormal.iter())
-                .map(AbnormalSummary::from)
-                .collect(),
+            abnormal: (end.score.abnormal.iter()).map(AbnormalSummary::from).collect(),
             run: RunSummary {
                 totals: t,
                 real_time_factor: ratio(t.mission_wall_s),

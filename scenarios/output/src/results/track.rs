@@ -120,9 +120,7 @@ impl RobotTrack {
 
     /// Where it declared sources (east, north), m.
     pub fn declared(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        self.declarations
-            .iter()
-            .map(|d| [d.position.x, d.position.y])
+        self.declarations.iter().map(|d| [d.position.x, d.position.y])
     }
 
     /// The declared sources, without the plumes traced to an edge.
@@ -154,11 +152,7 @@ impl RobotTrack {
         }
         for &p in new.iter().filter(|p| !self.lost_now.contains(p)) {
             if self.lost_over_time.len() < LOST {
-                self.lost_over_time.push(LostPoint {
-                    p,
-                    from_s: t_s,
-                    until_s: None,
-                });
+                self.lost_over_time.push(LostPoint { p, from_s: t_s, until_s: None });
             }
         }
         self.lost_now = new;
@@ -176,8 +170,7 @@ impl RobotTrack {
         }
         if !r.lost_points.is_empty() {
             self.lost_points.truncate(self.lost_before);
-            self.lost_points
-                .extend(r.lost_points.iter().map(|q| [q.x, q.y]));
+            self.lost_points.extend(r.lost_points.iter().map(|q| [q.x, q.y]));
         }
         self.lost(t_s, r);
         if self.declarations != r.declarations {
@@ -259,9 +252,7 @@ impl TrackTable {
             file: None,
             layered: robots.iter().any(|r| r.layered),
             regions: robots.iter().any(|r| r.regions),
-            track: Track {
-                robots: robots.into_iter().map(RobotTrack::new).collect(),
-            },
+            track: Track { robots: robots.into_iter().map(RobotTrack::new).collect() },
         }
     }
 
@@ -275,10 +266,7 @@ impl TrackTable {
                 Some(k) => k,
                 None => {
                     let id = r.id.clone();
-                    self.track.robots.push(RobotTrack::new(RobotInfo {
-                        id,
-                        ..RobotInfo::default()
-                    }));
+                    self.track.robots.push(RobotTrack::new(RobotInfo { id, ..RobotInfo::default() }));
                     self.track.robots.len() - 1
                 }
             };

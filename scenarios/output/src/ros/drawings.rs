@@ -95,18 +95,11 @@ impl<'a> Message<'a> {
             points: points.iter().map(xyz).collect(),
             colors: &[],
             texture_resource: "",
-            texture: CompressedImage {
-                header: Header::new(0, ""),
-                format: "",
-                data: &[],
-            },
+            texture: CompressedImage { header: Header::new(0, ""), format: "", data: &[] },
             uv_coordinates: EMPTY,
             text: "",
             mesh_resource: "",
-            mesh_file: File {
-                filename: "",
-                data: &[],
-            },
+            mesh_file: File { filename: "", data: &[] },
             mesh_use_embedded_materials: false,
         }
     }
@@ -118,10 +111,7 @@ pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
     let messages = markers.iter().map(|m| {
         let (header, corners) = (Header::new(t_ns, frame), m.triangles.as_flattened());
         let colors = m.colours.as_slice();
-        Message {
-            colors,
-            ..Message::new(header, (&m.name, TRIANGLE_LIST), 1.0, m.colour, corners)
-        }
+        Message { colors, ..Message::new(header, (&m.name, TRIANGLE_LIST), 1.0, m.colour, corners) }
     });
     cdr(&messages.collect::<Vec<_>>())
 }
@@ -131,13 +121,7 @@ pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
 pub fn balls(t_ns: u64, frame: &str, all: &[Balls]) -> Vec<u8> {
     let messages = all.iter().map(|b| {
         let header = Header::new(t_ns, frame);
-        Message::new(
-            header,
-            (b.name, SPHERE_LIST),
-            b.diameter_m,
-            b.colour,
-            b.places,
-        )
+        Message::new(header, (b.name, SPHERE_LIST), b.diameter_m, b.colour, b.places)
     });
     cdr(&messages.collect::<Vec<_>>())
 }
@@ -146,9 +130,7 @@ pub fn balls(t_ns: u64, frame: &str, all: &[Balls]) -> Vec<u8> {
 #[must_use]
 pub fn path(t_ns: u64, frame: &str, points: &[Vector3<f64>]) -> Vec<u8> {
     let straight = UnitQuaternion::identity();
-    let poses: Vec<_> = (points.iter())
-        .map(|p| (Header::new(t_ns, frame), pose(p, &straight)))
-        .collect();
+    let poses: Vec<_> = (points.iter()).map(|p| (Header::new(t_ns, frame), pose(p, &straight))).collect();
     cdr(&(Header::new(t_ns, frame), poses))
 }
 
@@ -163,12 +145,8 @@ mod tests {
 
     #[test]
     fn markers_keep_their_bytes() {
-        let bed = Marker {
-            name: "bed".into(),
-            colour: [1.0, 0.5, 0.0, 1.0],
-            colours: Vec::new(),
-            triangles: vec![[p(); 3]],
-        };
+        let bed =
+            Marker { name: "bed".into(), colour: [1.0, 0.5, 0.0, 1.0], colours: Vec::new(), triangles: vec![[p(); 3]] };
         is(
             &marker_array(T_NS, "world", &[bed]),
             &format!(
@@ -185,9 +163,6 @@ mod tests {
 
     #[test]
     fn ways_keep_their_bytes() {
-        is(
-            &path(T_NS, "world", &[p()]),
-            &format!("{HEADER} 01000000 {HEADER} 00000000 {PLACE} {STRAIGHT}"),
-        );
+        is(&path(T_NS, "world", &[p()]), &format!("{HEADER} 01000000 {HEADER} 00000000 {PLACE} {STRAIGHT}"));
     }
 }

@@ -7,11 +7,6 @@ use rheotaxis::gantry::GantryFrame;
 #[must_use]
 pub fn joints(gantry: &GantryFrame) -> Vec<Joint<'_>> {
     (gantry.joint_names.iter().zip(&gantry.joints))
-        .map(|(name, j)| Joint {
-            name,
-            position: j.position_m,
-            velocity: j.speed_m_s,
-            effort: j.force_N,
-        })
+        .map(|(name, j)| Joint { name, position: j.position_m, velocity: j.speed_m_s, effort: j.force_N })
         .collect()
 }

@@ -29,15 +29,7 @@ pub fn log_line(t_ns: u64, level: LogLevel, name: &str, line: &str) -> Vec<u8> {
         function: &'a str,
         line: u32,
     }
-    cdr(&Message {
-        stamp: Time::new(t_ns),
-        level: level as u8,
-        name,
-        msg: line,
-        file: "",
-        function: "",
-        line: 0,
-    })
+    cdr(&Message { stamp: Time::new(t_ns), level: level as u8, name, msg: line, file: "", function: "", line: 0 })
 }
 
 #[cfg(test)]

@@ -111,11 +111,7 @@ pub(super) struct CompressedImage<'a> {
 /// of a `png` or `jpeg` file.
 #[must_use]
 pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
-    cdr(&CompressedImage {
-        header: Header::new(t_ns, frame),
-        format,
-        data: file,
-    })
+    cdr(&CompressedImage { header: Header::new(t_ns, frame), format, data: file })
 }
 
 /// State of a joint at one time, for a `JointState`.
@@ -143,20 +139,13 @@ pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
 /// The echoes of a ping in body axes, as a `PointCloud2`.
 #[must_use]
 pub fn echo_cloud(t_ns: u64, frame: &str, scan: &RangeScan) -> Vec<u8> {
-    let points: Vec<[f32; 3]> = (scan.echoes_B())
-        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
-        .collect();
+    let points: Vec<[f32; 3]> = (scan.echoes_B()).map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
     point_cloud(t_ns, frame, ["x", "y", "z"], &points)
 }
 
 /// A `PointCloud2` with the named 32-bit fields; for each point, `rows` holds one value per field.
 #[must_use]
-pub fn point_cloud<const N: usize>(
-    t_ns: u64,
-    frame: &str,
-    names: [&str; N],
-    rows: &[[f32; N]],
-) -> Vec<u8> {
+pub fn point_cloud<const N: usize>(t_ns: u64, frame: &str, names: [&str; N], rows: &[[f32; N]]) -> Vec<u8> {
     #[derive(Serialize)]
     struct PointField<'a> {
         name: &'a str,
@@ -179,17 +168,8 @@ pub fn point_cloud<const N: usize>(
     }
     const FLOAT32: u8 = 7;
     let length = |n: usize| u32::try_from(n).expect("a message holds fewer than 2^32 bytes");
-    let field = |(k, name)| PointField {
-        name,
-        offset: length(4 * k),
-        datatype: FLOAT32,
-        count: 1,
-    };
-    let data: Vec<u8> = rows
-        .as_flattened()
-        .iter()
-        .flat_map(|v| v.to_le_bytes())
-        .collect();
+    let field = |(k, name)| PointField { name, offset: length(4 * k), datatype: FLOAT32, count: 1 };
+    let data: Vec<u8> = rows.as_flattened().iter().flat_map(|v| v.to_le_bytes()).collect();
     cdr(&PointCloud2 {
         header: Header::new(t_ns, frame),
         height: 1,
@@ -244,10 +224,7 @@ pub(super) mod tests {
             &vector3_stamped(T_NS, "auv", &p()),
             "0100000005000000 0400000061757600 000000000000f03f 0000000000000440 00000000000008c0",
         );
-        is(
-            &pose_stamped(T_NS, "world", &p(), &q()),
-            &format!("{HEADER} 00000000 {POSE}"),
-        );
+        is(&pose_stamped(T_NS, "world", &p(), &q()), &format!("{HEADER} 00000000 {POSE}"));
     }
 
     #[test]
@@ -266,9 +243,7 @@ pub(super) mod tests {
         let angular = "000000000000f03f 0000000000000440 00000000000008c0";
         is(
             &message.cdr(),
-            &format!(
-                "{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"
-            ),
+            &format!("{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"),
         );
     }
 
@@ -283,10 +258,7 @@ pub(super) mod tests {
         });
         let first = format!("{HEADER} 020000006100 0000 {POSE}");
         let second = format!("{HEADER} 0400000062636400 00000000 {POSE}");
-        is(
-            &transforms(&children),
-            &format!("02000000 {first} {second}"),
-        );
+        is(&transforms(&children), &format!("02000000 {first} {second}"));
     }
 
     #[test]
@@ -302,12 +274,7 @@ pub(super) mod tests {
 
     #[test]
     fn states_of_joints_keep_their_bytes() {
-        let joint = |name, position, velocity, effort| Joint {
-            name,
-            position,
-            velocity,
-            effort,
-        };
+        let joint = |name, position, velocity, effort| Joint { name, position, velocity, effort };
         let joints = [joint("x", 1.0, 2.0, -1.0), joint("arm", 0.5, 0.0, 4.0)];
         is(
             &joint_state(T_NS, "world", &joints),

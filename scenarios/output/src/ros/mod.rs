@@ -14,8 +14,8 @@ pub use drawings::{Balls, Marker, balls, marker_array, path};
 pub use joints::joints;
 pub use log::{LogLevel, log_line};
 pub use messages::{
-    Joint, Odometry, Transform, clock, compressed_image, echo_cloud, float64, joint_state,
-    point_cloud, pose_stamped, text, transforms, vector3_stamped,
+    Joint, Odometry, Transform, clock, compressed_image, echo_cloud, float64, joint_state, point_cloud, pose_stamped,
+    text, transforms, vector3_stamped,
 };
 pub use plume::{plume_cloud, water_cloud};
 pub use sensors::{Imu, Range, fluid_pressure, twist_stamped};

@@ -8,55 +8,24 @@
 use super::MessageKind;
 
 const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
-const HEADER: (&str, &str) = (
-    "std_msgs/Header",
-    "builtin_interfaces/Time stamp\nstring frame_id\n",
-);
+const HEADER: (&str, &str) = ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n");
 const POINT: (&str, &str) = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
 const VECTOR3: (&str, &str) = ("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n");
-const QUATERNION: (&str, &str) = (
-    "geometry_msgs/Quaternion",
-    "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n",
-);
-const POSE: (&str, &str) = (
-    "geometry_msgs/Pose",
-    "Point position\nQuaternion orientation\n",
-);
-const POSE_COV: (&str, &str) = (
-    "geometry_msgs/PoseWithCovariance",
-    "Pose pose\nfloat64[36] covariance\n",
-);
+const QUATERNION: (&str, &str) = ("geometry_msgs/Quaternion", "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n");
+const POSE: (&str, &str) = ("geometry_msgs/Pose", "Point position\nQuaternion orientation\n");
+const POSE_COV: (&str, &str) = ("geometry_msgs/PoseWithCovariance", "Pose pose\nfloat64[36] covariance\n");
 const TWIST: (&str, &str) = ("geometry_msgs/Twist", "Vector3 linear\nVector3 angular\n");
-const TWIST_COV: (&str, &str) = (
-    "geometry_msgs/TwistWithCovariance",
-    "Twist twist\nfloat64[36] covariance\n",
-);
-const TRANSFORM: (&str, &str) = (
-    "geometry_msgs/Transform",
-    "Vector3 translation\nQuaternion rotation\n",
-);
-const TRANSFORM_STAMPED: (&str, &str) = (
-    "geometry_msgs/TransformStamped",
-    "std_msgs/Header header\nstring child_frame_id\nTransform transform\n",
-);
-const POSE_STAMPED: (&str, &str) = (
-    "geometry_msgs/PoseStamped",
-    "std_msgs/Header header\nPose pose\n",
-);
-const COMPRESSED_IMAGE: (&str, &str) = (
-    "sensor_msgs/CompressedImage",
-    "std_msgs/Header header\nstring format\nuint8[] data\n",
-);
-const COLOR: (&str, &str) = (
-    "std_msgs/ColorRGBA",
-    "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n",
-);
+const TWIST_COV: (&str, &str) = ("geometry_msgs/TwistWithCovariance", "Twist twist\nfloat64[36] covariance\n");
+const TRANSFORM: (&str, &str) = ("geometry_msgs/Transform", "Vector3 translation\nQuaternion rotation\n");
+const TRANSFORM_STAMPED: (&str, &str) =
+    ("geometry_msgs/TransformStamped", "std_msgs/Header header\nstring child_frame_id\nTransform transform\n");
+const POSE_STAMPED: (&str, &str) = ("geometry_msgs/PoseStamped", "std_msgs/Header header\nPose pose\n");
+const COMPRESSED_IMAGE: (&str, &str) =
+    ("sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n");
+const COLOR: (&str, &str) = ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n");
 const DURATION: (&str, &str) = ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n");
 const UV_COORDINATE: (&str, &str) = ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n");
-const MESH_FILE: (&str, &str) = (
-    "visualization_msgs/MeshFile",
-    "string filename\nuint8[] data\n",
-);
+const MESH_FILE: (&str, &str) = ("visualization_msgs/MeshFile", "string filename\nuint8[] data\n");
 const MARKER: (&str, &str) = (
     "visualization_msgs/Marker",
     "int32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\n\
@@ -83,38 +52,22 @@ impl MessageKind {
             MessageKind::Odometry => (
                 "std_msgs/Header header\nstring child_frame_id\n\
                  geometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n",
-                &[
-                    HEADER, TIME, POSE_COV, POSE, POINT, QUATERNION, TWIST_COV, TWIST, VECTOR3,
-                ],
+                &[HEADER, TIME, POSE_COV, POSE, POINT, QUATERNION, TWIST_COV, TWIST, VECTOR3],
             ),
             MessageKind::Float64 => ("float64 data\n", &[]),
             MessageKind::Text => ("string data\n", &[]),
-            MessageKind::Vector3Stamped => (
-                "std_msgs/Header header\nVector3 vector\n",
-                &[HEADER, TIME, VECTOR3],
-            ),
-            MessageKind::PoseStamped => (
-                "std_msgs/Header header\nPose pose\n",
-                &[HEADER, TIME, POSE, POINT, QUATERNION],
-            ),
-            MessageKind::TwistStamped => (
-                "std_msgs/Header header\nTwist twist\n",
-                &[HEADER, TIME, TWIST, VECTOR3],
-            ),
+            MessageKind::Vector3Stamped => ("std_msgs/Header header\nVector3 vector\n", &[HEADER, TIME, VECTOR3]),
+            MessageKind::PoseStamped => {
+                ("std_msgs/Header header\nPose pose\n", &[HEADER, TIME, POSE, POINT, QUATERNION])
+            }
+            MessageKind::TwistStamped => ("std_msgs/Header header\nTwist twist\n", &[HEADER, TIME, TWIST, VECTOR3]),
             MessageKind::Path => (
                 "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n",
                 &[HEADER, TIME, POSE_STAMPED, POSE, POINT, QUATERNION],
             ),
             MessageKind::TfMessage => (
                 "geometry_msgs/TransformStamped[] transforms\n",
-                &[
-                    TRANSFORM_STAMPED,
-                    HEADER,
-                    TIME,
-                    TRANSFORM,
-                    VECTOR3,
-                    QUATERNION,
-                ],
+                &[TRANSFORM_STAMPED, HEADER, TIME, TRANSFORM, VECTOR3, QUATERNION],
             ),
             MessageKind::Clock => ("builtin_interfaces/Time clock\n", &[TIME]),
             MessageKind::PointCloud2 => (
@@ -135,10 +88,9 @@ impl MessageKind {
                  float64[9] linear_acceleration_covariance\n",
                 &[HEADER, TIME, QUATERNION, VECTOR3],
             ),
-            MessageKind::FluidPressure => (
-                "std_msgs/Header header\nfloat64 fluid_pressure\nfloat64 variance\n",
-                &[HEADER, TIME],
-            ),
+            MessageKind::FluidPressure => {
+                ("std_msgs/Header header\nfloat64 fluid_pressure\nfloat64 variance\n", &[HEADER, TIME])
+            }
             MessageKind::Range => (
                 "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\n\
                  float32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\nfloat32 variance\n",
@@ -187,27 +139,18 @@ mod tests {
     /// Every type that a definition mentions is defined below it; otherwise readers refuse the channel.
     #[test]
     fn schemas_are_closed() {
-        const PLAIN: [&str; 8] = [
-            "byte", "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
-        ];
+        const PLAIN: [&str; 8] = ["byte", "int32", "uint32", "uint8", "float64", "string", "bool", "float32"];
         for kind in MessageKind::all() {
             let schema = kind.schema();
-            let defined: Vec<&str> = schema
-                .lines()
-                .filter_map(|l| l.strip_prefix("MSG: "))
-                .map(|n| n.rsplit('/').next().unwrap())
-                .collect();
+            let defined: Vec<&str> =
+                schema.lines().filter_map(|l| l.strip_prefix("MSG: ")).map(|n| n.rsplit('/').next().unwrap()).collect();
             for line in schema.lines() {
                 if line.starts_with('=') || line.starts_with("MSG: ") {
                     continue;
                 }
                 let base = line.split([' ', '[']).next().unwrap();
                 let short = base.rsplit('/').next().unwrap();
-                assert!(
-                    PLAIN.contains(&base) || defined.contains(&short),
-                    "{}: {line} is not defined",
-                    kind.name()
-                );
+                assert!(PLAIN.contains(&base) || defined.contains(&short), "{}: {line} is not defined", kind.name());
             }
         }
     }

@@ -29,12 +29,7 @@ impl Imu<'_> {
         const UNKNOWN: [f64; 9] = [0.0; 9];
         const NOT_MEASURED: [f64; 9] = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let q: [f64; 4] = self.attitude.coords.into();
-        cdr(&(
-            Header::new(self.t_ns, self.frame),
-            (q, UNKNOWN),
-            (xyz(&self.rates), UNKNOWN),
-            ([0.0; 3], NOT_MEASURED),
-        ))
+        cdr(&(Header::new(self.t_ns, self.frame), (q, UNKNOWN), (xyz(&self.rates), UNKNOWN), ([0.0; 3], NOT_MEASURED)))
     }
 }
 
@@ -100,57 +95,29 @@ mod tests {
 
     #[test]
     fn acceleration_is_marked_as_not_measured() {
-        let imu = Imu {
-            t_ns: T_NS,
-            frame: "world",
-            attitude: q(),
-            rates: p(),
-        };
+        let imu = Imu { t_ns: T_NS, frame: "world", attitude: q(), rates: p() };
         let unknown = "00".repeat(9 * 8);
         let none = "00".repeat(8 * 8);
         let zero = "00".repeat(3 * 8);
         is(
             &imu.cdr(),
-            &format!(
-                "{HEADER} 00000000 {ATTITUDE} {unknown} {PLACE} {unknown} {zero} 000000000000f0bf {none}"
-            ),
+            &format!("{HEADER} 00000000 {ATTITUDE} {unknown} {PLACE} {unknown} {zero} 000000000000f0bf {none}"),
         );
     }
 
     #[test]
     fn pressure_and_velocity_keep_their_bytes() {
-        is(
-            &fluid_pressure(T_NS, "world", 2.5),
-            &format!("{HEADER} 00000000 0000000000000440 0000000000000000"),
-        );
-        is(
-            &twist_stamped(T_NS, "world", &p()),
-            &format!("{HEADER} 00000000 {PLACE} {}", "00".repeat(3 * 8)),
-        );
+        is(&fluid_pressure(T_NS, "world", 2.5), &format!("{HEADER} 00000000 0000000000000440 0000000000000000"));
+        is(&twist_stamped(T_NS, "world", &p()), &format!("{HEADER} 00000000 {PLACE} {}", "00".repeat(3 * 8)));
     }
 
     #[test]
     fn nothing_heard_is_infinitely_far() {
-        let heard = Range {
-            t_ns: T_NS,
-            frame: "world",
-            view_rad: 0.0,
-            limits_m: [0.5, 30.0],
-            range_m: Some(2.0),
-        };
+        let heard = Range { t_ns: T_NS, frame: "world", view_rad: 0.0, limits_m: [0.5, 30.0], range_m: Some(2.0) };
         // The kind of sound, zero, is in the padding of the header.
         let limits = "0000003f 0000f041";
-        is(
-            &heard.cdr(),
-            &format!("{HEADER} 00000000 {limits} 00000040 00000000"),
-        );
-        let deaf = Range {
-            range_m: None,
-            ..heard
-        };
-        is(
-            &deaf.cdr(),
-            &format!("{HEADER} 00000000 {limits} 0000807f 00000000"),
-        );
+        is(&heard.cdr(), &format!("{HEADER} 00000000 {limits} 00000040 00000000"));
+        let deaf = Range { range_m: None, ..heard };
+        is(&deaf.cdr(), &format!("{HEADER} 00000000 {limits} 0000807f 00000000"));
     }
 }

@@ -55,16 +55,8 @@ const TABLE: [Row; 17] = [
         "nav_msgs/msg/Odometry",
         "3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0",
     ),
-    (
-        MessageKind::Float64,
-        "std_msgs/msg/Float64",
-        "705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a",
-    ),
-    (
-        MessageKind::Text,
-        "std_msgs/msg/String",
-        "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18",
-    ),
+    (MessageKind::Float64, "std_msgs/msg/Float64", "705ba9c3d1a09df43737eb67095534de36fd426c0587779bda2bc51fe790182a"),
+    (MessageKind::Text, "std_msgs/msg/String", "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"),
     (
         MessageKind::Vector3Stamped,
         "geometry_msgs/msg/Vector3Stamped",
@@ -80,21 +72,13 @@ const TABLE: [Row; 17] = [
         "geometry_msgs/msg/PoseStamped",
         "10f3786d7d40fd2b54367835614bff85d4ad3b5dab62bf8bca0cc232d73b4cd8",
     ),
-    (
-        MessageKind::Path,
-        "nav_msgs/msg/Path",
-        "1957a5bb3cee5da65c4e52e52b65a93df227efce4c20f8458b36e73066ca334b",
-    ),
+    (MessageKind::Path, "nav_msgs/msg/Path", "1957a5bb3cee5da65c4e52e52b65a93df227efce4c20f8458b36e73066ca334b"),
     (
         MessageKind::TfMessage,
         "tf2_msgs/msg/TFMessage",
         "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",
     ),
-    (
-        MessageKind::Clock,
-        "rosgraph_msgs/msg/Clock",
-        "692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564",
-    ),
+    (MessageKind::Clock, "rosgraph_msgs/msg/Clock", "692f7a66e93a3c83e71765d033b60349ba68023a8c689a79e48078bcb5c58564"),
     (
         MessageKind::PointCloud2,
         "sensor_msgs/msg/PointCloud2",
@@ -110,31 +94,19 @@ const TABLE: [Row; 17] = [
         "sensor_msgs/msg/CompressedImage",
         "15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a",
     ),
-    (
-        MessageKind::Imu,
-        "sensor_msgs/msg/Imu",
-        "7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b",
-    ),
+    (MessageKind::Imu, "sensor_msgs/msg/Imu", "7d9a00ff131080897a5ec7e26e315954b8eae3353c3f995c55faf71574000b5b"),
     (
         MessageKind::FluidPressure,
         "sensor_msgs/msg/FluidPressure",
         "22dfb2b145a0bd5a31a1ac3882a1b32148b51d9b2f3bab250290d66f3595bc32",
     ),
-    (
-        MessageKind::Range,
-        "sensor_msgs/msg/Range",
-        "b42b62562e93cbfe9d42b82fe5994dfa3d63d7d5c90a317981703f7388adff3a",
-    ),
+    (MessageKind::Range, "sensor_msgs/msg/Range", "b42b62562e93cbfe9d42b82fe5994dfa3d63d7d5c90a317981703f7388adff3a"),
     (
         MessageKind::MarkerArray,
         "visualization_msgs/msg/MarkerArray",
         "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf",
     ),
-    (
-        MessageKind::Log,
-        "rcl_interfaces/msg/Log",
-        "e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac",
-    ),
+    (MessageKind::Log, "rcl_interfaces/msg/Log", "e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac"),
 ];
 
 impl MessageKind {
@@ -153,9 +125,7 @@ impl MessageKind {
     #[must_use]
     pub fn dds_name(self) -> String {
         let parts: Vec<&str> = self.name().split('/').collect();
-        let [package, kind, name] = parts[..] else {
-            unreachable!("the names of the table have three parts")
-        };
+        let [package, kind, name] = parts[..] else { unreachable!("the names of the table have three parts") };
         format!("{package}::{kind}::dds_::{name}_")
     }
 
@@ -180,9 +150,6 @@ mod tests {
 
     #[test]
     fn names_follow_those_of_dds() {
-        assert_eq!(
-            MessageKind::Odometry.dds_name(),
-            "nav_msgs::msg::dds_::Odometry_"
-        );
+        assert_eq!(MessageKind::Odometry.dds_name(), "nav_msgs::msg::dds_::Odometry_");
     }
 }

@@ -10,12 +10,7 @@ const POINTS: usize = 64;
 /// How far the grid reaches beyond the area, as a share of each side of it.
 const MARGIN: f64 = 0.06;
 /// Colours from the shallowest to the deepest place, as red, green, blue.
-const RAMP: [[f32; 3]; 4] = [
-    [0.86, 0.79, 0.60],
-    [0.62, 0.66, 0.55],
-    [0.33, 0.47, 0.50],
-    [0.15, 0.27, 0.38],
-];
+const RAMP: [[f32; 3]; 4] = [[0.86, 0.79, 0.60], [0.62, 0.66, 0.55], [0.33, 0.47, 0.50], [0.15, 0.27, 0.38]];
 /// Of every so many points one stands in the surface for ROS, whose triangles do not share corners.
 const STRIDE: usize = 3;
 /// Differences of depth below this one are no reason for a colour of their own, m.
@@ -43,11 +38,7 @@ impl Bed {
             Vector3::new(p.x, p.y, terrain.bed_z(p.x, p.y))
         };
         let points = (0..POINTS).flat_map(|i| (0..POINTS).map(move |j| at(i, j)));
-        Self {
-            rows: POINTS,
-            columns: POINTS,
-            points: points.collect(),
-        }
+        Self { rows: POINTS, columns: POINTS, points: points.collect() }
     }
 
     /// Numbers of the corners of its triangles, anticlockwise seen from above.
@@ -69,10 +60,7 @@ impl Bed {
     #[must_use]
     pub fn colours(&self) -> Vec<[f32; 4]> {
         let heights = || self.points.iter().map(|p| p.z);
-        let (low, high) = (
-            heights().fold(f64::INFINITY, f64::min),
-            heights().fold(f64::NEG_INFINITY, f64::max),
-        );
+        let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
         let share = |z: f64| match high - low {
             range if range > LEVEL_M => (high - z) / range,
             _ => 0.0,
@@ -87,9 +75,7 @@ impl Bed {
         Self {
             rows: rows.len(),
             columns: columns().len(),
-            points: rows
-                .flat_map(|i| columns().map(move |j| self.points[i * self.columns + j]))
-                .collect(),
+            points: rows.flat_map(|i| columns().map(move |j| self.points[i * self.columns + j])).collect(),
         }
     }
 
@@ -101,15 +87,8 @@ impl Bed {
         Marker {
             name: "bed".to_owned(),
             colour: colours.first().copied().unwrap_or_default(),
-            colours: triangles
-                .as_flattened()
-                .iter()
-                .map(|k| colours[*k])
-                .collect(),
-            triangles: triangles
-                .iter()
-                .map(|t| t.map(|k| self.points[k]))
-                .collect(),
+            colours: triangles.as_flattened().iter().map(|k| colours[*k]).collect(),
+            triangles: triangles.iter().map(|t| t.map(|k| self.points[k])).collect(),
         }
     }
 }
@@ -147,9 +126,8 @@ mod tests {
     #[test]
     fn deeper_is_darker_and_a_level_bed_has_one_colour() {
         let bed = Bed::of(&sample::area(), &sample::terrain());
-        let mut of_depth: Vec<(f64, f32)> = (bed.points.iter().zip(bed.colours()))
-            .map(|(p, [r, g, b, _])| (-p.z, r + g + b))
-            .collect();
+        let mut of_depth: Vec<(f64, f32)> =
+            (bed.points.iter().zip(bed.colours())).map(|(p, [r, g, b, _])| (-p.z, r + g + b)).collect();
         of_depth.sort_by(|a, b| a.0.total_cmp(&b.0));
         assert!(of_depth.windows(2).all(|w| w[1].1 <= w[0].1 + 1e-6));
         // The surface for ROS reaches as far: a multiple of the stride lies between the first and the last point.

@@ -25,10 +25,9 @@ impl Scene {
             let (vertices, triangles) = mesh(&s.mesh, centre);
             json!({"name": s.name, "color": s.colour, "vertices_m": vertices, "triangles": triangles})
         });
-        let sources = (self.sources.iter())
-            .map(|(name, p)| json!({"name": name, "position_m": p.as_slice()}));
-        let layers = (self.layers.iter().enumerate())
-            .map(|(k, z)| json!({"name": format!("interface {}", k + 1), "z_m": z}));
+        let sources = (self.sources.iter()).map(|(name, p)| json!({"name": name, "position_m": p.as_slice()}));
+        let layers =
+            (self.layers.iter().enumerate()).map(|(k, z)| json!({"name": format!("interface {}", k + 1), "z_m": z}));
         let corners: Vec<&[f64]> = self.corners.iter().map(|c| c.as_slice()).collect();
         json!({
             "version": VERSION,
@@ -51,8 +50,7 @@ impl Scene {
 
 fn machine(m: &Machine) -> Value {
     let d = &m.description;
-    let drives =
-        (d.moved.iter()).map(|d| json!({"joint": d.joint, "actuator": d.actuator, "unit": d.unit}));
+    let drives = (d.moved.iter()).map(|d| json!({"joint": d.joint, "actuator": d.actuator, "unit": d.unit}));
     let slides = (m.slides.iter()).map(|s| json!({"joint": s, "actuator": s, "unit": "m"}));
     let mut out = fields(json!({
         "id": m.id,
@@ -114,11 +112,7 @@ fn joint(m: &Mount) -> Value {
 fn sensor(s: &SensorPlace) -> Value {
     let mut out = fields(json!({"kind": s.kind, "name": s.name, "link": s.link}));
     out.append(&mut fields(pose(&s.pose)));
-    for (name, value) in [
-        ("view_rad", s.view_rad),
-        ("height_rad", s.height_rad),
-        ("max_m", s.max_m),
-    ] {
+    for (name, value) in [("view_rad", s.view_rad), ("height_rad", s.height_rad), ("max_m", s.max_m)] {
         if let Some(value) = value {
             out.insert(name.into(), value.into());
         }
@@ -139,9 +133,7 @@ fn fields(value: Value) -> Map<String, Value> {
 
 /// Points as base64 of f32, relative to an origin.
 fn points(all: &[Vector3<f64>], origin: Vector3<f64>) -> String {
-    let numbers = all
-        .iter()
-        .flat_map(|p| (p - origin).map(|v| v as f32).data.0[0]);
+    let numbers = all.iter().flat_map(|p| (p - origin).map(|v| v as f32).data.0[0]);
     STANDARD.encode(numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())
 }
 
@@ -159,9 +151,7 @@ mod tests {
     use std::path::Path;
 
     fn document(scenario: &str) -> Value {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../catalog")
-            .join(scenario);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
         let scene = Scene::of(&load(&path).unwrap()).unwrap();
         serde_json::from_str(&scene.document(7)).unwrap()
     }
@@ -169,9 +159,7 @@ mod tests {
     fn numbers(value: &Value) -> Vec<f32> {
         let bytes = STANDARD.decode(value.as_str().unwrap()).unwrap();
         let numbers = bytes.chunks_exact(4);
-        numbers
-            .map(|b| f32::from_le_bytes(b.try_into().unwrap()))
-            .collect()
+        numbers.map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
     }
 
     #[test]
@@ -188,10 +176,7 @@ mod tests {
         // A box of 1 m by 1 m by 0.7 m, as twelve triangles of eight corners.
         let solid = &scene["solids"][0];
         assert_eq!(numbers(&solid["vertices_m"]).len(), 8 * 3);
-        assert_eq!(
-            solid["triangles"].as_str().unwrap().len(),
-            12 * 3 * 4 / 3 * 4
-        );
+        assert_eq!(solid["triangles"].as_str().unwrap().len(), 12 * 3 * 4 / 3 * 4);
         let source = scene["sources"][0]["position_m"][2].as_f64().unwrap();
         assert!((-8.0..-3.8).contains(&source), "{source}");
     }
@@ -200,10 +185,7 @@ mod tests {
     fn the_document_holds_shapes_joints_drives_and_sensors_of_a_robot() {
         let scene = document("duck_survey.ron");
         let robot = &scene["machines"][0];
-        assert_eq!(
-            (&robot["kind"], &robot["base"]),
-            (&json!("robot"), &Value::Null)
-        );
+        assert_eq!((&robot["kind"], &robot["base"]), (&json!("robot"), &Value::Null));
         let drives = robot["drives"].as_array().unwrap();
         let of = |actuator: &str| {
             let drive = drives.iter().find(|d| d["actuator"] == actuator).unwrap();

@@ -30,13 +30,7 @@ impl Names<'_> {
 /// A pose as a transform.
 #[must_use]
 pub fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> Transform {
-    Transform {
-        t_ns,
-        parent: parent.to_owned(),
-        child,
-        position: pose.p_WB,
-        attitude: pose.R_WB,
-    }
+    Transform { t_ns, parent: parent.to_owned(), child, position: pose.p_WB, attitude: pose.R_WB }
 }
 
 /// All links of a machine but its slides, its altimeter's beam, and where a gantry stands; joints with drives at zero.
@@ -45,10 +39,7 @@ pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
     let mut all = Vec::new();
     let name = |link: &str| names.frame(link);
     let root = name(&machine.description.root);
-    let here = Pose {
-        p_WB: Vector3::zeros(),
-        R_WB: UnitQuaternion::identity(),
-    };
+    let here = Pose { p_WB: Vector3::zeros(), R_WB: UnitQuaternion::identity() };
     match &machine.base {
         Some(base) => all.push(transform(0, names.world, root, base)),
         None if machine.description.root != BODY => {
@@ -58,12 +49,7 @@ pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
     }
     for joint in &machine.description.joints {
         if !machine.slides.contains(&joint.joint) {
-            all.push(transform(
-                0,
-                &name(&joint.parent),
-                name(&joint.child),
-                &joint.pose,
-            ));
+            all.push(transform(0, &name(&joint.parent), name(&joint.child), &joint.pose));
         }
     }
     let sounds = |l: &LinkLook| l.name == "altimeter";
@@ -71,12 +57,7 @@ pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
         // A range is along x, and the altimeter looks along the body's down axis.
         let down = UnitQuaternion::from_euler_angles(0.0, FRAC_PI_2, 0.0);
         let beam = Pose { R_WB: down, ..here };
-        all.push(transform(
-            0,
-            &name("altimeter"),
-            name("altimeter_beam"),
-            &beam,
-        ));
+        all.push(transform(0, &name("altimeter"), name("altimeter_beam"), &beam));
     }
     all
 }
@@ -107,16 +88,11 @@ mod tests {
     const MAP: &str = "map";
 
     fn names(machine: &Machine) -> Names<'_> {
-        Names {
-            world: MAP,
-            own: &machine.name,
-        }
+        Names { world: MAP, own: &machine.name }
     }
 
     fn machine(scenario: &str) -> Machine {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../catalog")
-            .join(scenario);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
         let loaded = load(&path).unwrap();
         Scene::of(&loaded).unwrap().machines[0].clone()
     }
@@ -124,10 +100,7 @@ mod tests {
     /// Pose of a frame in `map`, by the chain of its parents.
     fn in_map(all: &[Transform], frame: &str) -> Pose {
         let by: BTreeMap<&str, &Transform> = all.iter().map(|t| (t.child.as_str(), t)).collect();
-        let mut pose = Pose {
-            p_WB: Vector3::zeros(),
-            R_WB: UnitQuaternion::identity(),
-        };
+        let mut pose = Pose { p_WB: Vector3::zeros(), R_WB: UnitQuaternion::identity() };
         let mut at = frame;
         while at != MAP {
             let t = by[at];
@@ -145,17 +118,9 @@ mod tests {
         let block = &loaded.scenario.gantries[0];
         let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).unwrap();
         let machine = machine("flume_crab.ron");
-        let joints = [0.75, -0.25].map(|position_m| JointState {
-            position_m,
-            ..JointState::default()
-        });
+        let joints = [0.75, -0.25].map(|position_m| JointState { position_m, ..JointState::default() });
         let mut all = fixed(&machine, &names(&machine));
-        all.extend(slid(
-            5,
-            &machine,
-            &names(&machine),
-            &joints.map(|j| j.position_m),
-        ));
+        all.extend(slid(5, &machine, &names(&machine), &joints.map(|j| j.position_m)));
         let base = machine.base.unwrap();
         let head = in_map(&all, "crab0/head").p_WB;
         assert!((head - gantry.head_W(&base, &joints)).norm() < 1e-12);
@@ -164,20 +129,14 @@ mod tests {
             assert!((shown - tip).norm() < 1e-12, "{probe}");
         }
         let forward = (in_map(&all, "crab0/head").R_WB * Vector3::x()).xy();
-        assert!(
-            (forward - Vector2::new(-1.0, 0.0)).norm() < 1e-12,
-            "{forward}"
-        );
+        assert!((forward - Vector2::new(-1.0, 0.0)).norm() < 1e-12, "{forward}");
     }
 
     #[test]
     fn the_altimeter_s_beam_looks_down() {
         let machine = machine("harbour_3d.ron");
         let mut all = fixed(&machine, &names(&machine));
-        let level = Pose {
-            p_WB: Vector3::new(1.0, 2.0, -3.0),
-            R_WB: UnitQuaternion::identity(),
-        };
+        let level = Pose { p_WB: Vector3::new(1.0, 2.0, -3.0), R_WB: UnitQuaternion::identity() };
         all.push(transform(0, MAP, machine.frame(BODY), &level));
         let beam = in_map(&all, "auv0/altimeter_beam");
         assert!((beam.R_WB * Vector3::x() + Vector3::z()).norm() < 1e-12);

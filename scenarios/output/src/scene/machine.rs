@@ -58,11 +58,7 @@ impl Machine {
         })
     }
 
-    pub(super) fn of_gantry(
-        block: &GantryBlock,
-        terrain: &Terrain,
-        files: &Beside,
-    ) -> Result<Self, RobotError> {
+    pub(super) fn of_gantry(block: &GantryBlock, terrain: &Terrain, files: &Beside) -> Result<Self, RobotError> {
         let (id, gantry) = (block.id.as_str(), Gantry::load(&block.gantry, files)?);
         let probes = block.layout(&gantry).probes.into_iter();
         let probes: Vec<String> = probes.map(|p| p.name).collect();
@@ -70,10 +66,7 @@ impl Machine {
             kind: "probe",
             name: name.clone(),
             link: name.clone(),
-            pose: Pose {
-                p_WB: Vector3::zeros(),
-                R_WB: UnitQuaternion::identity(),
-            },
+            pose: Pose { p_WB: Vector3::zeros(), R_WB: UnitQuaternion::identity() },
             view_rad: None,
             height_rad: None,
             max_m: None,

@@ -24,23 +24,15 @@ impl Mesh {
 
     fn limited(triangles: &[[Vector3<f64>; 3]], most: usize) -> Self {
         let corners = triangles.as_flattened();
-        let low = corners
-            .iter()
-            .fold(Vector3::repeat(f64::MAX), |m, p| m.inf(p));
-        let high = corners
-            .iter()
-            .fold(Vector3::repeat(f64::MIN), |m, p| m.sup(p));
+        let low = corners.iter().fold(Vector3::repeat(f64::MAX), |m, p| m.inf(p));
+        let high = corners.iter().fold(Vector3::repeat(f64::MIN), |m, p| m.sup(p));
         let reach_m = (high - low).max();
         let mesh = Self::joined(triangles, |p| p.map(f64::to_bits).into());
         // A grid of n cells along the longest side has at most some 6 n² cells on a surface round the solid.
         let mut cells = 256.0;
         let mut coarse = mesh;
         while coarse.triangles.len() > most && cells > 2.0 {
-            let cell = |p: &Vector3<f64>| {
-                ((p - low) * (cells / reach_m))
-                    .map(|v| v.floor() as u64)
-                    .into()
-            };
+            let cell = |p: &Vector3<f64>| ((p - low) * (cells / reach_m)).map(|v| v.floor() as u64).into();
             coarse = Self::joined(triangles, cell);
             cells *= 0.75;
         }
@@ -108,10 +100,7 @@ mod tests {
         let mesh = Mesh::limited(&fine, 3000);
         let n = mesh.triangles.len();
         assert!(n <= 3000 && n > 500, "{n} of {}", fine.len());
-        let volume: f64 = mesh
-            .corners()
-            .map(|[a, b, c]| a.dot(&b.cross(&c)) / 6.0)
-            .sum();
+        let volume: f64 = mesh.corners().map(|[a, b, c]| a.dot(&b.cross(&c)) / 6.0).sum();
         assert!((volume / 4.188_79 - 1.0).abs() < 0.1, "{volume}");
     }
 }

@@ -61,10 +61,7 @@ impl Scene {
     /// The frame of clouds, whose numbers of single precision are relative to the centre of the area.
     #[must_use]
     pub fn area_frame(&self, parent: &str, child: &str) -> Transform {
-        let pose = Pose {
-            p_WB: self.centre().push(0.0),
-            R_WB: UnitQuaternion::identity(),
-        };
+        let pose = Pose { p_WB: self.centre().push(0.0), R_WB: UnitQuaternion::identity() };
         transform(0, parent, child.to_owned(), &pose)
     }
 
@@ -81,11 +78,10 @@ impl Scene {
             let id = id.to_owned();
             |source| AssembleError::Robot { id, source }
         };
-        let robots = (scenario.robots.iter())
-            .map(|spec| Machine::of_robot(spec, &files).map_err(failed(spec.id.as_str())));
-        let gantries = (scenario.gantries.iter()).map(|block| {
-            Machine::of_gantry(block, &terrain, &files).map_err(failed(block.id.as_str()))
-        });
+        let robots =
+            (scenario.robots.iter()).map(|spec| Machine::of_robot(spec, &files).map_err(failed(spec.id.as_str())));
+        let gantries = (scenario.gantries.iter())
+            .map(|block| Machine::of_gantry(block, &terrain, &files).map_err(failed(block.id.as_str())));
         let mut layers: Vec<f64> = (scenario.water.currents.iter())
             .flat_map(|c| c.scales().interfaces)
             .map(|i| i.depth_m)
@@ -139,11 +135,7 @@ fn solids(scenario: &Scenario, base_dir: &Path) -> Result<Vec<Solid>, AssembleEr
             true => PERMEABLE,
             false => ROCK,
         };
-        Ok(Solid {
-            mesh: Mesh::of(&obstacle.triangles()),
-            name: obstacle.id,
-            colour,
-        })
+        Ok(Solid { mesh: Mesh::of(&obstacle.triangles()), name: obstacle.id, colour })
     };
     scenario.obstacles.iter().map(solid).collect()
 }

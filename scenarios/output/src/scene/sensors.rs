@@ -3,9 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use rheotaxis::scenario::RobotSpec;
 use robots::sense::camera::CameraSpec;
-use robots::sense::{
-    AdcpSpec, AltimeterSpec, CtdSpec, DvlSpec, FluorometerSpec, Look, RangingSpec, SidescanSpec,
-};
+use robots::sense::{AdcpSpec, AltimeterSpec, CtdSpec, DvlSpec, FluorometerSpec, Look, RangingSpec, SidescanSpec};
 use robots::vehicles::Description;
 use std::f64::consts::FRAC_PI_2;
 use world::frames::Pose;
@@ -36,10 +34,7 @@ pub(super) fn of_robot(spec: &RobotSpec, description: &Description) -> Vec<Senso
         let Some(link) = description.links.iter().find(|l| l.name == name) else {
             return;
         };
-        let pose = Pose {
-            p_WB: link.pose.p_WB,
-            R_WB: turned,
-        };
+        let pose = Pose { p_WB: link.pose.p_WB, R_WB: turned };
         all.push(SensorPlace {
             kind,
             name: name.to_owned(),
@@ -67,36 +62,15 @@ pub(super) fn of_robot(spec: &RobotSpec, description: &Description) -> Vec<Senso
         put("camera", "camera", turned, Some(view), Some(height), None);
     }
     if let Some(s) = sensors.get::<AltimeterSpec>() {
-        put(
-            "altimeter",
-            "altimeter",
-            down,
-            None,
-            None,
-            Some(s.max_range_m.get()),
-        );
+        put("altimeter", "altimeter", down, None, None, Some(s.max_range_m.get()));
     }
     if let Some(s) = sensors.get::<RangingSpec>() {
         let [view, height] = [s.width_deg, s.height_deg].map(|a| Some(a.get().to_radians()));
-        put(
-            "ranging",
-            "ranging",
-            ahead,
-            view,
-            height,
-            Some(s.max_range_m.get()),
-        );
+        put("ranging", "ranging", ahead, view, height, Some(s.max_range_m.get()));
     }
     if let Some(s) = sensors.get::<SidescanSpec>() {
         let aperture = Some(s.aperture_deg.get().to_radians());
-        put(
-            "sidescan",
-            "sidescan",
-            ahead,
-            aperture,
-            None,
-            Some(s.range_m.get()),
-        );
+        put("sidescan", "sidescan", ahead, aperture, None, Some(s.range_m.get()));
     }
     if let Some(s) = sensors.get::<DvlSpec>() {
         put("dvl", "dvl", down, None, None, Some(s.max_altitude_m.get()));

@@ -61,21 +61,12 @@ const ROBOT: [(&str, f32, f32); 17] = [
 ];
 
 /// Numbers of a gantry's observation, before those of its probes.
-const GANTRY: [(&str, f32, f32); 5] = [
-    ("forward", -1.0, 1.0),
-    ("left", -1.0, 1.0),
-    ("arrived", 0.0, 1.0),
-    ("blocked", 0.0, 1.0),
-    ("time", 0.0, 1.0),
-];
+const GANTRY: [(&str, f32, f32); 5] =
+    [("forward", -1.0, 1.0), ("left", -1.0, 1.0), ("arrived", 0.0, 1.0), ("blocked", 0.0, 1.0), ("time", 0.0, 1.0)];
 
 impl Agent {
     fn new(id: String, machine: Machine) -> Self {
-        Self {
-            features: machine.features(),
-            id,
-            machine,
-        }
+        Self { features: machine.features(), id, machine }
     }
 
     /// Numbers of an action, without the declaration.
@@ -95,11 +86,8 @@ impl Agent {
 impl Machine {
     /// The numbers of its observation.
     fn features(&self) -> Vec<Feature> {
-        let fixed = |(name, low, high): &(&str, f32, f32)| Feature {
-            name: (*name).to_string(),
-            low: *low,
-            high: *high,
-        };
+        let fixed =
+            |(name, low, high): &(&str, f32, f32)| Feature { name: (*name).to_string(), low: *low, high: *high };
         match self {
             Machine::Robot { .. } => ROBOT.iter().map(fixed).collect(),
             Machine::Gantry { layout, .. } => {
@@ -121,37 +109,21 @@ impl Machine {
 ///
 /// # Errors
 /// If the files of a gantry cannot be read.
-pub(crate) fn take_over(
-    loaded: &mut Loaded,
-    ocean: &Ocean,
-    period_s: f64,
-) -> Result<Vec<Agent>, AssembleError> {
+pub(crate) fn take_over(loaded: &mut Loaded, ocean: &Ocean, period_s: f64) -> Result<Vec<Agent>, AssembleError> {
     let period_s = Positive::new(period_s);
     let mut agents = Vec::new();
     for robot in &mut loaded.scenario.robots {
-        robot.strategy = StrategySpec::new(strategy::ExternalSpec {
-            period_s,
-            ..Default::default()
-        });
+        robot.strategy = StrategySpec::new(strategy::ExternalSpec { period_s, ..Default::default() });
         let altitude = robot.start.altitude_m.is_some();
         let id = robot.id.as_str().to_string();
         agents.push(Agent::new(id, Machine::Robot { altitude }));
     }
     for block in &mut loaded.scenario.gantries {
-        block.tracker = GantryStrategySpec::new(track::ExternalSpec {
-            period_s,
-            ..Default::default()
-        });
+        block.tracker = GantryStrategySpec::new(track::ExternalSpec { period_s, ..Default::default() });
         let id = block.id.as_str().to_string();
         let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir));
-        let gantry = gantry.map_err(|source| AssembleError::Robot {
-            id: id.clone(),
-            source,
-        })?;
-        let machine = Machine::Gantry {
-            layout: block.layout(&gantry),
-            base: block.base(&ocean.terrain),
-        };
+        let gantry = gantry.map_err(|source| AssembleError::Robot { id: id.clone(), source })?;
+        let machine = Machine::Gantry { layout: block.layout(&gantry), base: block.base(&ocean.terrain) };
         agents.push(Agent::new(id, machine));
     }
     Ok(agents)

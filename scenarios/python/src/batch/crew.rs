@@ -44,11 +44,7 @@ impl Crew {
     /// So many threads; 0 means one for each core.
     pub(crate) fn new(threads: usize) -> Self {
         let all = || std::thread::available_parallelism().map_or(1, usize::from);
-        Self {
-            threads: if threads == 0 { all() } else { threads },
-            pool: OnceLock::new(),
-            process: std::process::id(),
-        }
+        Self { threads: if threads == 0 { all() } else { threads }, pool: OnceLock::new(), process: std::process::id() }
     }
 
     fn pool(&self) -> PyResult<&ThreadPool> {
@@ -65,19 +61,12 @@ impl Crew {
 
     /// Does a job for each item, in any order. It is called without the interpreter's lock. An exception that a signal
     /// has raised ends the work early, and so does a panic.
-    pub(crate) fn work<T: Send>(
-        &self,
-        items: &mut [T],
-        job: impl Fn(&mut T, &Halt) + Sync,
-    ) -> PyResult<()> {
+    pub(crate) fn work<T: Send>(&self, items: &mut [T], job: impl Fn(&mut T, &Halt) + Sync) -> PyResult<()> {
         if self.threads == 1 || items.len() <= 1 {
             return alone(items, job);
         }
         let pool = self.pool()?;
-        let halt = Halt {
-            stopped: AtomicBool::new(false),
-            signals: None,
-        };
+        let halt = Halt { stopped: AtomicBool::new(false), signals: None };
         let (left, wake) = (Mutex::new(items.len()), Condvar::new());
         let said = Mutex::new(None);
         let mut signals = Signals::default();
@@ -120,18 +109,13 @@ impl Crew {
 }
 
 fn alone<T>(items: &mut [T], job: impl Fn(&mut T, &Halt)) -> PyResult<()> {
-    let halt = Halt {
-        stopped: AtomicBool::new(false),
-        signals: Some(Mutex::default()),
-    };
+    let halt = Halt { stopped: AtomicBool::new(false), signals: Some(Mutex::default()) };
     for item in items {
         if !halt.well() {
             break;
         }
         caught(|| job(item, &halt)).map_err(|text| panicked(&text))?;
     }
-    let signals = halt
-        .signals
-        .map(|s| s.into_inner().unwrap_or_else(PoisonError::into_inner));
+    let signals = halt.signals.map(|s| s.into_inner().unwrap_or_else(PoisonError::into_inner));
     signals.and_then(Signals::raised).map_or(Ok(()), Err)
 }

@@ -70,12 +70,7 @@ impl Group {
             digest: None,
             began_s: 0.0,
         };
-        Self {
-            shared: None,
-            envs: (0..places).map(|_| env()).collect(),
-            task: Task::Nothing,
-            fault: None,
-        }
+        Self { shared: None, envs: (0..places).map(|_| env()).collect(), task: Task::Nothing, fault: None }
     }
 
     /// Does what there is to do.
@@ -97,14 +92,9 @@ impl Group {
         if let Some((seed, kept)) = ocean {
             let made = Shared::among(&rules.worlds, seed, self.envs.len(), Some(&kept));
             self.shared = Some(made.map_err(|e| e.to_string())?);
-            self.envs
-                .iter_mut()
-                .for_each(|env| env.state = State::Empty);
+            self.envs.iter_mut().for_each(|env| env.state = State::Empty);
         }
-        let shared = self
-            .shared
-            .as_mut()
-            .ok_or("there is no ocean yet: reset first")?;
+        let shared = self.shared.as_mut().ok_or("there is no ocean yet: reset first")?;
         for (place, seed) in places {
             let env = &mut self.envs[place];
             shared.leave(place);
@@ -128,10 +118,7 @@ impl Group {
     }
 
     fn act(&mut self, rules: &Rules, actions: Vec<(usize, Vec<f64>)>) -> Result<(), String> {
-        let shared = self
-            .shared
-            .as_mut()
-            .ok_or("there is no ocean yet: reset first")?;
+        let shared = self.shared.as_mut().ok_or("there is no ocean yet: reset first")?;
         for (place, action) in &actions {
             let env = &mut self.envs[*place];
             let mut rest = action.as_slice();
@@ -188,10 +175,7 @@ impl Env {
     /// Decides how the episode stands after a step.
     fn judge(&mut self, rules: &Rules, shared: &mut Shared, place: usize) -> Result<(), String> {
         if shared.standing(place) == Standing::Failed {
-            let said = shared
-                .failure(place)
-                .unwrap_or("of unknown cause")
-                .to_string();
+            let said = shared.failure(place).unwrap_or("of unknown cause").to_string();
             return Err(format!("the run broke off: {said}"));
         }
         let reached = |mind: &Mind| rules.goal_m.is_some_and(|m| mind.truth.closest_m <= m);

@@ -6,8 +6,8 @@ use nalgebra::Vector2;
 use rheotaxis::control::{Gathered, HeadGathered, Question, Seen};
 use rheotaxis::trial::Trial;
 use robots::handoff::{
-    Answer, Declaration, GantryBehaviour, GantryLayout, GantryObservation, HeadOrder, Manoeuvre,
-    MoveOrder, Observation, Order, Outcome, Vertical,
+    Answer, Declaration, GantryBehaviour, GantryLayout, GantryObservation, HeadOrder, Manoeuvre, MoveOrder,
+    Observation, Order, Outcome, Vertical,
 };
 
 /// Time since a hit after which it does not matter how long it was, s.
@@ -48,11 +48,7 @@ impl Mind {
     pub(crate) fn new(agent: &Agent) -> Self {
         Self {
             features: vec![0.0; agent.features.len()],
-            truth: TruthOf {
-                closest_m: f64::INFINITY,
-                distance_m: f64::INFINITY,
-                ..TruthOf::default()
-            },
+            truth: TruthOf { closest_m: f64::INFINITY, distance_m: f64::INFINITY, ..TruthOf::default() },
             asks: false,
             seen: None,
             t_s: 0.0,
@@ -84,9 +80,7 @@ impl Mind {
         let left = heading.turned(-std::f64::consts::FRAC_PI_2).unit();
         let share = |n: f64| n / f64::from(gathered.readings.max(1));
         let newest = gathered.chemical.map(|c| c.of_full_scale);
-        let since = gathered
-            .detected_s
-            .map_or(LONG_AGO_S, |then| self.t_s - then);
+        let since = gathered.detected_s.map_or(LONG_AGO_S, |then| self.t_s - then);
         let flow = e.flow.map(|f| f.velocity);
         let along = |v: Vector2<f64>| [v.dot(&heading.unit()), v.dot(&left)];
         let [forward, aside] = flow.map_or([0.0; 2], along);
@@ -114,13 +108,7 @@ impl Mind {
         self.features = numbers.map(|v| v as f32).to_vec();
     }
 
-    fn see_gantry(
-        &mut self,
-        seen: &GantryObservation,
-        gathered: &HeadGathered,
-        layout: &GantryLayout,
-        time: f64,
-    ) {
+    fn see_gantry(&mut self, seen: &GantryObservation, gathered: &HeadGathered, layout: &GantryLayout, time: f64) {
         let joints = &seen.readings.joints;
         let share = |axis: usize| {
             let [low, high] = layout.travel_m[axis];
@@ -129,13 +117,8 @@ impl Mind {
         let [low_v, high_v] = layout.range_v;
         let of_full = |volts: f64| ((volts - low_v) / (high_v - low_v)) as f32;
         let probes = layout.probes.len();
-        let fixed = [
-            share(0),
-            share(1),
-            f64::from(u8::from(joints.arrived)),
-            f64::from(u8::from(joints.blocked)),
-            time,
-        ];
+        let fixed =
+            [share(0), share(1), f64::from(u8::from(joints.arrived)), f64::from(u8::from(joints.blocked)), time];
         let kept = self.features.split_off(fixed.len());
         self.features = fixed.map(|v| v as f32).to_vec();
         let newest = gathered.scans.last();
@@ -168,10 +151,7 @@ impl Mind {
                     };
                 }
                 let order = self.move_order(rules, seen, *altitude, &moved);
-                Answer {
-                    order: Some(Order::Move(order)),
-                    ..Answer::default()
-                }
+                Answer { order: Some(Order::Move(order)), ..Answer::default() }
             }
             (Seen::Gantry(seen, _), Machine::Gantry { layout, .. }) => {
                 let reach = |axis: usize| moved[axis] * layout.max_speed_m_s[axis] * rules.period_s;
@@ -191,22 +171,11 @@ impl Mind {
         }
     }
 
-    fn move_order(
-        &mut self,
-        rules: &Rules,
-        seen: &Observation,
-        altitude: bool,
-        action: &[f64],
-    ) -> MoveOrder {
+    fn move_order(&mut self, rules: &Rules, seen: &Observation, altitude: bool, action: &[f64]) -> MoveOrder {
         let e = &seen.estimate;
-        let [low, high] =
-            (rules.speed_m_s).unwrap_or([seen.able.least_speed_m_s, seen.able.top_speed_m_s]);
+        let [low, high] = (rules.speed_m_s).unwrap_or([seen.able.least_speed_m_s, seen.able.top_speed_m_s]);
         // The set-point follows the actions, not the vehicle's lag; it does not run away from the vehicle.
-        let here = if altitude {
-            e.altitude_m
-        } else {
-            Some(e.depth_m)
-        };
+        let here = if altitude { e.altitude_m } else { Some(e.depth_m) };
         let least = if altitude { LEAST_ALTITUDE_M } else { 0.0 };
         let near = 3.0 * rules.climb_m;
         if let Some(here) = here {
@@ -214,17 +183,11 @@ impl Mind {
             self.height_m = Some(wanted.clamp(here - near, here + near).max(least));
         }
         let set = |m: f64| {
-            if altitude {
-                Vertical::Altitude(m)
-            } else {
-                Vertical::Depth(m)
-            }
+            if altitude { Vertical::Altitude(m) } else { Vertical::Depth(m) }
         };
         MoveOrder {
             id: None,
-            manoeuvre: Manoeuvre::Steer {
-                heading: e.attitude.heading.turned(action[0] * rules.turn_rad),
-            },
+            manoeuvre: Manoeuvre::Steer { heading: e.attitude.heading.turned(action[0] * rules.turn_rad) },
             vertical: self.height_m.filter(|_| seen.able.dives).map(set),
             speed_m_s: Some(low + 0.5 * (action[2] + 1.0) * (high - low)),
         }

@@ -65,8 +65,7 @@ impl Rules {
 /// The numbers of an action, from their bytes.
 fn numbers(bytes: &[u8]) -> Vec<f64> {
     let each = bytes.chunks_exact(8);
-    each.map(|b| f64::from_ne_bytes(b.try_into().expect("8 bytes")))
-        .collect()
+    each.map(|b| f64::from_ne_bytes(b.try_into().expect("8 bytes"))).collect()
 }
 
 /// What changes.
@@ -121,30 +120,19 @@ impl Batch {
             ));
         }
         let good = |v: f64| v.is_finite() && v > 0.0;
-        let named = [
-            ("limit_s", limit_s),
-            ("goal_m", goal_m.unwrap_or(1.0)),
-            ("turn_deg", turn_deg),
-            ("climb_m", climb_m),
-        ];
+        let named =
+            [("limit_s", limit_s), ("goal_m", goal_m.unwrap_or(1.0)), ("turn_deg", turn_deg), ("climb_m", climb_m)];
         if let Some((name, got)) = named.into_iter().find(|(_, v)| !good(*v)) {
             return refused(format!("{name} must be above 0, got {got}"));
         }
-        if let Some([low, high]) = speed_m_s.filter(|[a, b]| !(*a >= 0.0 && b > a && b.is_finite()))
-        {
-            return refused(format!(
-                "speed_m_s must be two speeds, the smaller first, got {low}, {high}"
-            ));
+        if let Some([low, high]) = speed_m_s.filter(|[a, b]| !(*a >= 0.0 && b > a && b.is_finite())) {
+            return refused(format!("speed_m_s must be two speeds, the smaller first, got {low}, {high}"));
         }
         if n == 0 || per_plume == 0 || !n.is_multiple_of(per_plume) {
-            return refused(format!(
-                "the environments must fill their plumes: got {n} with {per_plume} in each"
-            ));
+            return refused(format!("the environments must fill their plumes: got {n} with {per_plume} in each"));
         }
         if n > MOST {
-            return refused(format!(
-                "there are at most {MOST} environments in a batch, got {n}"
-            ));
+            return refused(format!("there are at most {MOST} environments in a batch, got {n}"));
         }
         let agents = apart(py, || {
             let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 1);
@@ -231,9 +219,7 @@ impl Batch {
             }
             let width: usize = self.rules.agents.iter().map(|a| self.rules.width(a)).sum();
             if actions.len() != acting.len() * width * 8 {
-                return Err(PyValueError::new_err(
-                    "an action has a wrong number of numbers",
-                ));
+                return Err(PyValueError::new_err("an action has a wrong number of numbers"));
             }
             let rows = actions.chunks_exact(width * 8);
             for (env, row) in acting.iter().zip(rows) {
@@ -251,11 +237,7 @@ impl Batch {
 
     /// A controller for a whole run that decides for one of the searchers, by its place among them.
     fn pilot(&self, agent: usize, decide: Py<PyAny>) -> Pilot {
-        Pilot {
-            rules: self.rules.clone(),
-            agent,
-            decide,
-        }
+        Pilot { rules: self.rules.clone(), agent, decide }
     }
 
     /// What all environments are like: arrays, newly made.
@@ -279,17 +261,12 @@ impl Batch {
         let mut kept = kept.into_iter();
         for (env, ocean, seed) in begin {
             let (group, place) = (env / self.per_plume, env % self.per_plume);
-            let ocean = (fresh && place == 0)
-                .then(|| kept.next().map(|k| (*ocean, k)))
-                .flatten();
+            let ocean = (fresh && place == 0).then(|| kept.next().map(|k| (*ocean, k))).flatten();
             let group = &mut inside.groups[group];
             if let Task::Begin { places, .. } = &mut group.task {
                 places.push((place, *seed));
             } else {
-                group.task = Task::Begin {
-                    ocean,
-                    places: vec![(place, *seed)],
-                };
+                group.task = Task::Begin { ocean, places: vec![(place, *seed)] };
             }
         }
         if fresh && begin.len() == self.per_plume * inside.groups.len() {
@@ -304,9 +281,7 @@ impl Batch {
     fn work(&self, inside: &mut Inside) -> PyResult<()> {
         let busy = inside.groups.iter_mut();
         let mut busy: Vec<&mut Group> = busy.filter(|g| !matches!(g.task, Task::Nothing)).collect();
-        let worked = self
-            .crew
-            .work(&mut busy, |group, _| group.work(&self.rules));
+        let worked = self.crew.work(&mut busy, |group, _| group.work(&self.rules));
         let faults = busy.iter_mut().filter_map(|group| group.fault.take());
         let fault = faults.reduce(|first, _| first);
         let worked = worked.and_then(|()| fault.map_or(Ok(()), |said| Err(panicked(&said))));

@@ -36,11 +36,7 @@ struct Order {
 impl Plumes {
     /// Keeps so many in memory, and uses those on the disk.
     pub(crate) fn new(most: usize, shelf: Option<SpinUps>) -> Self {
-        Self {
-            most: most.max(1),
-            kept: Vec::new(),
-            shelf,
-        }
+        Self { most: most.max(1), kept: Vec::new(), shelf }
     }
 
     /// What went wrong with those on the disk, since this was asked last.
@@ -49,12 +45,7 @@ impl Plumes {
     }
 
     /// The plumes of these seeds, in their order; those that are not kept are made.
-    pub(crate) fn get(
-        &mut self,
-        loaded: &Loaded,
-        seeds: &[u64],
-        crew: &Crew,
-    ) -> PyResult<Vec<Arc<SpunUp>>> {
+    pub(crate) fn get(&mut self, loaded: &Loaded, seeds: &[u64], crew: &Crew) -> PyResult<Vec<Arc<SpunUp>>> {
         let mut missing: Vec<u64> = seeds.to_vec();
         missing.sort_unstable();
         missing.dedup();
@@ -85,12 +76,7 @@ impl Plumes {
 }
 
 /// Lets a plume develop; `None` if it was stopped.
-fn spun_up(
-    loaded: &Loaded,
-    seed: u64,
-    shelf: Option<&SpinUps>,
-    halt: &Halt,
-) -> Result<Option<SpunUp>, AssembleError> {
+fn spun_up(loaded: &Loaded, seed: u64, shelf: Option<&SpinUps>, halt: &Halt) -> Result<Option<SpunUp>, AssembleError> {
     let mut trial = Trial::assemble(loaded, seed)?;
     let mut stop = Stop(halt);
     Ok(match shelf {

@@ -58,15 +58,9 @@ impl Told {
         let dict = PyDict::new(py);
         let rows = self.rows;
         let wide = |all: usize| all / rows.max(1);
-        let seen = self
-            .seen
-            .iter()
-            .map(|v| array(py, v, &[rows, wide(v.len())]));
+        let seen = self.seen.iter().map(|v| array(py, v, &[rows, wide(v.len())]));
         dict.set_item("obs", seen.collect::<PyResult<Vec<_>>>()?)?;
-        let truth = self
-            .truth
-            .iter()
-            .map(|v| array(py, v, &[rows, wide(v.len())]));
+        let truth = self.truth.iter().map(|v| array(py, v, &[rows, wide(v.len())]));
         dict.set_item("truth", truth.collect::<PyResult<Vec<_>>>()?)?;
         let asks = self.asks.iter().map(|v| column(py, v));
         dict.set_item("asks", asks.collect::<PyResult<Vec<_>>>()?)?;

@@ -19,11 +19,7 @@ use std::error::Error;
 use std::process::ExitCode;
 
 /// Name, what it shows, and the example itself.
-type Example = (
-    &'static str,
-    &'static str,
-    fn() -> Result<(), Box<dyn Error>>,
-);
+type Example = (&'static str, &'static str, fn() -> Result<(), Box<dyn Error>>);
 
 const EXAMPLES: [Example; 9] = [
     (
@@ -31,42 +27,14 @@ const EXAMPLES: [Example; 9] = [
         "the shortest run: a scenario that comes with the program, and what was declared in it",
         shortest::main,
     ),
-    (
-        "stepped",
-        "a run in steps: the state every minute, and the water at the vehicle",
-        stepped::main,
-    ),
-    (
-        "own_strategy",
-        "a strategy: up-stream until it smells something",
-        own_strategy::main,
-    ),
-    (
-        "own_controller",
-        "a controller that the run asks once a second",
-        own_controller::main,
-    ),
+    ("stepped", "a run in steps: the state every minute, and the water at the vehicle", stepped::main),
+    ("own_strategy", "a strategy: up-stream until it smells something", own_strategy::main),
+    ("own_controller", "a controller that the run asks once a second", own_controller::main),
     ("own_current", "a current: a jet", own_current::main),
-    (
-        "own_sensor",
-        "a sensor: the pressure of the water",
-        own_sensor::main,
-    ),
-    (
-        "own_system",
-        "a system of the tick that counts sharp turns",
-        own_system::main,
-    ),
-    (
-        "own_topic",
-        "a topic of live state and recording",
-        own_topic::main,
-    ),
-    (
-        "own_apparatus",
-        "an apparatus beside robots and gantries: a moored buoy",
-        own_apparatus::main,
-    ),
+    ("own_sensor", "a sensor: the pressure of the water", own_sensor::main),
+    ("own_system", "a system of the tick that counts sharp turns", own_system::main),
+    ("own_topic", "a topic of live state and recording", own_topic::main),
+    ("own_apparatus", "an apparatus beside robots and gantries: a moored buoy", own_apparatus::main),
 ];
 
 fn main() -> ExitCode {

@@ -37,11 +37,8 @@ struct Buoy {
 
 /// The name in scenario files, and what `rheotaxis list` says about it.
 impl Listed for Buoy {
-    const ENTRY: Entry = Entry {
-        name: "Buoy",
-        what: "a moored buoy that measures the dye at its place",
-        source: "an example",
-    };
+    const ENTRY: Entry =
+        Entry { name: "Buoy", what: "a moored buoy that measures the dye at its place", source: "an example" };
 }
 
 /// A buoy in the world: an entity with this component.
@@ -55,12 +52,7 @@ struct Moored {
 }
 
 /// The system of all buoys. A buoy is no searcher, so it may read the ocean; it would add noise if it were a real one.
-fn measure(
-    clock: Res<Clock>,
-    ocean: Res<Ocean>,
-    mut buoys: Query<&mut Moored>,
-    mut topics: ResMut<Topics>,
-) {
+fn measure(clock: Res<Clock>, ocean: Res<Ocean>, mut buoys: Query<&mut Moored>, mut topics: ResMut<Topics>) {
     let t_s = clock.t_s();
     for mut buoy in &mut buoys {
         if buoy.every.due(&clock) {

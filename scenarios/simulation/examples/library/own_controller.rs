@@ -9,9 +9,7 @@
 use rheotaxis::control::{Heard, Question, Seen};
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
-use robots::handoff::{
-    Answer, Behaviour, Declaration, Manoeuvre, MoveOrder, Order, Outcome, Vertical,
-};
+use robots::handoff::{Answer, Behaviour, Declaration, Manoeuvre, MoveOrder, Order, Outcome, Vertical};
 use world::registry::Registry;
 use world::units::Heading;
 
@@ -21,24 +19,17 @@ fn decide(question: &Question) -> Heard {
         return Heard::Nonsense("it steers robots only".to_string());
     };
     let up_stream = (seen.estimate.flow).map_or(Heading::from_deg(270.0), |f| f.up_flow());
-    let side = if question.number % 100 < 50 {
-        -1.0
-    } else {
-        1.0
-    };
+    let side = if question.number % 100 < 50 { -1.0 } else { 1.0 };
     let smelt = gathered.highest > 0.2;
     Heard::Answer(Answer {
         order: Some(Order::Move(MoveOrder {
             id: None,
-            manoeuvre: Manoeuvre::Course {
-                course: up_stream.turned(side * 0.9),
-            },
+            manoeuvre: Manoeuvre::Course { course: up_stream.turned(side * 0.9) },
             vertical: Some(Vertical::Altitude(2.0)),
             speed_m_s: Some(1.5),
         })),
         behaviour: Some(Behaviour::Other("up_stream")),
-        declared: smelt
-            .then(|| Declaration::first(seen.t_s, seen.estimate.position, "strong smell")),
+        declared: smelt.then(|| Declaration::first(seen.t_s, seen.estimate.position, "strong smell")),
         outcome: smelt.then_some(Outcome::Completed),
         picture: false,
     })
@@ -49,14 +40,8 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A scenario of the catalogue whose robot asks somebody outside, once a second.
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text
-        .replace(
-            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-            "External(period_s: 1)",
-        )
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 2000, limit_s: 600",
-        );
+        .replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "External(period_s: 1)")
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 2000, limit_s: 600");
     let scenario = load_text(&Registry::default(), "up_stream", &text)?;
     let mut trial = Trial::assemble(&scenario, 1)?;
     trial.control("auv0", decide)?;

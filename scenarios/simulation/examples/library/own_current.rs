@@ -26,11 +26,7 @@ struct Jet {
 
 /// The name in scenario files, and what `rheotaxis list` says about it.
 impl Listed for Jet {
-    const ENTRY: Entry = Entry {
-        name: "Jet",
-        what: "an eastward jet, slower to its sides",
-        source: "an example",
-    };
+    const ENTRY: Entry = Entry { name: "Jet", what: "an eastward jet, slower to its sides", source: "an example" };
 }
 
 /// How it joins the water. The water adds all currents up; this one is the same at all depths.
@@ -58,23 +54,14 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Currents, Jet>()?;
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text
-        .replace(
-            "currents: [",
-            "currents: [Jet(speed_m_s: 0.3, half_width_m: 20),",
-        )
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 60, limit_s: 10",
-        );
+        .replace("currents: [", "currents: [Jet(speed_m_s: 0.3, half_width_m: 20),")
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 10");
 
     // The plume drifts with it, and the vehicle is carried by it.
     let mut trial = Trial::assemble(&load_text(&registry, "jet", &text)?, 1)?;
     trial.until(10.0);
     let speeds = [0.0, 20.0, 50.0].map(|north_m| {
-        let speed_m_s = trial
-            .simulation
-            .velocity(&Vector3::new(0.0, north_m, -5.0))
-            .x;
+        let speed_m_s = trial.simulation.velocity(&Vector3::new(0.0, north_m, -5.0)).x;
         println!("{north_m:2.0} m off the axis: {speed_m_s:.2} m/s");
         speed_m_s
     });

@@ -24,28 +24,20 @@ struct PressureParams {
 
 impl Default for PressureParams {
     fn default() -> Self {
-        Self {
-            noise_pa: NonNegative::new(100.0),
-        }
+        Self { noise_pa: NonNegative::new(100.0) }
     }
 }
 
 /// The name in scenario files, and what `rheotaxis list` says about it.
 impl Listed for PressureParams {
-    const ENTRY: Entry = Entry {
-        name: "pressure",
-        what: "pressure of the water above the vehicle",
-        source: "an example",
-    };
+    const ENTRY: Entry =
+        Entry { name: "pressure", what: "pressure of the water above the vehicle", source: "an example" };
 }
 
 /// From parameters to an instrument on a vehicle. Its random numbers are its own, so it changes nobody else's.
 impl SensorParams for PressureParams {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        Ok(Box::new(Pressure {
-            noise_pa: self.noise_pa.get(),
-            rng: on.robot.stream("pressure"),
-        }))
+        Ok(Box::new(Pressure { noise_pa: self.noise_pa.get(), rng: on.robot.stream("pressure") }))
     }
 }
 
@@ -73,10 +65,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text
         .replace("sensors: (", "sensors: (pressure: (noise_pa: 50), ")
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 60, limit_s: 10",
-        );
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 10");
 
     let mut trial = Trial::assemble(&load_text(&registry, "pressure", &text)?, 1)?;
     trial.until(5.0);

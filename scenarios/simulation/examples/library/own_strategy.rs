@@ -5,9 +5,7 @@
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use robots::error::RobotError;
-use robots::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
-};
+use robots::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use robots::strategy::{Strategies, Strategy, StrategyParams};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,23 +74,14 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A scenario of the catalogue with this strategy in the place of its own.
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text
-        .replace(
-            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-            "UpFlow(speed_m_s: 1.5, altitude_m: 2)",
-        )
-        .replace(
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 300, limit_s: 120",
-        );
+        .replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "UpFlow(speed_m_s: 1.5, altitude_m: 2)")
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 120");
 
     let mut trial = Trial::assemble(&load_text(&registry, "up_flow", &text)?, 1)?;
     trial.until(60.0);
     let robot = &trial.frame().ok_or("no frame")?.robots[0];
     let went_m = 150.0 - robot.truth.pose.p_WB.x;
-    println!(
-        "{}: {went_m:.0} m up-stream in a minute",
-        robot.behaviour.name()
-    );
+    println!("{}: {went_m:.0} m up-stream in a minute", robot.behaviour.name());
     let ended = trial.run(&mut rheotaxis::trial::Unwatched);
     println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
     if went_m < 30.0 {

@@ -37,10 +37,7 @@ fn peek(_robots: Query<&Truth>) {}
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text.replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 60, limit_s: 60",
-    );
+    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 60");
 
     // The registry carries the system into every run, also into those of campaigns and of the command.
     let registry = Registry::default().with_systems(|systems: &mut Systems| {

@@ -28,11 +28,7 @@ const SMELLS: Topic = Topic::json(
     &[
         Field::always("t_s", FieldKind::Number, "Simulated time, s."),
         Field::always("readings", FieldKind::Count, "Readings so far."),
-        Field::always(
-            "strongest_v",
-            FieldKind::Number,
-            "The strongest of them, V.",
-        ),
+        Field::always("strongest_v", FieldKind::Number, "The strongest of them, V."),
     ],
 );
 
@@ -73,15 +69,11 @@ impl Watch for Arrived {
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let registry =
-        (Registry::default().with_topic(SMELLS)?).with_systems(|systems: &mut Systems| {
-            systems.add_blind(Stage::Report, publish);
-        });
+    let registry = (Registry::default().with_topic(SMELLS)?).with_systems(|systems: &mut Systems| {
+        systems.add_blind(Stage::Report, publish);
+    });
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text.replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 300, limit_s: 60",
-    );
+    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 60");
 
     let mut trial = Trial::assemble(&load_text(&registry, "smells", &text)?, 1)?;
     let mut arrived = Arrived::default();

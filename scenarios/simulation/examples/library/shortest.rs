@@ -15,10 +15,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
     for declared in ended.declarations.values().flatten() {
         let place = declared.position;
-        println!(
-            "declared at {:.1} m east, {:.1} m north by {}",
-            place.x, place.y, declared.rule
-        );
+        println!("declared at {:.1} m east, {:.1} m north by {}", place.x, place.y, declared.rule);
     }
     if ended.declarations.is_empty() {
         return Err("nothing was declared".into());

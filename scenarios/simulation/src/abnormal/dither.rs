@@ -27,9 +27,10 @@ impl Switches {
             }
         }
         self.newest.len() == SWITCHES
-            && self.newest.front().is_some_and(|(first_s, place)| {
-                t_s - first_s < WITHIN_S && (p_W - place).norm() < WITHIN_M
-            })
+            && self
+                .newest
+                .front()
+                .is_some_and(|(first_s, place)| t_s - first_s < WITHIN_S && (p_W - place).norm() < WITHIN_M)
     }
 }
 
@@ -42,11 +43,7 @@ mod tests {
         let mut switches = Switches::default();
         (0..1000).map(|k| 0.1 * f64::from(k)).find(|t_s| {
             let avoids = ((t_s / every_s) as u32).is_multiple_of(2);
-            let behaviour = if avoids {
-                Behaviour::Avoid
-            } else {
-                Behaviour::Reacquire
-            };
+            let behaviour = if avoids { Behaviour::Avoid } else { Behaviour::Reacquire };
             let place = Vector3::new(speed_m_s * t_s, 0.0, -2.0);
             switches.alternate(behaviour, *t_s, &place)
         })

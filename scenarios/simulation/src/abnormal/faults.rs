@@ -22,22 +22,12 @@ struct Told {
 impl FaultLog {
     /// Those of a robot; steps take `dt_s`.
     pub(crate) fn new(faults: &[FaultSpec], dt_s: f64) -> Self {
-        let told = |fault: &FaultSpec| Told {
-            span: fault.span(dt_s),
-            words: fault.what.words(),
-            event: None,
-        };
+        let told = |fault: &FaultSpec| Told { span: fault.span(dt_s), words: fault.what.words(), event: None };
         Self(faults.iter().map(told).collect())
     }
 
     /// Notes which faults hold now, of a robot that is at `p_W`.
-    pub(crate) fn see(
-        &mut self,
-        clock: &Clock,
-        robot: &str,
-        p_W: Vector3<f64>,
-        events: &mut Vec<Abnormal>,
-    ) {
+    pub(crate) fn see(&mut self, clock: &Clock, robot: &str, p_W: Vector3<f64>, events: &mut Vec<Abnormal>) {
         let t_s = clock.t_s();
         for fault in &mut self.0 {
             if fault.event.is_none() && fault.span.holds(clock) {

@@ -148,14 +148,7 @@ impl Abnormal {
             (false, s) if s >= 1.0 => format!(", for {s:.0} s and still so"),
             (false, _) => String::new(),
         };
-        format!(
-            "{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}",
-            self.words(),
-            self.t_s,
-            p.x,
-            p.y,
-            -p.z
-        )
+        format!("{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}", self.words(), self.t_s, p.x, p.y, -p.z)
     }
 }
 
@@ -215,10 +208,7 @@ impl Lookout {
                     });
                 }
             }
-            Some(false)
-                if episode.began.is_some()
-                    && t_s - episode.last_s >= what.calm_s(episode.event.is_some()) =>
-            {
+            Some(false) if episode.began.is_some() && t_s - episode.last_s >= what.calm_s(episode.event.is_some()) => {
                 episode.began = None;
                 if let Some(event) = episode.event {
                     events[event].over = true;
@@ -237,11 +227,7 @@ mod tests {
     use super::*;
 
     /// The events of one kind, seen once a second.
-    fn events(
-        what: Abnormality,
-        wrong: impl Fn(u32) -> Option<bool>,
-        until_s: u32,
-    ) -> Vec<(f64, f64, bool)> {
+    fn events(what: Abnormality, wrong: impl Fn(u32) -> Option<bool>, until_s: u32) -> Vec<(f64, f64, bool)> {
         let (mut lookout, mut events) = (Lookout::default(), Vec::new());
         for t in 0..until_s {
             let p = Vector3::new(f64::from(t), 0.0, -1.0);
@@ -264,10 +250,7 @@ mod tests {
     fn blindness_counts_only_when_it_lasts_and_from_its_beginning() {
         let lost = Abnormality::NoBottomLock;
         assert_eq!(events(lost, |t| Some((3..=9).contains(&t)), 100), []);
-        assert_eq!(
-            events(lost, |t| Some((3..=20).contains(&t)), 100),
-            [(3.0, 17.0, true)]
-        );
+        assert_eq!(events(lost, |t| Some((3..=20).contains(&t)), 100), [(3.0, 17.0, true)]);
         // Readings that are not due say nothing.
         let seldom = |t: u32| t.is_multiple_of(4).then_some(t >= 8);
         assert_eq!(events(lost, seldom, 41), [(8.0, 32.0, false)]);
@@ -277,10 +260,7 @@ mod tests {
     fn thrusters_count_as_saturated_only_if_they_stay_so() {
         let strained = Abnormality::ThrustersSaturated;
         assert_eq!(events(strained, |t| Some(!t.is_multiple_of(4)), 100), []);
-        assert_eq!(
-            events(strained, |t| Some((3..=20).contains(&t)), 100),
-            [(3.0, 17.0, true)]
-        );
+        assert_eq!(events(strained, |t| Some((3..=20).contains(&t)), 100), [(3.0, 17.0, true)]);
         // Once it counts, what comes and goes is still the same event.
         let first = |t: u32| Some(t < 12 || (t < 40 && t.is_multiple_of(3)));
         assert_eq!(events(strained, first, 100), [(0.0, 39.0, true)]);
@@ -289,10 +269,7 @@ mod tests {
     #[test]
     fn what_comes_and_goes_is_one_event_and_much_of_it_a_few() {
         let touched = Abnormality::Touched;
-        assert_eq!(
-            events(touched, |t| Some(t < 40 && t % 3 == 0), 100),
-            [(0.0, 39.0, true)]
-        );
+        assert_eq!(events(touched, |t| Some(t < 40 && t % 3 == 0), 100), [(0.0, 39.0, true)]);
         let often = events(touched, |t| Some(t % 20 == 0), 10_000);
         assert_eq!(often.len(), MOST);
         assert_eq!(often[MOST - 1].0, 380.0);

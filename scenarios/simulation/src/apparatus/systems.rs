@@ -3,8 +3,7 @@
 use crate::outbox::Frames;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{
-    Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System,
-    SystemSet, World,
+    Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System, SystemSet, World,
 };
 use bevy_ecs::system::{ScheduleSystem, SystemAccess};
 use world::stage::Stage;
@@ -51,25 +50,11 @@ impl<'a> Systems<'a> {
         turn: usize,
         frames: Frames,
     ) -> Self {
-        Self {
-            observe,
-            act,
-            report,
-            frame,
-            world,
-            truth,
-            turn,
-            frames,
-            faults: Vec::new(),
-        }
+        Self { observe, act, report, frame, world, truth, turn, frames, faults: Vec::new() }
     }
 
     /// Adds systems to a stage. They may read everything.
-    pub fn add<M>(
-        &mut self,
-        stage: Stage,
-        systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
-    ) -> &mut Self {
+    pub fn add<M>(&mut self, stage: Stage, systems: impl IntoScheduleConfigs<ScheduleSystem, M>) -> &mut Self {
         let part = match stage {
             Stage::Sense | Stage::Estimate | Stage::Map => &mut *self.observe,
             Stage::Drift | Stage::Report => &mut *self.report,
@@ -80,10 +65,7 @@ impl<'a> Systems<'a> {
     }
 
     /// Adds systems that write into a frame. They run after all stages of a step in which a frame is made.
-    pub fn add_to_frame<M>(
-        &mut self,
-        systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
-    ) -> &mut Self {
+    pub fn add_to_frame<M>(&mut self, systems: impl IntoScheduleConfigs<ScheduleSystem, M>) -> &mut Self {
         if self.has_frames() {
             let systems = systems.in_set(Turn::Frame(self.turn));
             self.frame.add_systems(systems);
@@ -114,12 +96,7 @@ impl<'a> Systems<'a> {
     }
 
     /// The same after another system of the stage.
-    pub fn add_blind_after<M, N, S>(
-        &mut self,
-        stage: Stage,
-        system: S,
-        other: impl IntoSystemSet<N>,
-    ) -> &mut Self
+    pub fn add_blind_after<M, N, S>(&mut self, stage: Stage, system: S, other: impl IntoSystemSet<N>) -> &mut Self
     where
         S: IntoSystem<(), (), M>,
         S::System: Send + Sync,

@@ -21,8 +21,7 @@ use robots::estimate::{Estimator, Start};
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre,
-    Readings, Setting, Vertical,
+    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Battery;
@@ -35,11 +34,8 @@ use world::seeds::Stream;
 use world::stage::Stage;
 
 impl Listed for RobotSpec {
-    const ENTRY: Entry = Entry {
-        name: "Auv",
-        what: "An underwater vehicle that moves freely in the water",
-        source: "Pang 2009",
-    };
+    const ENTRY: Entry =
+        Entry { name: "Auv", what: "An underwater vehicle that moves freely in the water", source: "Pang 2009" };
 }
 
 impl Apparatus for RobotSpec {
@@ -50,16 +46,12 @@ impl Apparatus for RobotSpec {
     fn spawn(&self, world: &mut World, launch: &Launch) -> Result<(), AssembleError> {
         let ocean = world.resource::<Ocean>();
         let setting = self.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
-        spawn(self, &setting, world, launch).map_err(|source| AssembleError::Robot {
-            id: self.id.as_str().to_string(),
-            source,
-        })
+        spawn(self, &setting, world, launch)
+            .map_err(|source| AssembleError::Robot { id: self.id.as_str().to_string(), source })
     }
 
     fn systems(&self, systems: &mut Systems) {
-        systems
-            .add(Stage::Sense, system::read_instruments)
-            .add_blind(Stage::Estimate, system::estimate_state);
+        systems.add(Stage::Sense, system::read_instruments).add_blind(Stage::Estimate, system::estimate_state);
         if systems.has::<Mapping>() {
             systems.add_blind(Stage::Map, system::update_map);
         }
@@ -70,13 +62,7 @@ impl Apparatus for RobotSpec {
             .add_blind(Stage::Decide, system::decide)
             .add_blind(Stage::Guide, system::guide)
             .add_blind(Stage::Actuate, system::actuate)
-            .add(
-                Stage::Physics,
-                (
-                    system::push_bodies.before(BodiesMove),
-                    system::read_bodies.after(BodiesMove),
-                ),
-            )
+            .add(Stage::Physics, (system::push_bodies.before(BodiesMove), system::read_bodies.after(BodiesMove)))
             .add_to_frame(shown::picture);
         if systems.has_frames() {
             let report = kept::report_and_log.before(digest_plume);
@@ -91,18 +77,9 @@ impl Apparatus for RobotSpec {
     }
 }
 
-fn spawn(
-    spec: &RobotSpec,
-    setting: &Setting,
-    world: &mut World,
-    launch: &Launch,
-) -> Result<(), RobotError> {
+fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch) -> Result<(), RobotError> {
     let id = spec.id.as_str();
-    let Launch {
-        base_dir,
-        seed,
-        dt_s,
-    } = *launch;
+    let Launch { base_dir, seed, dt_s } = *launch;
     let heading = spec.start.heading_deg.heading();
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
@@ -113,36 +90,20 @@ fn spawn(
         None => build(&spec.vehicle, turn_m, base_dir),
     }?;
     let body = (world.resource_mut::<Physics>()).add_body(vehicle.body_spec(id, truth));
-    let suite = SensorSuite::new(
-        &spec.sensors,
-        &|name| vehicle.mount(name),
-        OnBoard::new(id, seed, dt_s),
-    )?;
+    let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), OnBoard::new(id, seed, dt_s))?;
     let carried = vehicle.is_carried();
-    let pilot = Pilot::new(
-        &spec.autopilot,
-        &vehicle.control(),
-        spec.start.speed_m_s.get(),
-    );
+    let pilot = Pilot::new(&spec.autopilot, &vehicle.control(), spec.start.speed_m_s.get());
     let still = vehicle.idle();
     let drives = vehicle.named_drives();
     if let Some(mistake) = mistakes(&spec.faults, &spec.sensors, Some(&drives)).first() {
-        return Err(RobotError::Invalid {
-            field: mistake.field.clone(),
-            problem: mistake.problem.clone(),
-        });
+        return Err(RobotError::Invalid { field: mistake.field.clone(), problem: mistake.problem.clone() });
     }
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
-    let start = Start {
-        position: fix,
-        heading,
-        depth_m: -p_W.z,
-    };
+    let start = Start { position: fix, heading, depth_m: -p_W.z };
     // A first estimate from the data of the launch alone; the estimator itself starts with the first tick.
-    let estimate =
-        Estimator::new(&spec.estimator, start, dt_s).step(&Clock::new(dt_s), &Readings::default());
+    let estimate = Estimator::new(&spec.estimator, start, dt_s).step(&Clock::new(dt_s), &Readings::default());
     let goal = Goal {
         id: 0,
         manoeuvre: Manoeuvre::Course { course: heading },
@@ -150,15 +111,10 @@ fn spawn(
         speed_m_s: 0.0,
     };
     let strategy = spec.strategy.build(setting)?;
-    let mapper = (spec.map.as_ref())
-        .map(|map| map.build(&setting.area, Stream::new(seed, id, "map")))
-        .transpose()?;
+    let mapper = (spec.map.as_ref()).map(|map| map.build(&setting.area, Stream::new(seed, id, "map"))).transpose()?;
     let place = world.resource_mut::<Score>().join(id);
     let mut robot = world.spawn((
-        SearcherId {
-            name: id.to_string(),
-            place,
-        },
+        SearcherId { name: id.to_string(), place },
         truth,
         Hull { vehicle, body },
         suite,
@@ -172,16 +128,9 @@ fn spawn(
                 bounds: Bounds::of(spec.strategy.is_own()),
                 rng: Box::new(Stream::new(seed, id, "strategy")),
             },
-            Briefing {
-                area: setting.area,
-                home: fix,
-                able,
-            },
+            Briefing { area: setting.area, home: fix, able },
             Decision::new(Behaviour::Idle, goal),
-            Guidance::new(&spec.guidance)
-                .carried(carried)
-                .hovering(able.hovers)
-                .turning(able.turning_radius_m),
+            Guidance::new(&spec.guidance).carried(carried).hovering(able.hovers).turning(able.turning_radius_m),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
             pilot,

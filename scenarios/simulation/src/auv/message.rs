@@ -88,22 +88,16 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(
     let lost: Vec<[f64; 2]> = r.lost_points.iter().map(|p| [p.x, p.y]).collect();
     let mut doing = json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost});
     if !r.zone.points.is_empty() {
-        let [points, corners] = [&r.zone.points, &r.zone.corners]
-            .map(|all| all.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
+        let [points, corners] =
+            [&r.zone.points, &r.zone.corners].map(|all| all.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
         doing = merged(doing, json!({"zone_points_m": points, "zone_m": corners}));
     }
     if let Some(k) = r.regions.now {
         let corners = r.regions.all[k as usize].area.corners();
         let corners = corners.map(|p| [p.x, p.y]);
-        doing = merged(
-            doing,
-            json!({"region": k, "region_name": region_name(k), "region_m": corners}),
-        );
+        doing = merged(doing, json!({"region": k, "region_name": region_name(k), "region_m": corners}));
     }
-    let wrong: Vec<String> = (abnormal.iter())
-        .filter(|a| a.robot == r.id && !a.over)
-        .map(Abnormal::words)
-        .collect();
+    let wrong: Vec<String> = (abnormal.iter()).filter(|a| a.robot == r.id && !a.over).map(Abnormal::words).collect();
     if !wrong.is_empty() {
         doing = merged(doing, json!({ "abnormal": wrong }));
     }
@@ -135,21 +129,16 @@ fn declaration(d: &Declaration) -> Value {
         said = merged(said, json!({"surveyed_m": p.as_slice()}));
     }
     if let Some(l) = d.looked {
-        said = merged(
-            said,
-            json!({"pictures": l.pictures, "log_factor": l.log_factor}),
-        );
+        said = merged(said, json!({"pictures": l.pictures, "log_factor": l.log_factor}));
     }
     said
 }
 
 fn goal(t_s: f64, g: &Goal) -> Value {
     let horizontal = match g.manoeuvre {
-        Manoeuvre::GoToPoint { point, radius_m } => with(
-            json!({"manoeuvre": "go_to_point", "point_m": point.as_slice()}),
-            "radius_m",
-            radius_m,
-        ),
+        Manoeuvre::GoToPoint { point, radius_m } => {
+            with(json!({"manoeuvre": "go_to_point", "point_m": point.as_slice()}), "radius_m", radius_m)
+        }
         Manoeuvre::FollowLine { from, to } => {
             json!({"manoeuvre": "follow_line", "from_m": from.as_slice(), "point_m": to.as_slice()})
         }
@@ -159,11 +148,7 @@ fn goal(t_s: f64, g: &Goal) -> Value {
         Manoeuvre::Hold { point, .. } => {
             json!({"manoeuvre": "hold", "point_m": point.as_slice()})
         }
-        Manoeuvre::SlideTo {
-            point,
-            radius_m,
-            heading,
-        } => with(
+        Manoeuvre::SlideTo { point, radius_m, heading } => with(
             json!({
                 "manoeuvre": "slide_to", "point_m": point.as_slice(), "heading_rad": heading.rad(),
             }),
@@ -174,10 +159,7 @@ fn goal(t_s: f64, g: &Goal) -> Value {
         Manoeuvre::Steer { heading } => {
             json!({"manoeuvre": "steer", "heading_rad": heading.rad()})
         }
-        Manoeuvre::Slide {
-            heading,
-            over_ground_m_s: v,
-        } => {
+        Manoeuvre::Slide { heading, over_ground_m_s: v } => {
             json!({"manoeuvre": "slide", "heading_rad": heading.rad(), "velocity_m_s": v.as_slice()})
         }
         Manoeuvre::Drives(set) => json!({"manoeuvre": "drives", "drives": set.all()}),

@@ -14,9 +14,7 @@ use robots::actuate::Pilot;
 use robots::estimate::Estimator;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
-use robots::handoff::{
-    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, Told,
-};
+use robots::handoff::{Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, Told};
 use robots::map::MapObservation;
 use robots::sense::{Around, Asked, SensorSuite};
 use robots::vehicles::Battery;
@@ -28,14 +26,7 @@ pub(crate) fn read_instruments(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     light: Res<WaterLight>,
-    mut robots: Query<(
-        &mut Now,
-        &Truth,
-        &Decision,
-        &mut SensorSuite,
-        &mut SensorFaults,
-        &mut Readings,
-    )>,
+    mut robots: Query<(&mut Now, &Truth, &Decision, &mut SensorSuite, &mut SensorFaults, &mut Readings)>,
 ) {
     for (mut now, truth, decision, mut suite, mut faults, mut readings) in &mut robots {
         now.0 = *clock;
@@ -60,10 +51,7 @@ pub(crate) fn estimate_state(mut robots: Query<(&Now, &Readings, &mut Estimator,
     }
 }
 
-pub(crate) fn update_map(
-    clock: Res<Clock>,
-    mut robots: Query<(&Readings, &Estimate, &mut Mapping, &mut Belief)>,
-) {
+pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estimate, &mut Mapping, &mut Belief)>) {
     for (readings, estimate, mut mapping, mut belief) in &mut robots {
         let p = estimate.position;
         mapping.mapper.step(&MapObservation {
@@ -80,13 +68,7 @@ pub(crate) fn update_map(
     }
 }
 
-type Perceived<'a> = (
-    &'a Readings,
-    &'a Estimate,
-    &'a GuidanceStatus,
-    &'a Briefing,
-    Option<&'a Belief>,
-);
+type Perceived<'a> = (&'a Readings, &'a Estimate, &'a GuidanceStatus, &'a Briefing, Option<&'a Belief>);
 
 /// What a robot sees in this tick, with what it was told.
 fn observation(parts: Perceived, told: Option<Told>) -> Observation {
@@ -110,10 +92,7 @@ fn observation(parts: Perceived, told: Option<Told>) -> Observation {
 }
 
 /// Asks the searchers outside this program; the answers come between this stage and the next.
-pub(crate) fn ask(
-    clock: Res<Clock>,
-    mut robots: Query<(Perceived, &SearcherId, &Decision, &mut Consulting)>,
-) {
+pub(crate) fn ask(clock: Res<Clock>, mut robots: Query<(Perceived, &SearcherId, &Decision, &mut Consulting)>) {
     for (parts, id, decision, mut consulting) in &mut robots {
         if let Kept::Robot(gathered) = &mut consulting.kept {
             gathered.add(clock.t_s(), parts.0);
@@ -127,13 +106,7 @@ pub(crate) fn ask(
     }
 }
 
-type Deciding<'a> = (
-    &'a SearcherId,
-    Perceived<'a>,
-    &'a mut Searching,
-    &'a mut Decision,
-    Option<&'a mut Consulting>,
-);
+type Deciding<'a> = (&'a SearcherId, Perceived<'a>, &'a mut Searching, &'a mut Decision, Option<&'a mut Consulting>);
 
 pub(crate) fn decide(mut robots: Query<Deciding>) {
     for (id, parts, mut searching, mut decision, consulting) in &mut robots {
@@ -148,15 +121,7 @@ pub(crate) fn decide(mut robots: Query<Deciding>) {
 }
 
 pub(crate) fn guide(
-    mut robots: Query<(
-        &Now,
-        &Estimate,
-        &Decision,
-        &Briefing,
-        &mut Guidance,
-        &mut Command,
-        &mut GuidanceStatus,
-    )>,
+    mut robots: Query<(&Now, &Estimate, &Decision, &Briefing, &mut Guidance, &mut Command, &mut GuidanceStatus)>,
 ) {
     for (now, estimate, decision, briefing, mut guidance, mut command, mut status) in &mut robots {
         (*command, *status) = guidance.step(estimate, &decision.goal, &briefing.area, now.0.dt_s);
@@ -184,19 +149,9 @@ pub(crate) fn actuate(mut robots: Query<Actuated>) {
     }
 }
 
-type Pushed<'a> = (
-    &'a Now,
-    &'a Truth,
-    &'a Actuation,
-    &'a mut Hull,
-    Option<&'a mut Battery>,
-);
+type Pushed<'a> = (&'a Now, &'a Truth, &'a Actuation, &'a mut Hull, Option<&'a mut Battery>);
 
-pub(crate) fn push_bodies(
-    ocean: Res<Ocean>,
-    mut physics: ResMut<Physics>,
-    mut robots: Query<Pushed>,
-) {
+pub(crate) fn push_bodies(ocean: Res<Ocean>, mut physics: ResMut<Physics>, mut robots: Query<Pushed>) {
     // Each pushes its own body: their order does not matter.
     for (now, truth, set, mut hull, battery) in &mut robots {
         let (t_s, dt_s) = (now.0.t_s(), now.0.dt_s);
@@ -208,10 +163,7 @@ pub(crate) fn push_bodies(
     }
 }
 
-pub(crate) fn read_bodies(
-    physics: Res<Physics>,
-    mut robots: Query<(&Now, &SearcherId, &Hull, &mut Truth)>,
-) {
+pub(crate) fn read_bodies(physics: Res<Physics>, mut robots: Query<(&Now, &SearcherId, &Hull, &mut Truth)>) {
     for (now, id, hull, mut truth) in &mut robots {
         *truth = physics.truth(hull.body);
         assert!(

@@ -37,22 +37,13 @@ impl Yard {
             return Ok((built.craft.clone(), built.able));
         }
         let (craft, able) = build(spec, turn_m, base_dir)?;
-        self.0.push(Built {
-            spec: spec.clone(),
-            turn_m,
-            craft: craft.clone(),
-            able,
-        });
+        self.0.push(Built { spec: spec.clone(), turn_m, craft: craft.clone(), able });
         Ok((craft, able))
     }
 }
 
 /// A vehicle with its capabilities; `turn_m` is the radius of the tightest turn under the robot's guidance.
-pub(super) fn build(
-    spec: &VehicleSpec,
-    turn_m: f64,
-    base_dir: &Path,
-) -> Result<(Craft, Capabilities), RobotError> {
+pub(super) fn build(spec: &VehicleSpec, turn_m: f64, base_dir: &Path) -> Result<(Craft, Capabilities), RobotError> {
     let craft = Craft::load(spec, &Beside(base_dir))?;
     let able = craft.capabilities(turn_m);
     Ok((craft, able))
@@ -78,15 +69,9 @@ mod tests {
         }
         assert_eq!(yard.0.len(), 2);
         // Another radius is another answer.
-        assert_eq!(
-            yard.take(&remus, 14.0, here).unwrap().1.turning_radius_m,
-            14.0
-        );
+        assert_eq!(yard.take(&remus, 14.0, here).unwrap().1.turning_radius_m, 14.0);
         assert_eq!(yard.0.len(), 3);
-        assert!(
-            yard.take(&VehicleSpec::Shipped("no such".into()), 1.0, here)
-                .is_err()
-        );
+        assert!(yard.take(&VehicleSpec::Shipped("no such".into()), 1.0, here).is_err());
         assert_eq!(yard.0.len(), 3);
     }
 }

@@ -1,14 +1,13 @@
 //! Answers as JSON, read and written.
 
 use super::forms::{
-    AnswerForm, DeclareForm, DrivesForm, EndForm, GoalForm, HeadForm, ManoeuvreForm, SlideForm,
-    SteerForm,
+    AnswerForm, DeclareForm, DrivesForm, EndForm, GoalForm, HeadForm, ManoeuvreForm, SlideForm, SteerForm,
 };
 use super::names::{behaviour, lasting};
 use nalgebra::Vector2;
 use robots::handoff::{
-    Answer, Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES,
-    Manoeuvre, MoveOrder, Order, Outcome, Vertical,
+    Answer, Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES, Manoeuvre, MoveOrder, Order,
+    Outcome, Vertical,
 };
 use serde_json::Value;
 use world::units::Heading;
@@ -32,10 +31,7 @@ const LONGEST: usize = 65_536;
 /// What is wrong with it.
 pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Answer, String> {
     if text.len() > LONGEST {
-        return Err(format!(
-            "an answer has at most {LONGEST} bytes, got {}",
-            text.len()
-        ));
+        return Err(format!("an answer has at most {LONGEST} bytes, got {}", text.len()));
     }
     let form: AnswerForm = serde_json::from_slice(text).map_err(|e| e.to_string())?;
     if let Some(other) = form.number.filter(|n| *n != number) {
@@ -47,8 +43,7 @@ pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Answer, String>
 /// An answer as [`read_answer`] reads it, to the last bit.
 #[must_use]
 pub fn answer_json(answer: &Answer) -> Value {
-    let mut value =
-        serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written");
+    let mut value = serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written");
     drop_nulls(&mut value);
     value
 }
@@ -101,10 +96,7 @@ impl AnswerForm {
         let declared = self.declare.map(|d| {
             let rule = d.rule.as_deref().map_or(Ok("external"), lasting)?;
             let position = Vector2::from(d.position_m);
-            Ok::<_, String>(Declaration {
-                number: d.number,
-                ..Declaration::first(t_s, position, rule)
-            })
+            Ok::<_, String>(Declaration { number: d.number, ..Declaration::first(t_s, position, rule) })
         });
         Ok(Answer {
             order: orders.into_iter().flatten().next(),
@@ -153,19 +145,10 @@ impl AnswerForm {
         let (id, speed_m_s) = (order.id, order.speed_m_s);
         let manoeuvre = match &order.manoeuvre {
             Manoeuvre::Steer { heading } => {
-                self.steer = Some(SteerForm {
-                    heading_rad: heading.rad(),
-                    depth_m,
-                    altitude_m,
-                    speed_m_s,
-                    id,
-                });
+                self.steer = Some(SteerForm { heading_rad: heading.rad(), depth_m, altitude_m, speed_m_s, id });
                 return;
             }
-            Manoeuvre::Slide {
-                heading,
-                over_ground_m_s,
-            } => {
+            Manoeuvre::Slide { heading, over_ground_m_s } => {
                 self.slide = Some(SlideForm {
                     heading_rad: heading.rad(),
                     velocity_m_s: (*over_ground_m_s).into(),
@@ -176,123 +159,56 @@ impl AnswerForm {
                 return;
             }
             Manoeuvre::Drives(set) => {
-                self.drives = Some(DrivesForm {
-                    set: set.all().to_vec(),
-                    id,
-                });
+                self.drives = Some(DrivesForm { set: set.all().to_vec(), id });
                 return;
             }
-            Manoeuvre::GoToPoint { point, radius_m } => ManoeuvreForm::GoToPoint {
-                point_m: (*point).into(),
-                radius_m: *radius_m,
-            },
-            Manoeuvre::FollowLine { from, to } => ManoeuvreForm::FollowLine {
-                from_m: (*from).into(),
-                to_m: (*to).into(),
-            },
-            Manoeuvre::GoToPointWithHeading { point, heading } => {
-                ManoeuvreForm::GoToPointWithHeading {
-                    point_m: (*point).into(),
-                    heading_rad: heading.rad(),
-                }
+            Manoeuvre::GoToPoint { point, radius_m } => {
+                ManoeuvreForm::GoToPoint { point_m: (*point).into(), radius_m: *radius_m }
             }
-            Manoeuvre::Hold { point, heading } => ManoeuvreForm::Hold {
-                point_m: (*point).into(),
-                heading_rad: heading.map(Heading::rad),
-            },
-            Manoeuvre::SlideTo {
-                point,
-                radius_m,
-                heading,
-            } => ManoeuvreForm::SlideTo {
-                point_m: (*point).into(),
-                radius_m: *radius_m,
-                heading_rad: heading.rad(),
-            },
-            Manoeuvre::Course { course } => ManoeuvreForm::Course {
-                heading_rad: course.rad(),
-            },
-            Manoeuvre::Direct {
-                rudder_rad,
-                stern_rad,
-                rpm,
-            } => ManoeuvreForm::Direct {
-                rudder_rad: *rudder_rad,
-                stern_rad: *stern_rad,
-                rpm: *rpm,
-            },
+            Manoeuvre::FollowLine { from, to } => {
+                ManoeuvreForm::FollowLine { from_m: (*from).into(), to_m: (*to).into() }
+            }
+            Manoeuvre::GoToPointWithHeading { point, heading } => {
+                ManoeuvreForm::GoToPointWithHeading { point_m: (*point).into(), heading_rad: heading.rad() }
+            }
+            Manoeuvre::Hold { point, heading } => {
+                ManoeuvreForm::Hold { point_m: (*point).into(), heading_rad: heading.map(Heading::rad) }
+            }
+            Manoeuvre::SlideTo { point, radius_m, heading } => {
+                ManoeuvreForm::SlideTo { point_m: (*point).into(), radius_m: *radius_m, heading_rad: heading.rad() }
+            }
+            Manoeuvre::Course { course } => ManoeuvreForm::Course { heading_rad: course.rad() },
+            Manoeuvre::Direct { rudder_rad, stern_rad, rpm } => {
+                ManoeuvreForm::Direct { rudder_rad: *rudder_rad, stern_rad: *stern_rad, rpm: *rpm }
+            }
         };
-        self.goal = Some(GoalForm {
-            manoeuvre,
-            depth_m,
-            altitude_m,
-            speed_m_s,
-            id,
-        });
+        self.goal = Some(GoalForm { manoeuvre, depth_m, altitude_m, speed_m_s, id });
     }
 }
 
-fn to_move(
-    id: Option<u32>,
-    manoeuvre: Manoeuvre,
-    vertical: Option<Vertical>,
-    speed_m_s: Option<f64>,
-) -> Order {
-    Order::Move(MoveOrder {
-        id,
-        manoeuvre,
-        vertical,
-        speed_m_s,
-    })
+fn to_move(id: Option<u32>, manoeuvre: Manoeuvre, vertical: Option<Vertical>, speed_m_s: Option<f64>) -> Order {
+    Order::Move(MoveOrder { id, manoeuvre, vertical, speed_m_s })
 }
 
 impl GoalForm {
     fn order(self) -> Result<Order, String> {
         let heading = Heading::from_rad;
         let manoeuvre = match self.manoeuvre {
-            ManoeuvreForm::GoToPoint { point_m, radius_m } => Manoeuvre::GoToPoint {
-                point: point_m.into(),
-                radius_m,
-            },
-            ManoeuvreForm::FollowLine { from_m, to_m } => Manoeuvre::FollowLine {
-                from: from_m.into(),
-                to: to_m.into(),
-            },
-            ManoeuvreForm::GoToPointWithHeading {
-                point_m,
-                heading_rad,
-            } => Manoeuvre::GoToPointWithHeading {
-                point: point_m.into(),
-                heading: heading(heading_rad),
-            },
-            ManoeuvreForm::Hold {
-                point_m,
-                heading_rad,
-            } => Manoeuvre::Hold {
-                point: point_m.into(),
-                heading: heading_rad.map(heading),
-            },
-            ManoeuvreForm::SlideTo {
-                point_m,
-                radius_m,
-                heading_rad,
-            } => Manoeuvre::SlideTo {
-                point: point_m.into(),
-                radius_m,
-                heading: heading(heading_rad),
-            },
-            ManoeuvreForm::Course { heading_rad } => Manoeuvre::Course {
-                course: heading(heading_rad),
-            },
-            ManoeuvreForm::Direct {
-                rudder_rad,
-                stern_rad,
-                rpm,
-            } => Manoeuvre::Direct {
-                rudder_rad,
-                stern_rad,
-                rpm,
-            },
+            ManoeuvreForm::GoToPoint { point_m, radius_m } => Manoeuvre::GoToPoint { point: point_m.into(), radius_m },
+            ManoeuvreForm::FollowLine { from_m, to_m } => {
+                Manoeuvre::FollowLine { from: from_m.into(), to: to_m.into() }
+            }
+            ManoeuvreForm::GoToPointWithHeading { point_m, heading_rad } => {
+                Manoeuvre::GoToPointWithHeading { point: point_m.into(), heading: heading(heading_rad) }
+            }
+            ManoeuvreForm::Hold { point_m, heading_rad } => {
+                Manoeuvre::Hold { point: point_m.into(), heading: heading_rad.map(heading) }
+            }
+            ManoeuvreForm::SlideTo { point_m, radius_m, heading_rad } => {
+                Manoeuvre::SlideTo { point: point_m.into(), radius_m, heading: heading(heading_rad) }
+            }
+            ManoeuvreForm::Course { heading_rad } => Manoeuvre::Course { course: heading(heading_rad) },
+            ManoeuvreForm::Direct { rudder_rad, stern_rad, rpm } => Manoeuvre::Direct { rudder_rad, stern_rad, rpm },
         };
         let vertical = vertical(self.depth_m, self.altitude_m)?;
         Ok(to_move(self.id, manoeuvre, vertical, self.speed_m_s))
@@ -303,12 +219,7 @@ impl SteerForm {
     fn order(self) -> Result<Order, String> {
         let heading = Heading::from_rad(self.heading_rad);
         let vertical = vertical(self.depth_m, self.altitude_m)?;
-        Ok(to_move(
-            self.id,
-            Manoeuvre::Steer { heading },
-            vertical,
-            self.speed_m_s,
-        ))
+        Ok(to_move(self.id, Manoeuvre::Steer { heading }, vertical, self.speed_m_s))
     }
 }
 
@@ -326,10 +237,7 @@ impl SlideForm {
 impl DrivesForm {
     fn order(self) -> Result<Order, String> {
         if self.set.len() > MOST_DRIVES {
-            return Err(format!(
-                "no vehicle has more than {MOST_DRIVES} drives, got {}",
-                self.set.len()
-            ));
+            return Err(format!("no vehicle has more than {MOST_DRIVES} drives, got {}", self.set.len()));
         }
         let set = Manoeuvre::Drives(DriveCommand::new(&self.set));
         Ok(to_move(self.id, set, None, None))
@@ -342,10 +250,7 @@ impl HeadForm {
             let all = GantryBehaviour::ALL;
             all.into_iter().find(|b| b.name() == name).ok_or_else(|| {
                 let names: Vec<_> = all.iter().map(|b| b.name()).collect();
-                format!(
-                    "`behaviour` must be one of {}, got {name:?}",
-                    names.join(", ")
-                )
+                format!("`behaviour` must be one of {}, got {name:?}", names.join(", "))
             })
         };
         let behaviour = self.behaviour.as_ref().map(named).transpose()?;

@@ -5,8 +5,7 @@ use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{Component, Entity, Resource, World};
 use robots::handoff::{
-    Answer, Bounds, ChemicalReading, Consulted, Order, Picture, ProbeScan, RangeScan, Readings,
-    SidescanPing, Told,
+    Answer, Bounds, ChemicalReading, Consulted, Order, Picture, ProbeScan, RangeScan, Readings, SidescanPing, Told,
 };
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -63,10 +62,7 @@ impl Gathered {
 
     /// Hands out what was gathered, and begins anew.
     fn take(&mut self) -> Self {
-        let next = Self {
-            detected_s: self.detected_s,
-            ..Self::default()
-        };
+        let next = Self { detected_s: self.detected_s, ..Self::default() };
         std::mem::replace(self, next)
     }
 }
@@ -151,13 +147,10 @@ impl Consulting {
         let fault = match (&answer.order, self.drives) {
             (Some(Order::Move(order)), Some(drives)) => order.fault(drives),
             (Some(Order::Head(order)), None) => order.fault(Bounds::OWN),
-            (Some(Order::Move(_)), None) => {
-                Some("it is an order for a robot: a gantry takes `head`".to_string())
+            (Some(Order::Move(_)), None) => Some("it is an order for a robot: a gantry takes `head`".to_string()),
+            (Some(Order::Head(_)), Some(_)) => {
+                Some("it is an order for a gantry: a robot takes `goal`, `steer`, `slide` or `drives`".to_string())
             }
-            (Some(Order::Head(_)), Some(_)) => Some(
-                "it is an order for a gantry: a robot takes `goal`, `steer`, `slide` or `drives`"
-                    .to_string(),
-            ),
             (None, _) => None,
         };
         fault.or_else(|| answer.declared.and_then(|d| d.fault(Bounds::OWN)))
@@ -221,12 +214,7 @@ pub(crate) struct Open {
 
 impl From<&Question> for Open {
     fn from(question: &Question) -> Self {
-        Self {
-            robot: question.robot.clone(),
-            number: question.number,
-            step: question.step,
-            t_s: question.t_s,
-        }
+        Self { robot: question.robot.clone(), number: question.number, step: question.step, t_s: question.t_s }
     }
 }
 
@@ -264,11 +252,5 @@ pub(crate) fn put_in(world: &mut World, question: Open, mut heard: Heard) -> Con
             Heard::Nonsense(_) => &mut own.nonsense,
         } += 1;
     }
-    Consultation {
-        robot: question.robot,
-        number: question.number,
-        step: question.step,
-        t_s: question.t_s,
-        heard,
-    }
+    Consultation { robot: question.robot, number: question.number, step: question.step, t_s: question.t_s, heard }
 }

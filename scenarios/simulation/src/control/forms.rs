@@ -36,35 +36,13 @@ pub(super) struct GoalForm {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub(super) enum ManoeuvreForm {
-    GoToPoint {
-        point_m: [f64; 2],
-        radius_m: Option<f64>,
-    },
-    FollowLine {
-        from_m: [f64; 2],
-        to_m: [f64; 2],
-    },
-    GoToPointWithHeading {
-        point_m: [f64; 2],
-        heading_rad: f64,
-    },
-    Hold {
-        point_m: [f64; 2],
-        heading_rad: Option<f64>,
-    },
-    SlideTo {
-        point_m: [f64; 2],
-        radius_m: Option<f64>,
-        heading_rad: f64,
-    },
-    Course {
-        heading_rad: f64,
-    },
-    Direct {
-        rudder_rad: f64,
-        stern_rad: f64,
-        rpm: f64,
-    },
+    GoToPoint { point_m: [f64; 2], radius_m: Option<f64> },
+    FollowLine { from_m: [f64; 2], to_m: [f64; 2] },
+    GoToPointWithHeading { point_m: [f64; 2], heading_rad: f64 },
+    Hold { point_m: [f64; 2], heading_rad: Option<f64> },
+    SlideTo { point_m: [f64; 2], radius_m: Option<f64>, heading_rad: f64 },
+    Course { heading_rad: f64 },
+    Direct { rudder_rad: f64, stern_rad: f64, rpm: f64 },
 }
 
 /// A set-point for the autopilot.

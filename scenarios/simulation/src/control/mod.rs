@@ -55,10 +55,7 @@ pub enum Seen {
 
 /// What came back.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is one at a time, and controllers make them by hand"
-)]
+#[expect(clippy::large_enum_variant, reason = "there is one at a time, and controllers make them by hand")]
 pub enum Heard {
     /// An answer.
     Answer(Answer),

@@ -18,20 +18,14 @@ static NAMES: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
 pub(super) fn lasting(name: &str) -> Result<&'static str, String> {
     let legal = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_';
     if name.is_empty() || name.len() > LONGEST || !name.bytes().all(legal) {
-        return Err(format!(
-            "a name must have 1 to {LONGEST} of the characters a-z, 0-9 and _, got {name:?}"
-        ));
+        return Err(format!("a name must have 1 to {LONGEST} of the characters a-z, 0-9 and _, got {name:?}"));
     }
-    let mut names = NAMES
-        .lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut names = NAMES.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     if let Some(known) = names.get(name) {
         return Ok(known);
     }
     if names.len() >= MOST {
-        return Err(format!(
-            "there are {MOST} different names already: {name:?} is one too many"
-        ));
+        return Err(format!("there are {MOST} different names already: {name:?} is one too many"));
     }
     let kept: &'static str = Box::leak(name.to_string().into_boxed_str());
     names.insert(kept);

@@ -57,10 +57,8 @@ fn robot(t_s: f64, seen: &Observation, gathered: &Gathered) -> Value {
     }
     if !seen.other.is_empty() {
         let named = seen.other.iter();
-        said["other"] = named
-            .map(|(name, v)| ((*name).to_string(), json!(v)))
-            .collect::<serde_json::Map<_, _>>()
-            .into();
+        said["other"] =
+            named.map(|(name, v)| ((*name).to_string(), json!(v))).collect::<serde_json::Map<_, _>>().into();
     }
     said
 }
@@ -81,42 +79,27 @@ fn estimate(e: &Estimate) -> Value {
 /// What the chemical sensor said since the last question.
 fn chemical(t_s: f64, g: &Gathered) -> Value {
     let mean = (g.readings > 0).then(|| g.sum / f64::from(g.readings));
-    let mut said = with(
-        json!({"readings": g.readings, "detections": g.detections, "highest": g.highest}),
-        "mean",
-        mean,
-    );
+    let mut said =
+        with(json!({"readings": g.readings, "detections": g.detections, "highest": g.highest}), "mean", mean);
     if let Some(newest) = &g.chemical {
         said["newest"] = json!({
             "volts": newest.volts, "of_full_scale": newest.of_full_scale, "detected": newest.detected,
         });
     }
-    with(
-        said,
-        "since_detection_s",
-        g.detected_s.map(|then| t_s - then),
-    )
+    with(said, "since_detection_s", g.detected_s.map(|then| t_s - then))
 }
 
 fn ranging(scan: &RangeScan) -> Value {
     let beams = scan.beams.iter();
-    let beams: Vec<Value> = beams
-        .map(|beam| {
-            with(
-                json!({"direction_body": beam.dir_B.as_slice()}),
-                "echo_m",
-                beam.echo_m,
-            )
-        })
-        .collect();
+    let beams: Vec<Value> =
+        beams.map(|beam| with(json!({"direction_body": beam.dir_B.as_slice()}), "echo_m", beam.echo_m)).collect();
     json!({"place_body_m": scan.p_BS.as_slice(), "max_m": scan.max_m, "beams": beams})
 }
 
 fn gantry(seen: &GantryObservation, gathered: &HeadGathered) -> Value {
     let joints = &seen.readings.joints;
-    let scans: Vec<Value> = (gathered.scans.iter())
-        .map(|scan| json!({"t_s": scan.t_s, "volts": &scan.volts[..scan.count]}))
-        .collect();
+    let scans: Vec<Value> =
+        (gathered.scans.iter()).map(|scan| json!({"t_s": scan.t_s, "volts": &scan.volts[..scan.count]})).collect();
     json!({
         "joints": {
             "position_m": joints.position_m.as_slice(), "speed_m_s": joints.speed_m_s.as_slice(),

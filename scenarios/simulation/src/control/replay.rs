@@ -30,24 +30,14 @@ pub fn read_consultation(text: &str) -> Result<Consultation, String> {
     let (number, step) = (number("number")?, number("step")?);
     let t_s = value["t_s"].as_f64().ok_or_else(|| lacks("t_s"))?;
     let heard = match words("cause")? {
-        "answered" => Heard::Answer(read_answer(
-            value["answer"].to_string().as_bytes(),
-            number,
-            t_s,
-        )?),
+        "answered" => Heard::Answer(read_answer(value["answer"].to_string().as_bytes(), number, t_s)?),
         "late" => Heard::Late,
         "absent" => Heard::Absent,
         "gone" => Heard::Gone,
         "nonsense" => Heard::Nonsense(words("why")?.to_string()),
         other => return Err(format!("unknown cause {other:?}")),
     };
-    Ok(Consultation {
-        robot: words("robot")?.to_string(),
-        number,
-        step,
-        t_s,
-        heard,
-    })
+    Ok(Consultation { robot: words("robot")?.to_string(), number, step, t_s, heard })
 }
 
 /// A controller that repeats what a robot was told in another run of the same scenario and seed.
@@ -60,9 +50,7 @@ impl Replay {
     /// Of recorded consultations, of any number of robots.
     pub fn new(told: impl IntoIterator<Item = Consultation>) -> Self {
         let told = told.into_iter();
-        Self {
-            told: told.map(|c| ((c.robot.clone(), c.number), c)).collect(),
-        }
+        Self { told: told.map(|c| ((c.robot.clone(), c.number), c)).collect() }
     }
 
     /// The robots that were asked.
@@ -78,10 +66,7 @@ impl Controller for Replay {
     /// What was told then; a question that was not asked then finds nobody.
     fn answer(&mut self, question: &Question) -> Heard {
         let key = (question.robot.clone(), question.number);
-        let told = self
-            .told
-            .get(&key)
-            .filter(|told| told.step == question.step);
+        let told = self.told.get(&key).filter(|told| told.step == question.step);
         told.map_or(Heard::Absent, |told| told.heard.clone())
     }
 }

@@ -81,9 +81,7 @@ fn run(loaded: &Loaded, controller: impl Controller + 'static) -> (Ended, Vec<Co
 #[test]
 fn a_strategy_of_this_program_gives_the_same_digest_from_outside() {
     let [plain, outside] = channels();
-    let inside = Trial::assemble(&plain, SEED)
-        .expect("legal")
-        .finish_quietly();
+    let inside = Trial::assemble(&plain, SEED).expect("legal").finish_quietly();
     let (ended, told) = run(&outside, controller(&plain));
     assert_eq!(ended.digest, inside.digest);
     assert_eq!((ended.outcome, ended.steps), (inside.outcome, inside.steps));
@@ -109,9 +107,7 @@ fn runs_that_differ_only_in_what_is_declared_have_different_digests() {
         let mut steers = controller(&plain);
         let (ended, _) = run(&outside, move |question: &Question| {
             let mut heard = steers.answer(question);
-            if let (200, Heard::Answer(answer), Some(east_m)) =
-                (question.number, &mut heard, east_m)
-            {
+            if let (200, Heard::Answer(answer), Some(east_m)) = (question.number, &mut heard, east_m) {
                 let place = Vector2::new(east_m, 0.0);
                 answer.declared = Some(Declaration::first(question.t_s, place, "outside"));
             }
@@ -139,9 +135,7 @@ fn stopping_at_the_questions_changes_nothing() {
             break;
         };
         let heard = controller.answer(question);
-        let told = trial
-            .answer("auv0", heard.clone(), &mut Unwatched)
-            .expect("it asked");
+        let told = trial.answer("auv0", heard.clone(), &mut Unwatched).expect("it asked");
         assert_eq!(told.heard.name(), "answered");
         assert_eq!(trial.answer("auv0", heard, &mut Unwatched), None, "once");
     }
@@ -156,28 +150,13 @@ fn what_cannot_be_carried_out_is_nonsense_and_told() {
     outside.scenario.robots[0].strategy = external(10.0);
     let wrong = [
         ("{\"drives\": {\"set\": [0.1]}}", "3 drives, got 1"),
-        (
-            "{\"steer\": {\"heading_rad\": 1.0, \"speed_m_s\": -1}}",
-            "`speed_m_s` must be from 0",
-        ),
+        ("{\"steer\": {\"heading_rad\": 1.0, \"speed_m_s\": -1}}", "`speed_m_s` must be from 0"),
         ("{\"head\": {\"target_m\": [1, 2]}}", "order for a gantry"),
-        (
-            "{\"steer\": {\"heading_rad\": 1.0, \"depth_m\": 1, \"altitude_m\": 2}}",
-            "not both",
-        ),
-        (
-            "{\"steer\": {\"heading_deg\": 90}}",
-            "unknown field `heading_deg`",
-        ),
-        (
-            "{\"number\": 4, \"end\": \"completed\"}",
-            "answers question 4, not 5",
-        ),
+        ("{\"steer\": {\"heading_rad\": 1.0, \"depth_m\": 1, \"altitude_m\": 2}}", "not both"),
+        ("{\"steer\": {\"heading_deg\": 90}}", "unknown field `heading_deg`"),
+        ("{\"number\": 4, \"end\": \"completed\"}", "answers question 4, not 5"),
         ("{\"behaviour\": \"Go!\"}", "characters a-z"),
-        (
-            "{\"declare\": {\"position_m\": [1e9, 0]}}",
-            "`declare.position_m`",
-        ),
+        ("{\"declare\": {\"position_m\": [1e9, 0]}}", "`declare.position_m`"),
         ("[1, 2", "expected"),
     ];
     let mut next = wrong.into_iter();
@@ -206,9 +185,7 @@ fn nothing_that_is_not_a_number_comes_in() {
         Heard::Answer(Answer {
             order: Some(Order::Move(MoveOrder {
                 id: None,
-                manoeuvre: robots::handoff::Manoeuvre::Steer {
-                    heading: world::units::Heading::from_rad(heading),
-                },
+                manoeuvre: robots::handoff::Manoeuvre::Steer { heading: world::units::Heading::from_rad(heading) },
                 vertical: None,
                 speed_m_s: Some(speed_m_s),
             })),
@@ -230,18 +207,8 @@ fn nobody_controls_a_robot_that_does_not_ask() {
     assert!(refused.unwrap_err().to_string().ends_with("none has"));
     let mut trial = Trial::assemble(&outside, SEED).expect("legal");
     let refused = trial.control("auv1", |_: &Question| Heard::Late);
-    assert!(
-        refused
-            .unwrap_err()
-            .to_string()
-            .ends_with("those that have: auv0")
-    );
-    assert!(
-        !trial.step()
-            || trial.score().searchers[0]
-                .consulted
-                .is_some_and(|c| c.absent == 1)
-    );
+    assert!(refused.unwrap_err().to_string().ends_with("those that have: auv0"));
+    assert!(!trial.step() || trial.score().searchers[0].consulted.is_some_and(|c| c.absent == 1));
 }
 
 #[test]
@@ -266,10 +233,7 @@ fn own_tracker(loaded: &Loaded) -> (Box<dyn GantryStrategy>, Stream) {
     let gantry = Gantry::load(&block.gantry, &crate::scenario::Beside(&loaded.base_dir));
     let layout: GantryLayout = block.layout(&gantry.expect("legal"));
     let strategy = block.tracker.build(&layout).expect("legal");
-    (
-        strategy,
-        Stream::new(Seed::from(SEED), block.id.as_str(), "tracker"),
-    )
+    (strategy, Stream::new(Seed::from(SEED), block.id.as_str(), "tracker"))
 }
 
 #[test]
@@ -279,14 +243,11 @@ fn a_searcher_of_a_gantry_gives_the_same_digest_from_outside() {
     plain.scenario.time.limit_s = world::ranges::Positive::new(40.0);
     plain.scenario.time.spin_up_s = world::ranges::NonNegative::new(5.0);
     let mut outside = plain.clone();
-    outside.scenario.gantries[0].tracker =
-        robots::track::GantryStrategySpec::new(robots::track::ExternalSpec {
-            period_s: plain.scenario.time.step_s,
-            ..Default::default()
-        });
-    let inside = Trial::assemble(&plain, SEED)
-        .expect("legal")
-        .finish_quietly();
+    outside.scenario.gantries[0].tracker = robots::track::GantryStrategySpec::new(robots::track::ExternalSpec {
+        period_s: plain.scenario.time.step_s,
+        ..Default::default()
+    });
+    let inside = Trial::assemble(&plain, SEED).expect("legal").finish_quietly();
     let (mut strategy, mut rng) = own_tracker(&plain);
     let (ended, _) = run(&outside, move |question: &Question| match &question.seen {
         Seen::Gantry(seen, _) => Heard::Answer(Answer::from(&strategy.step(seen, &mut rng))),
@@ -300,11 +261,6 @@ fn nobody_can_be_asked_more_often_than_there_are_steps() {
     let [_, mut outside] = channels();
     outside.scenario.robots[0].strategy = external(0.001);
     let found = crate::scenario::check(&outside.scenario, &outside.base_dir);
-    let lines: Vec<String> = (found.iter())
-        .map(|f| format!("{}: {}", f.path, f.message))
-        .collect();
-    assert_eq!(
-        lines,
-        ["robots[0].strategy.period_s: must be at least time.step_s, 0.02, got 0.001"]
-    );
+    let lines: Vec<String> = (found.iter()).map(|f| format!("{}: {}", f.path, f.message)).collect();
+    assert_eq!(lines, ["robots[0].strategy.period_s: must be at least time.step_s, 0.02, got 0.001"]);
 }

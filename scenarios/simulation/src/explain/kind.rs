@@ -18,16 +18,10 @@ impl FileKind {
     /// The kind of file that is read as a `T`: its paths begin with `name`.
     #[must_use]
     pub const fn new<T: JsonSchema>(name: &'static str, what: &'static str) -> Self {
-        Self {
-            name,
-            what,
-            schema: SchemaGenerator::subschema_for::<T>,
-        }
+        Self { name, what, schema: SchemaGenerator::subschema_for::<T> }
     }
 }
 
 /// The file of a vehicle's folder.
-pub(super) const VEHICLE: FileKind = FileKind::new::<VehicleFile>(
-    "vehicle",
-    "The `vehicle.ron` in the folder of a vehicle of your own.",
-);
+pub(super) const VEHICLE: FileKind =
+    FileKind::new::<VehicleFile>("vehicle", "The `vehicle.ron` in the folder of a vehicle of your own.");

@@ -45,16 +45,8 @@ pub(super) fn document(r: &Reference) -> String {
         let _ = writeln!(out, "\n## {name}\n");
         paragraph(&mut out, &cell(&named.what));
         let more = places.len().saturating_sub(PLACES);
-        let shown: Vec<String> = places
-            .iter()
-            .take(PLACES)
-            .map(|p| format!("`{p}`"))
-            .collect();
-        let and = if more > 0 {
-            format!(" and {more} more")
-        } else {
-            String::new()
-        };
+        let shown: Vec<String> = places.iter().take(PLACES).map(|p| format!("`{p}`")).collect();
+        let and = if more > 0 { format!(" and {more} more") } else { String::new() };
         paragraph(&mut out, &format!("At {}{and}.", shown.join(", ")));
         shape(r, &mut out, &named.shape);
     }
@@ -94,9 +86,7 @@ fn named(shape: &Shape) -> Option<&str> {
 
 fn shape(r: &Reference, out: &mut String, shape: &Shape) {
     match shape {
-        Shape::Fields(fields) if fields.is_empty() => {
-            out.push_str("It has no fields; write `()`.\n")
-        }
+        Shape::Fields(fields) if fields.is_empty() => out.push_str("It has no fields; write `()`.\n"),
         Shape::Fields(fields) => {
             out.push_str("| field | value | default | meaning |\n| --- | --- | --- | --- |\n");
             for f in fields {
@@ -124,19 +114,11 @@ fn field(r: &Reference, out: &mut String, f: &Field) {
     };
     let kind = words::kind(r, &f.shape, &link);
     let what = with_source(&f.what, f.source.as_deref());
-    let _ = writeln!(
-        out,
-        "| `{}` | {} | {default} | {what} |",
-        f.name,
-        cell(&kind)
-    );
+    let _ = writeln!(out, "| `{}` | {} | {default} | {what} |", f.name, cell(&kind));
 }
 
 fn variant(r: &Reference, out: &mut String, v: &Variant) {
-    let holds = v
-        .holds
-        .as_ref()
-        .map_or("–".to_string(), |h| words::kind(r, h, &link));
+    let holds = v.holds.as_ref().map_or("–".to_string(), |h| words::kind(r, h, &link));
     let what = with_source(&v.what, v.source.as_deref());
     let _ = writeln!(out, "| `{}` | {} | {what} |", v.name, cell(&holds));
 }

@@ -66,11 +66,7 @@ pub(super) fn find<'a>(r: &'a Reference, path: &str) -> Result<Vec<Place<'a>>, U
         if i == 0 {
             step(r, &r.root, word, "", None, &mut next);
             let file = r.files.iter().find(|f| f.name == word);
-            next.extend(file.map(|f| Place {
-                path: word.to_string(),
-                at: At::File(f),
-                source: None,
-            }));
+            next.extend(file.map(|f| Place { path: word.to_string(), at: At::File(f), source: None }));
         }
         for place in &places {
             if let Some(shape) = place.shape() {
@@ -92,11 +88,7 @@ fn without_numbers(path: &str) -> String {
         inside = *c == '[' || inside && *c != ']';
         !inside && *c != ']'
     };
-    path.trim()
-        .trim_matches('.')
-        .chars()
-        .filter(outside)
-        .collect()
+    path.trim().trim_matches('.').chars().filter(outside).collect()
 }
 
 fn step<'a>(
@@ -110,11 +102,7 @@ fn step<'a>(
     match r.resolved(shape) {
         Shape::Fields(fields) => {
             if let Some(f) = fields.iter().find(|f| f.name == word) {
-                found.push(Place {
-                    path: below(r, path, f),
-                    at: At::Field(f),
-                    source: f.source.as_deref().or(source),
-                });
+                found.push(Place { path: below(r, path, f), at: At::Field(f), source: f.source.as_deref().or(source) });
             }
         }
         Shape::Choice(variants) => {
@@ -136,11 +124,7 @@ fn step<'a>(
         Shape::List(of) => step(r, of, word, path, source, found),
         Shape::Tuple(parts) => {
             if let Some(part) = word.parse().ok().and_then(|i: usize| parts.get(i)) {
-                found.push(Place {
-                    path: joined(path, word),
-                    at: At::Part(part),
-                    source,
-                });
+                found.push(Place { path: joined(path, word), at: At::Part(part), source });
             }
         }
         Shape::Number(_) | Shape::Text(_) | Shape::Truth | Shape::Named(_) => {}
@@ -162,9 +146,7 @@ pub(super) fn joined(path: &str, name: &str) -> String {
 /// Every place of all files: its path and its last name. A type inside itself is left out.
 pub(super) fn all(r: &Reference) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    walk_all(r, &mut |path, name, _| {
-        found.push((path.to_string(), name.to_string()))
-    });
+    walk_all(r, &mut |path, name, _| found.push((path.to_string(), name.to_string())));
     found
 }
 
@@ -229,10 +211,7 @@ fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unkno
         let outside = usize::from(!starts.iter().any(|s| path.starts_with(s)));
         (distance(word, name), outside, path.matches('.').count())
     };
-    let mut near: Vec<_> = all
-        .iter()
-        .map(|(path, name)| (far(path, name), path))
-        .collect();
+    let mut near: Vec<_> = all.iter().map(|(path, name)| (far(path, name), path)).collect();
     near.sort();
     let likely = |d: usize| d <= 1 + word.len() / 4;
     let mut near: Vec<String> = match near.first() {
@@ -250,16 +229,9 @@ fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unkno
             all.filter(|path| next(path)).collect()
         }
     };
-    if near
-        .iter()
-        .any(|path| starts.iter().any(|s| path.starts_with(s)))
-    {
+    if near.iter().any(|path| starts.iter().any(|s| path.starts_with(s))) {
         near.retain(|path| starts.iter().any(|s| path.starts_with(s)));
     }
     near.truncate(NEAR);
-    Unknown {
-        path: path.to_string(),
-        within: places.first().map_or(String::new(), |p| p.path.clone()),
-        near,
-    }
+    Unknown { path: path.to_string(), within: places.first().map_or(String::new(), |p| p.path.clone()), near }
 }

@@ -101,10 +101,7 @@ pub(super) struct Variant {
 impl Reference {
     /// From a schema.
     pub(super) fn of(schema: &Value) -> Self {
-        let named = |schema: &Value| Named {
-            what: what(schema),
-            shape: shape(schema),
-        };
+        let named = |schema: &Value| Named { what: what(schema), shape: shape(schema) };
         let types = schema["$defs"].as_object().into_iter().flatten();
         let Named { what, shape: root } = named(schema);
         Self {
@@ -130,9 +127,7 @@ pub(super) fn variant_name(variant: &Object) -> Option<String> {
         return Some(name.clone());
     }
     let fields = variant.get("properties")?.as_object()?;
-    (fields.len() == 1)
-        .then(|| fields.keys().next().cloned())
-        .flatten()
+    (fields.len() == 1).then(|| fields.keys().next().cloned()).flatten()
 }
 
 fn shape(schema: &Value) -> Shape {
@@ -189,12 +184,7 @@ fn variant(schema: &Value) -> Vec<Variant> {
 }
 
 fn bare(name: &Value) -> Option<Variant> {
-    name.as_str().map(|name| Variant {
-        name: name.to_string(),
-        what: String::new(),
-        source: None,
-        holds: None,
-    })
+    name.as_str().map(|name| Variant { name: name.to_string(), what: String::new(), source: None, holds: None })
 }
 
 fn fields(schema: &Value) -> Vec<Field> {
@@ -232,9 +222,7 @@ fn array(schema: &Value) -> Shape {
     }
     let item = shape(&schema["items"]);
     match (schema["minItems"].as_u64(), schema["maxItems"].as_u64()) {
-        (Some(least), Some(most)) if least == most => {
-            Shape::Tuple((0..most).map(|_| item.clone()).collect())
-        }
+        (Some(least), Some(most)) if least == most => Shape::Tuple((0..most).map(|_| item.clone()).collect()),
         _ => Shape::List(Box::new(item)),
     }
 }
@@ -264,11 +252,7 @@ fn what(schema: &Value) -> String {
             // For an algorithm the catalogue's sentence is enough; for a field of a part it is added.
             let variant = schema["properties"].is_object() || schema["const"].is_string();
             let again = listed.starts_with(own.trim_end_matches('.'));
-            if variant || again {
-                listed
-            } else {
-                format!("{own} {listed}")
-            }
+            if variant || again { listed } else { format!("{own} {listed}") }
         }
         (Some(one), None) | (None, Some(one)) => one,
         (None, None) => String::new(),
@@ -278,11 +262,7 @@ fn what(schema: &Value) -> String {
 /// The text as a sentence, with a capital letter and a full stop.
 fn sentence(s: &str) -> String {
     let mut letters = s.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
     let end = if s.ends_with('.') { "" } else { "." };
     first + letters.as_str() + end
 }

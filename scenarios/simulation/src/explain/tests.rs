@@ -40,29 +40,20 @@ fn a_kind_says_what_it_is_for() {
 #[test]
 fn a_place_says_unit_range_default_meaning_and_source() {
     let text = explain("robots[0].strategy.Amp.reacquire.Bowtie.lead_m").unwrap();
-    for part in [
-        "robots[].strategy.Amp.reacquire.Bowtie.lead_m\n",
-        "value    m, ",
-        "default  10\n",
-        "Pang 2009, section 5.5",
-    ] {
+    for part in
+        ["robots[].strategy.Amp.reacquire.Bowtie.lead_m\n", "value    m, ", "default  10\n", "Pang 2009, section 5.5"]
+    {
         assert!(text.contains(part), "no {part:?} in\n{text}");
     }
     let text = explain("water.density_kg_m3").unwrap();
-    assert!(
-        text.contains("value    kg/m3, 900 to 1400\n  default  1026\n"),
-        "{text}"
-    );
+    assert!(text.contains("value    kg/m3, 900 to 1400\n  default  1026\n"), "{text}");
 }
 
 #[test]
 fn names_of_variants_and_numbers_of_elements_may_be_left_out() {
     let long = explain("robots[3].strategy.Amp.reacquire").unwrap();
     assert_eq!(explain("robots.strategy.reacquire").unwrap(), long);
-    assert!(
-        long.contains("default  Bowtie(…)") && long.contains("\n  Cloverleaf(…)\n"),
-        "{long}"
-    );
+    assert!(long.contains("default  Bowtie(…)") && long.contains("\n  Cloverleaf(…)\n"), "{long}");
     let several = explain("robots.strategy.speed_m_s").unwrap();
     assert!(several.starts_with("6 places"), "{several}");
     // A type within itself has no end, and needs none.
@@ -72,41 +63,20 @@ fn names_of_variants_and_numbers_of_elements_may_be_left_out() {
 #[test]
 fn the_top_shows_every_block() {
     let text = explain("").unwrap();
-    for block in [
-        "version",
-        "area",
-        "water",
-        "robots[]",
-        "gantries[]",
-        "time",
-        "record",
-    ] {
-        assert!(
-            text.contains(&format!("\n  {block}: ")),
-            "no {block} in\n{text}"
-        );
+    for block in ["version", "area", "water", "robots[]", "gantries[]", "time", "record"] {
+        assert!(text.contains(&format!("\n  {block}: ")), "no {block} in\n{text}");
     }
 }
 
 #[test]
 fn a_vehicle_is_explained_as_a_scenario_is() {
     let text = explain("vehicle").unwrap();
-    for part in [
-        "vehicle\n",
-        "\n  urdf: text; must be given",
-        "\n  drives[]: ",
-    ] {
+    for part in ["vehicle\n", "\n  urdf: text; must be given", "\n  drives[]: "] {
         assert!(text.contains(part), "no {part:?} in\n{text}");
     }
-    assert!(
-        !text.contains("\n  default  "),
-        "a file is no field:\n{text}"
-    );
+    assert!(!text.contains("\n  default  "), "a file is no field:\n{text}");
     let text = explain("vehicle.hydrodynamics.density_kg_m3").unwrap();
-    assert!(
-        text.contains("value    kg/m3, > 0\n  default  10"),
-        "{text}"
-    );
+    assert!(text.contains("value    kg/m3, > 0\n  default  10"), "{text}");
     let text = explain("vehicle.drives[0].Fin.limit_deg").unwrap();
     assert!(text.contains("value    degrees, > 0 to 90\n"), "{text}");
     let said = explain("vehicle.hydrodynamics.volum_m3").unwrap_err();
@@ -116,25 +86,15 @@ fn a_vehicle_is_explained_as_a_scenario_is() {
     let Shape::Fields(blocks) = &r.root else {
         panic!("a scenario has fields");
     };
-    assert!(
-        blocks
-            .iter()
-            .all(|b| r.files.iter().all(|f| f.name != b.name))
-    );
+    assert!(blocks.iter().all(|b| r.files.iter().all(|f| f.name != b.name)));
 }
 
 #[test]
 fn an_unknown_path_says_the_nearest_ones() {
     let near = |path: &str| explain(path).unwrap_err().near;
     assert_eq!(near("watr"), ["water"]);
-    assert_eq!(
-        near("robots[0].strategy.reaquire")[0],
-        "robots[].strategy.Amp.reacquire"
-    );
-    assert_eq!(
-        near("robots.half_width_m")[0],
-        "robots[].strategy.Amp.reacquire.Bowtie.half_width_m"
-    );
+    assert_eq!(near("robots[0].strategy.reaquire")[0], "robots[].strategy.Amp.reacquire");
+    assert_eq!(near("robots.half_width_m")[0], "robots[].strategy.Amp.reacquire.Bowtie.half_width_m");
     assert_eq!(near("time.xyzxyz")[0], "time.step_s");
     let said = explain("area.lenght_m").unwrap_err();
     assert_eq!(said.near, ["area.length_m"]);
@@ -160,11 +120,7 @@ fn everything_is_said_what_it_is() {
             Shape::Fields(fields) => {
                 for f in fields {
                     assert!(!f.what.is_empty(), "{of}.{}", f.name);
-                    assert!(
-                        f.required || f.default.is_some(),
-                        "{of}.{} lost its default",
-                        f.name
-                    );
+                    assert!(f.required || f.default.is_some(), "{of}.{} lost its default", f.name);
                 }
             }
             Shape::Choice(variants) => {
@@ -173,24 +129,14 @@ fn everything_is_said_what_it_is() {
             _ => {}
         }
         let number = of.chars().last().is_some_and(|c| c.is_ascii_digit());
-        assert!(
-            !number,
-            "two types are called {of}: give one another name with #[schemars(rename)]"
-        );
+        assert!(!number, "two types are called {of}: give one another name with #[schemars(rename)]");
     }
 }
 
 #[test]
 fn algorithms_have_their_sources() {
     let r = reference(&[]);
-    for choice in [
-        "strategy",
-        "strategy.Amp.reacquire",
-        "strategy.Amp.declare",
-        "map",
-        "estimator",
-        "vehicle",
-    ] {
+    for choice in ["strategy", "strategy.Amp.reacquire", "strategy.Amp.declare", "map", "estimator", "vehicle"] {
         let places = path::find(&r, &format!("robots.{choice}")).unwrap();
         let Some(Shape::Choice(variants)) = places[0].shape().map(|s| r.resolved(s)) else {
             panic!("{choice} is no choice");
@@ -203,12 +149,7 @@ fn algorithms_have_their_sources() {
 #[test]
 fn every_limit_of_the_reader_stands_in_the_schema() {
     let mut limits = 0;
-    for folder in [
-        "world/src",
-        "plumes/src",
-        "robots/src",
-        "scenarios/simulation/src",
-    ] {
+    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/simulation/src"] {
         let mut open = vec![root().join(folder)];
         while let Some(path) = open.pop() {
             if path.is_dir() {
@@ -233,11 +174,7 @@ fn twins(file: &Path) -> usize {
             let rest = code().filter_map(|l| l.split_once(mark).map(|(_, rest)| rest));
             let name = |rest: &str| {
                 let (_, name) = rest.split_once(path)?;
-                Some(
-                    name.split(|c: char| !c.is_alphanumeric() && c != '_')
-                        .next()?
-                        .to_string(),
-                )
+                Some(name.split(|c: char| !c.is_alphanumeric() && c != '_').next()?.to_string())
             };
             rest.filter_map(name).collect()
         };
@@ -245,12 +182,7 @@ fn twins(file: &Path) -> usize {
         if file.ends_with("explain/tests.rs") {
             continue;
         }
-        assert_eq!(
-            read,
-            shown,
-            "{}: a limit without its twin:\n{field}",
-            file.display()
-        );
+        assert_eq!(read, shown, "{}: a limit without its twin:\n{field}", file.display());
         limits += read.len();
     }
     limits

@@ -98,10 +98,7 @@ pub(super) fn put(of: &str, schema: &mut Object) {
 }
 
 fn of_field(of: &str, name: &str) -> Option<&'static str> {
-    let fits = |end: &str| {
-        name.strip_suffix(end)
-            .is_some_and(|s| s.is_empty() || s.ends_with('_'))
-    };
+    let fits = |end: &str| name.strip_suffix(end).is_some_and(|s| s.is_empty() || s.ends_with('_'));
     let ends = ENDS.iter().filter(|(end, _)| fits(end));
     let by_name = ends.max_by_key(|(end, _)| end.len()).map(|(_, unit)| *unit);
     stated(NAMED, of, name).or(by_name)
@@ -227,25 +224,17 @@ mod tests {
             let mut look = |name: &str, field: &mut Value| {
                 numbers(field, &mut |number| {
                     if !number.contains_key(UNIT) {
-                        assert!(
-                            PURE.contains(&name),
-                            "{of}.{name} has no unit: see explain/units.rs"
-                        );
+                        assert!(PURE.contains(&name), "{of}.{name} has no unit: see explain/units.rs");
                         pure.insert(name.to_string());
                     }
                 });
             };
             let fields = schema.get_mut("properties").and_then(Value::as_object_mut);
-            fields
-                .into_iter()
-                .flatten()
-                .for_each(|(name, field)| look(name, field));
+            fields.into_iter().flatten().for_each(|(name, field)| look(name, field));
             let variants = schema.get_mut("oneOf").and_then(Value::as_array_mut);
             for variant in variants.into_iter().flatten() {
                 let held = variant.get_mut("properties").and_then(Value::as_object_mut);
-                held.into_iter()
-                    .flatten()
-                    .for_each(|(name, held)| look(name, held));
+                held.into_iter().flatten().for_each(|(name, held)| look(name, held));
             }
         }
         let stated: BTreeSet<String> = PURE.iter().map(|s| (*s).to_string()).collect();

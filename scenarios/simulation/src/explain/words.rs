@@ -76,14 +76,8 @@ pub(super) fn ron(r: &Reference, shape: &Shape, value: &Value) -> String {
         (_, Value::Null) => "None".to_string(),
         (Shape::Choice(_), Value::String(name)) => name.clone(),
         (Shape::Choice(variants), Value::Object(held)) => {
-            let (name, held) = held
-                .iter()
-                .next()
-                .map_or(("", &Value::Null), |(n, h)| (n, h));
-            let of = variants
-                .iter()
-                .find(|v| v.name == name)
-                .and_then(|v| v.holds.as_ref());
+            let (name, held) = held.iter().next().map_or(("", &Value::Null), |(n, h)| (n, h));
+            let of = variants.iter().find(|v| v.name == name).and_then(|v| v.holds.as_ref());
             match of.map(|of| ron(r, of, held)) {
                 Some(inner) if inner.starts_with('(') => format!("{name}{inner}"),
                 Some(inner) => format!("{name}({inner})"),
@@ -98,11 +92,7 @@ pub(super) fn ron(r: &Reference, shape: &Shape, value: &Value) -> String {
                 _ => v.to_string(),
             };
             let items: Vec<String> = items.iter().enumerate().map(item).collect();
-            let (open, close) = if matches!(of, Shape::Tuple(_)) {
-                ('(', ')')
-            } else {
-                ('[', ']')
-            };
+            let (open, close) = if matches!(of, Shape::Tuple(_)) { ('(', ')') } else { ('[', ']') };
             format!("{open}{}{close}", items.join(", "))
         }
         (_, Value::Number(n)) => n.as_f64().map_or_else(|| n.to_string(), shown),
@@ -122,25 +112,14 @@ mod tests {
 
     #[test]
     fn ranges_read_as_people_write_them() {
-        let n = |low, above, high| {
-            range(&Number {
-                low,
-                above,
-                high,
-                ..Number::default()
-            })
-        };
+        let n = |low, above, high| range(&Number { low, above, high, ..Number::default() });
         assert_eq!(n(None, Some(0.0), Some(LARGEST)), "> 0");
         assert_eq!(n(Some(0.0), None, Some(LARGEST)), ">= 0");
         assert_eq!(n(Some(-LARGEST), None, Some(LARGEST)), "");
         assert_eq!(n(Some(1e-3), None, Some(1e6)), "0.001 to 1000000");
         assert_eq!(n(None, Some(0.0), Some(15.0)), "> 0 to 15");
         assert_eq!(n(Some(1.0), None, Some(1.0)), "1");
-        let share = Number {
-            above: Some(0.0),
-            below: Some(0.5),
-            ..Number::default()
-        };
+        let share = Number { above: Some(0.0), below: Some(0.5), ..Number::default() };
         assert_eq!(range(&share), "> 0 to < 0.5");
     }
 }

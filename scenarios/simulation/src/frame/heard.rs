@@ -1,8 +1,6 @@
 //! What a robot's instruments reported between two frames.
 
-use robots::handoff::{
-    AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, RangeScan, Readings,
-};
+use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, RangeScan, Readings};
 
 /// A reading and its time.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,10 +66,7 @@ mod tests {
     use super::*;
 
     fn depth(depth_m: f64) -> Readings {
-        Readings {
-            depth: Some(DepthReading { depth_m }),
-            ..Readings::default()
-        }
+        Readings { depth: Some(DepthReading { depth_m }), ..Readings::default() }
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use super::Heard;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
-    Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer,
-    LayerState, Picture, Regions, SidescanPing, Vertical, Zone,
+    Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer, LayerState, Picture,
+    Regions, SidescanPing, Vertical, Zone,
 };
 use std::sync::Arc;
 use world::frames::{Pose, Truth};
@@ -93,13 +93,7 @@ impl PictureFrame {
     /// From a picture that was taken in this step.
     #[must_use]
     pub fn new(t_s: f64, id: &str, picture: &Picture, truth: &Truth, estimate: &Estimate) -> Self {
-        Self {
-            t_s,
-            robot: id.to_owned(),
-            picture: picture.clone(),
-            truth: truth.pose,
-            estimate: *estimate,
-        }
+        Self { t_s, robot: id.to_owned(), picture: picture.clone(), truth: truth.pose, estimate: *estimate }
     }
 }
 
@@ -120,11 +114,6 @@ impl PingFrame {
     /// From a ping of this step.
     #[must_use]
     pub fn new(t_s: f64, id: &str, ping: &SidescanPing, estimate: &Estimate) -> Self {
-        Self {
-            t_s,
-            robot: id.to_owned(),
-            ping: ping.clone(),
-            estimate: *estimate,
-        }
+        Self { t_s, robot: id.to_owned(), ping: ping.clone(), estimate: *estimate }
     }
 }

@@ -36,10 +36,7 @@ impl Apparatus for GantryBlock {
     }
 
     fn spawn(&self, world: &mut World, launch: &Launch) -> Result<(), AssembleError> {
-        spawn(self, world, launch).map_err(|source| AssembleError::Robot {
-            id: self.id.as_str().to_string(),
-            source,
-        })
+        spawn(self, world, launch).map_err(|source| AssembleError::Robot { id: self.id.as_str().to_string(), source })
     }
 
     fn systems(&self, systems: &mut Systems) {
@@ -47,14 +44,7 @@ impl Apparatus for GantryBlock {
             .add(Stage::Sense, system::read_probes)
             .add_blind(Stage::Decide, system::track)
             .add(Stage::Actuate, system::drive_gantries)
-            .add(
-                Stage::Report,
-                (
-                    system::digest_gantries.after(digest_plume),
-                    system::keep_score,
-                )
-                    .chain(),
-            )
+            .add(Stage::Report, (system::digest_gantries.after(digest_plume), system::keep_score).chain())
             .add_to_frame(system::picture);
         if systems.has::<Consulting>() {
             systems.add_blind(Stage::Map, system::ask);
@@ -64,11 +54,7 @@ impl Apparatus for GantryBlock {
 
 fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), RobotError> {
     let id = block.id.as_str();
-    let Launch {
-        base_dir,
-        seed,
-        dt_s,
-    } = *launch;
+    let Launch { base_dir, seed, dt_s } = *launch;
     let gantry = Gantry::load(&block.gantry, &Beside(base_dir))?;
     gantry.check_step(dt_s)?;
     let layout = block.layout(&gantry);
@@ -80,16 +66,8 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
     let strategy = block.tracker.build(&layout)?;
     let place = world.resource_mut::<Score>().join(id);
     let mut gantry = world.spawn((
-        SearcherId {
-            name: id.to_string(),
-            place,
-        },
-        Rig {
-            gantry,
-            joints,
-            base,
-            rng: Stream::new(seed, id, "drives"),
-        },
+        SearcherId { name: id.to_string(), place },
+        Rig { gantry, joints, base, rng: Stream::new(seed, id, "drives") },
         Head::new(probes),
         GantryReadings::default(),
         Searcher {

@@ -29,10 +29,7 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Vec<(String, Value)> {
     say("joints", joints);
     if let Some(scan) = &g.scan {
         let tips: Vec<&[f64]> = g.tips_W.iter().map(|p| p.as_slice()).collect();
-        say(
-            "probes",
-            json!({"t_s": scan.t_s, "position_m": tips, "volts": &scan.volts[..scan.count]}),
-        );
+        say("probes", json!({"t_s": scan.t_s, "position_m": tips, "volts": &scan.volts[..scan.count]}));
     }
     let n = g.tips_W.len();
     let w = &d.working;
@@ -57,10 +54,7 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Vec<(String, Value)> {
     }
     say("behaviour", doing);
     if let Some(d) = &g.declaration {
-        say(
-            "declaration",
-            json!({"t_s": d.t_s, "position_m": d.position.as_slice(), "rule": d.rule}),
-        );
+        say("declaration", json!({"t_s": d.t_s, "position_m": d.position.as_slice(), "rule": d.rule}));
     }
     out
 }

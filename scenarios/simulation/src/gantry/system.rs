@@ -10,9 +10,7 @@ use crate::score::Score;
 use crate::searchers::{SearcherId, must_be_sound, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::Vector3;
-use robots::handoff::{
-    Bounds, Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
-};
+use robots::handoff::{Bounds, Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan};
 use robots::sense::Probes;
 use robots::track::GantryStrategy;
 use robots::vehicles::Gantry;
@@ -49,11 +47,7 @@ impl Head {
     /// Probes that have not been read.
     #[must_use]
     pub(crate) fn new(probes: Probes) -> Self {
-        Self {
-            probes,
-            latest: None,
-            tips_W: Vec::new(),
-        }
+        Self { probes, latest: None, tips_W: Vec::new() }
     }
 }
 
@@ -86,47 +80,28 @@ pub(crate) fn read_probes(
         head.tips_W.extend(rig.gantry.tips_W(&rig.base, &joints));
         let scan = head.probes.read(&clock, &head.tips_W, &plume);
         head.latest = scan.or(head.latest);
-        *readings = GantryReadings {
-            scan,
-            joints: rig.gantry.readings(&joints),
-        };
+        *readings = GantryReadings { scan, joints: rig.gantry.readings(&joints) };
     }
 }
 
 /// Asks the searchers outside this program; the answers come between this stage and the next.
 pub(crate) fn ask(
     clock: Res<Clock>,
-    mut gantries: Query<(
-        &SearcherId,
-        &GantryReadings,
-        &GantryDecision,
-        &mut Consulting,
-    )>,
+    mut gantries: Query<(&SearcherId, &GantryReadings, &GantryDecision, &mut Consulting)>,
 ) {
     for (id, readings, decision, mut consulting) in &mut gantries {
         if let Kept::Gantry(gathered) = &mut consulting.kept {
             gathered.scans.extend(readings.scan);
         }
         if decision.stopped.is_none() && consulting.due(&clock) {
-            let seen = GantryObservation {
-                t_s: clock.t_s(),
-                readings: *readings,
-                told: None,
-            };
-            consulting.ask(&clock, &id.name, |kept| {
-                Seen::Gantry(seen, kept.take_gantry())
-            });
+            let seen = GantryObservation { t_s: clock.t_s(), readings: *readings, told: None };
+            consulting.ask(&clock, &id.name, |kept| Seen::Gantry(seen, kept.take_gantry()));
         }
     }
 }
 
-type Tracking<'a> = (
-    &'a SearcherId,
-    &'a GantryReadings,
-    &'a mut Searcher,
-    &'a mut GantryDecision,
-    Option<&'a mut Consulting>,
-);
+type Tracking<'a> =
+    (&'a SearcherId, &'a GantryReadings, &'a mut Searcher, &'a mut GantryDecision, Option<&'a mut Consulting>);
 
 pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
     for (id, readings, mut searcher, mut decision, consulting) in &mut gantries {
@@ -177,13 +152,7 @@ pub(crate) fn digest_gantries(
     }
 }
 
-type Pictured<'a> = (
-    &'a SearcherId,
-    &'a Rig,
-    &'a Head,
-    &'a GantryReadings,
-    &'a GantryDecision,
-);
+type Pictured<'a> = (&'a SearcherId, &'a Rig, &'a Head, &'a GantryReadings, &'a GantryDecision);
 
 pub(crate) fn picture(
     physics: Res<Physics>,
@@ -216,13 +185,7 @@ pub(crate) fn picture(
     }
 }
 
-type Scored<'a> = (
-    &'a SearcherId,
-    &'a Rig,
-    &'a GantryReadings,
-    &'a GantryDecision,
-    &'a Searcher,
-);
+type Scored<'a> = (&'a SearcherId, &'a Rig, &'a GantryReadings, &'a GantryDecision, &'a Searcher);
 
 pub(crate) fn keep_score(
     clock: Res<Clock>,
@@ -251,21 +214,10 @@ pub(crate) fn keep_score(
 }
 
 /// Where the searcher says the source is, once it has stopped there: the place of the head according to its encoders.
-fn declaration(
-    physics: &Physics,
-    rig: &Rig,
-    decision: &GantryDecision,
-    searcher: &Searcher,
-) -> Option<Declaration> {
-    let t_s = searcher
-        .stopped_s
-        .filter(|_| decision.stopped == Some(true))?;
+fn declaration(physics: &Physics, rig: &Rig, decision: &GantryDecision, searcher: &Searcher) -> Option<Declaration> {
+    let t_s = searcher.stopped_s.filter(|_| decision.stopped == Some(true))?;
     let joints = physics.joints(rig.joints);
     let head = rig.gantry.head_W(&rig.base, &joints).xy();
     let off = rig.gantry.readings(&joints).position_m - rig.gantry.head_m(&joints);
-    Some(Declaration::first(
-        t_s,
-        head + (rig.base.R_WB * off.push(0.0)).xy(),
-        "stop",
-    ))
+    Some(Declaration::first(t_s, head + (rig.base.R_WB * off.push(0.0)).xy(), "stop"))
 }

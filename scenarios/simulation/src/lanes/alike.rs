@@ -59,11 +59,7 @@ pub fn alike(runs: &[(&Loaded, Seed)], memory_bytes: f64) -> Vec<Vec<usize>> {
             group.runs.push(n);
             group.bytes += lane;
         } else {
-            groups.push(Group {
-                course,
-                runs: vec![n],
-                bytes: cost::cost(&loaded.scenario).bytes(),
-            });
+            groups.push(Group { course, runs: vec![n], bytes: cost::cost(&loaded.scenario).bytes() });
         }
     }
     groups.into_iter().map(|group| group.runs).collect()

@@ -65,10 +65,7 @@ impl Worlds {
     /// For the runs of a scenario; none is made yet.
     #[must_use]
     pub fn new(loaded: &Loaded) -> Self {
-        Self {
-            loaded: loaded.clone(),
-            idle: Mutex::default(),
-        }
+        Self { loaded: loaded.clone(), idle: Mutex::default() }
     }
 
     /// Whether its runs can take turns in one world.
@@ -81,16 +78,8 @@ impl Worlds {
     ///
     /// # Errors
     /// If the scenario cannot be assembled.
-    pub(super) fn take(
-        &self,
-        origin: &Origin,
-        ocean: &mut Option<Ocean>,
-    ) -> Result<Box<Common>, LaneError> {
-        let idle = self
-            .idle
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .pop();
+    pub(super) fn take(&self, origin: &Origin, ocean: &mut Option<Ocean>) -> Result<Box<Common>, LaneError> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let made = || Common::new(&self.loaded, origin, ocean).map(Box::new);
         idle.map_or_else(made, Ok)
     }
@@ -103,36 +92,22 @@ impl Worlds {
 
 impl Common {
     fn new(loaded: &Loaded, origin: &Origin, ocean: &mut Option<Ocean>) -> Result<Self, LaneError> {
-        let Loaded {
-            registry,
-            scenario,
-            base_dir,
-            ..
-        } = loaded;
+        let Loaded { registry, scenario, base_dir, .. } = loaded;
         let mut world = World::new();
         world.insert_resource(ocean.take().expect("it is back"));
         world.insert_resource(Yard::default());
         let seed = origin.seed();
         // Whoever steps the runs looks at them.
         let frames = Frames::Unmade;
-        let tick =
-            caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+        let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
         *ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
-        let robots = world
-            .get_resource::<Robots>()
-            .map_or(Vec::new(), |r| r.0.clone());
-        let gantries = world
-            .get_resource::<Gantries>()
-            .map_or(Vec::new(), |g| g.0.clone());
+        let robots = world.get_resource::<Robots>().map_or(Vec::new(), |r| r.0.clone());
+        let gantries = world.get_resource::<Gantries>().map_or(Vec::new(), |g| g.0.clone());
         Ok(Self {
             robots: Machines::new(&mut world, robots),
             gantries: Machines::new(&mut world, gantries),
-            trial: Trial::of(
-                scenario,
-                Simulation::of(world, tick, origin.clone()),
-                Vec::new(),
-            ),
+            trial: Trial::of(scenario, Simulation::of(world, tick, origin.clone()), Vec::new()),
         })
     }
 
@@ -217,10 +192,7 @@ impl Common {
 
 impl<O: Own> Machines<O> {
     fn new(world: &mut World, all: Vec<Entity>) -> Self {
-        Self {
-            all,
-            parts: QueryState::new(world),
-        }
+        Self { all, parts: QueryState::new(world) }
     }
 
     fn exchange(&mut self, world: &mut World, own: &mut [O]) {

@@ -61,11 +61,7 @@ pub enum LaneError {
 
 /// What stands before the message of a panic: nothing if the message is about a vehicle and not about the program.
 fn prefix(said: &str) -> &'static str {
-    if said.contains(NOT_FINITE) {
-        ""
-    } else {
-        "panicked: "
-    }
+    if said.contains(NOT_FINITE) { "" } else { "panicked: " }
 }
 
 /// Runs in the same ocean, each with an observer.
@@ -86,13 +82,7 @@ struct Lane<W> {
 
 impl<W> Default for Lanes<W> {
     fn default() -> Self {
-        Self {
-            course: None,
-            ocean: None,
-            lanes: Vec::new(),
-            spun_up: false,
-            threads: 1,
-        }
+        Self { course: None, ocean: None, lanes: Vec::new(), spun_up: false, threads: 1 }
     }
 }
 
@@ -125,11 +115,7 @@ impl<W: Watch> Lanes<W> {
         }
         let trial = self.assembled(loaded, &course)?;
         let watch = watch()?;
-        self.lanes.push(Lane {
-            trial,
-            watch,
-            failed: None,
-        });
+        self.lanes.push(Lane { trial, watch, failed: None });
         Ok(())
     }
 
@@ -327,11 +313,7 @@ impl<W: Watch> Lane<W> {
     }
 
     /// Does something while the ocean is in the world of this lane; `None` if the lane has failed.
-    fn with<T>(
-        &mut self,
-        ocean: &mut Option<Ocean>,
-        work: impl FnOnce(&mut Trial, &mut W) -> T,
-    ) -> Option<T> {
+    fn with<T>(&mut self, ocean: &mut Option<Ocean>, work: impl FnOnce(&mut Trial, &mut W) -> T) -> Option<T> {
         if self.failed.is_some() {
             return None;
         }
@@ -342,11 +324,7 @@ impl<W: Watch> Lane<W> {
     }
 
     /// Hands on what the run has come to.
-    fn leave(
-        mut self,
-        ocean: &mut Option<Ocean>,
-        ended: &mut impl FnMut(W, Result<&Trial, LaneError>),
-    ) {
+    fn leave(mut self, ocean: &mut Option<Ocean>, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) {
         if let Some(said) = self.failed {
             return ended(self.watch, Err(LaneError::Panicked(said)));
         }
@@ -370,9 +348,6 @@ fn taken(world: &mut World) -> Option<Ocean> {
     let place = world.get_resource_mut::<Ocean>();
     let ocean = place.map(|mut place| std::mem::replace(&mut *place, Ocean::away()));
     let ocean = ocean.filter(Ocean::is_here);
-    assert!(
-        ocean.is_some(),
-        "a system has removed the ocean from its world: no system may"
-    );
+    assert!(ocean.is_some(), "a system has removed the ocean from its world: no system may");
     ocean
 }

@@ -45,12 +45,7 @@ pub(super) enum At {
 impl Runs {
     /// So many empty places.
     pub(super) fn new(places: usize) -> Self {
-        Self {
-            all: (0..places).map(|_| None).collect(),
-            common: None,
-            within: None,
-            nobody: None,
-        }
+        Self { all: (0..places).map(|_| None).collect(), common: None, within: None, nobody: None }
     }
 
     /// Empties a place, or puts a run into it.

@@ -89,9 +89,7 @@ impl Shared {
             origin,
             ocean: Some(ocean),
             clock: Clock::new(step_s),
-            asking: asking
-                .map(|(_, c)| Every::period(c.period_s, step_s))
-                .collect(),
+            asking: asking.map(|(_, c)| Every::period(c.period_s, step_s)).collect(),
             runs: Runs::new(places),
         })
     }
@@ -113,11 +111,7 @@ impl Shared {
     ///
     /// # Errors
     /// If it cannot be assembled, or panics; the place is then empty.
-    pub fn begin(
-        &mut self,
-        place: usize,
-        seed: impl Into<Seed>,
-    ) -> Result<Vec<Question>, LaneError> {
+    pub fn begin(&mut self, place: usize, seed: impl Into<Seed>) -> Result<Vec<Question>, LaneError> {
         self.runs.put(place, None);
         let kept = self.hold()?;
         self.runs.vacate();
@@ -136,11 +130,7 @@ impl Shared {
             }
             None => Seat::Own(Box::new(self.assembled(seed)?)),
         };
-        let run = Run {
-            seat,
-            at: At::Acted,
-            failed: None,
-        };
+        let run = Run { seat, at: At::Acted, failed: None };
         self.runs.put(place, Some(run));
         let step = self.clock.step;
         let asked = self.turn(place, |trial| {
@@ -171,19 +161,13 @@ impl Shared {
 
     /// A run in a world of its own.
     fn assembled(&mut self, seed: Seed) -> Result<Trial, LaneError> {
-        let Loaded {
-            registry,
-            scenario,
-            base_dir,
-            ..
-        } = &self.worlds.loaded;
+        let Loaded { registry, scenario, base_dir, .. } = &self.worlds.loaded;
         let mut world = World::new();
         world.insert_resource(self.ocean.take().expect("it is back"));
         let sources = world.resource::<Ocean>().sources();
         // Whoever steps it looks at the run itself.
         let frames = Frames::Unmade;
-        let tick =
-            caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+        let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
         self.ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
         let simulation = Simulation::of(world, tick, self.origin.clone());
@@ -239,11 +223,7 @@ impl Shared {
                     let mut at = At::Over;
                     through(trial, quiet, |trial| {
                         let questions;
-                        (at, questions) = if trial.heed(&mut Unwatched) {
-                            ask(trial)
-                        } else {
-                            (At::Over, Vec::new())
-                        };
+                        (at, questions) = if trial.heed(&mut Unwatched) { ask(trial) } else { (At::Over, Vec::new()) };
                         if at != At::Acted {
                             see(place, trial, questions);
                         }

@@ -12,10 +12,7 @@ use world::units::Heading;
 /// A minute of the channel with a searcher outside that is asked every second.
 fn channel() -> Loaded {
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 300, limit_s: 20",
-    );
+    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20");
     let mut loaded = load_text(&Registry::default(), "short", &text).expect("legal");
     loaded.scenario.robots[0].strategy = StrategySpec::new(ExternalSpec::default());
     loaded
@@ -44,13 +41,8 @@ fn digest(shared: &mut Shared, place: usize, mut open: Vec<(usize, Question)>) -
         }
         open = shared.until_asked();
         if shared.standing(place) != Standing::Going {
-            let ended = shared
-                .look(place, |trial| trial.ended())
-                .expect("it is there");
-            assert_eq!(
-                (ended.steps, shared.standing(place)),
-                (shared.step(), Standing::Ended)
-            );
+            let ended = shared.look(place, |trial| trial.ended()).expect("it is there");
+            assert_eq!((ended.steps, shared.standing(place)), (shared.step(), Standing::Ended));
             return ended.digest;
         }
     }
@@ -66,9 +58,7 @@ fn begin(shared: &mut Shared, place: usize, seed: u64) -> Vec<(usize, Question)>
 fn from_the_first_step_it_is_the_run_alone() {
     let loaded = channel();
     let mut alone = Trial::assemble(&loaded, 5).expect("legal");
-    alone
-        .control("auv0", |q: &Question| answer(q))
-        .expect("it asks");
+    alone.control("auv0", |q: &Question| answer(q)).expect("it asks");
     let alone = alone.finish_quietly().digest;
     for kept in [None, Some(Shared::spin_up(&loaded, 5).expect("legal"))] {
         let mut shared = Shared::new(&loaded, 5, 1, kept.as_ref()).expect("legal");
@@ -103,11 +93,7 @@ fn a_run_is_the_same_whoever_else_is_in_the_ocean() {
     let mut other = Shared::new(&loaded, 5, 1, Some(&kept)).expect("legal");
     other.wait_for(step);
     let open = begin(&mut other, 0, 13);
-    assert_ne!(
-        digest(&mut other, 0, open),
-        among_others,
-        "noise of its own"
-    );
+    assert_ne!(digest(&mut other, 0, open), among_others, "noise of its own");
 }
 
 #[test]
@@ -129,11 +115,7 @@ fn a_place_is_used_again_and_unanswered_questions_count() {
 }
 
 /// A run among three others, and alone: its digests.
-fn digests(
-    loaded: &Loaded,
-    robot: &str,
-    answer: impl Fn(&Question) -> Heard + Copy,
-) -> [String; 2] {
+fn digests(loaded: &Loaded, robot: &str, answer: impl Fn(&Question) -> Heard + Copy) -> [String; 2] {
     let kept = Shared::spin_up(loaded, 5).expect("legal");
     [4, 1].map(|places| {
         let mut shared = Shared::new(loaded, 5, places, Some(&kept)).expect("legal");
@@ -144,28 +126,22 @@ fn digests(
         let mut open: Vec<_> = begun.collect();
         while shared.standing(0) == Standing::Going {
             for (place, question) in open {
-                shared
-                    .answer(place, robot, answer(&question))
-                    .expect("it asked");
+                shared.answer(place, robot, answer(&question)).expect("it asked");
             }
             open = shared.until_asked();
         }
-        shared
-            .look(0, |trial| trial.ended().digest)
-            .expect("it is there")
+        shared.look(0, |trial| trial.ended().digest).expect("it is there")
     })
 }
 
 #[test]
 fn all_that_a_robot_can_have_is_its_own() {
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20")
-        .replace(
-            "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-            "strategy: External(), map: Pomdp(grid: (along: 20, across: 6)), energy: (battery_wh: 0.5),
+    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20").replace(
+        "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+        "strategy: External(), map: Pomdp(grid: (along: 20, across: 6)), energy: (battery_wh: 0.5),
              faults: [(at_s: 5, until_s: 9, what: Compass(Biased(5))), (at_s: 7, what: Fluorometer(Biased(0.5)))]",
-        );
+    );
     let loaded = load_text(&Registry::default(), "all", &text).expect("legal");
     let [among, alone] = digests(&loaded, "auv0", answer);
     assert_eq!(among, alone);
@@ -174,9 +150,7 @@ fn all_that_a_robot_can_have_is_its_own() {
 #[test]
 fn gantries_share_a_flume() {
     let text = template("flume_external").expect("in the catalogue").text;
-    let text = text
-        .replace("spin_up_s: 60", "spin_up_s: 3")
-        .replace("limit_s: 180", "limit_s: 4");
+    let text = text.replace("spin_up_s: 60", "spin_up_s: 3").replace("limit_s: 180", "limit_s: 4");
     let loaded = load_text(&Registry::default(), "flume", &text).expect("legal");
     let [among, alone] = digests(&loaded, "crab0", |question| {
         let left = 0.1 * (question.number % 5) as f64;

@@ -16,10 +16,7 @@ use world::stage::Stage;
 /// A short run of a channel in which the robot starts towards `heading_deg`.
 fn channel(registry: &Registry, heading_deg: f64, limit_s: f64) -> Loaded {
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace(
-        "spin_up_s: 2000, limit_s: 1800",
-        "spin_up_s: 60, limit_s: 9",
-    );
+    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 9");
     let mut loaded = load_text(registry, "short", &text).expect("legal");
     let robot = &mut loaded.scenario.robots[0];
     robot.start.heading_deg = HeadingDeg::try_from(heading_deg).expect("legal");
@@ -90,11 +87,7 @@ fn lanes_that_panic_do_not_touch_the_others() {
         let broken = panicking(stage);
         let ends = in_lanes(&[&first, &broken, &last]);
         assert_eq!(ends[0], Ok(alone(&first)), "{stage:?}");
-        assert_eq!(
-            ends[1],
-            Err("panicked: the hull is -1 m long".to_string()),
-            "{stage:?}"
-        );
+        assert_eq!(ends[1], Err("panicked: the hull is -1 m long".to_string()), "{stage:?}");
         assert_eq!(ends[2], Ok(alone(&last)), "{stage:?}");
     }
     assert_ne!(alone(&first).digest, alone(&last).digest);
@@ -159,20 +152,13 @@ fn an_observer_ends_its_own_lane_alone() {
     same.until(3.0);
     // The same but for the outcome, which is in the digest.
     assert_ne!(stopped(1).digest, same.ended().digest);
-    let alone_too = Trial::assemble(&all[1], 7)
-        .expect("legal")
-        .run(&mut Capricious {
-            stop_s: Some(3.0),
-            ..Capricious::default()
-        });
+    let alone_too =
+        Trial::assemble(&all[1], 7).expect("legal").run(&mut Capricious { stop_s: Some(3.0), ..Capricious::default() });
     assert_eq!(stopped(1).digest, alone_too.digest);
     assert_eq!(ends[2], Err("panicked: the disk is full".to_string()));
     assert_eq!(ends[3], Ok(alone(&all[3])));
     // If all stop in the spin-up, it ends.
-    let ends = watched(&all.each_ref(), |_| Capricious {
-        stop_share: Some(0.1),
-        ..Capricious::default()
-    });
+    let ends = watched(&all.each_ref(), |_| Capricious { stop_share: Some(0.1), ..Capricious::default() });
     assert!(ends.iter().all(|e| e.as_ref().is_ok_and(|e| e.steps == 0)));
 }
 
@@ -180,19 +166,10 @@ fn an_observer_ends_its_own_lane_alone() {
 fn a_lane_of_another_ocean_is_refused_by_what_differs() {
     type Change = (fn(&mut Loaded), &'static str);
     let changes: [Change; 4] = [
-        (
-            |l| l.scenario.time.step_s = Positive::new(0.025),
-            "time.step_s",
-        ),
-        (
-            |l| l.scenario.time.drift_period_s = Positive::new(1.5),
-            "time.drift_period_s",
-        ),
+        (|l| l.scenario.time.step_s = Positive::new(0.025), "time.step_s"),
+        (|l| l.scenario.time.drift_period_s = Positive::new(1.5), "time.drift_period_s"),
         (|l| l.scenario.permeable.push("pile".into()), "permeable"),
-        (
-            |l| l.scenario.sources[0].rate_g_s = Positive::new(0.7),
-            "sources",
-        ),
+        (|l| l.scenario.sources[0].rate_g_s = Positive::new(0.7), "sources"),
     ];
     let base = plain(10.0, 9.0);
     let seed = Seed::from(7);
@@ -203,10 +180,7 @@ fn a_lane_of_another_ocean_is_refused_by_what_differs() {
         let watch = || Ok::<_, LaneError>(Unwatched);
         lanes.add(&base, seed, watch).expect("the first");
         let refused = lanes.add(&other, seed, watch).expect_err("another ocean");
-        assert!(
-            matches!(&refused, LaneError::Unlike(what) if what == block),
-            "{refused}"
-        );
+        assert!(matches!(&refused, LaneError::Unlike(what) if what == block), "{refused}");
         let runs = [(&base, seed), (&other, seed), (&base, seed)];
         assert_eq!(alike(&runs, cost::MEMORY), [vec![0, 2], vec![1]]);
     }

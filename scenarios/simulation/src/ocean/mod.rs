@@ -73,14 +73,7 @@ const AWAY: &str = "another run has its turn in the ocean";
 
 impl Ocean {
     /// Before the spin-up; nothing is released yet.
-    fn new(
-        area: Area,
-        terrain: Terrain,
-        obstacles: Obstacles,
-        water: Water,
-        plume: Plume,
-        origin: &Origin,
-    ) -> Self {
+    fn new(area: Area, terrain: Terrain, obstacles: Obstacles, water: Water, plume: Plume, origin: &Origin) -> Self {
         Self(Some(Box::new(Contents {
             sides: area.sides(),
             bed: Bed::new(&terrain, &area),
@@ -186,9 +179,7 @@ impl Ocean {
     pub(crate) fn quiet_steps(&self, clock: &Clock) -> u64 {
         let (mut steps, mut later) = (0, *clock);
         later.advance();
-        while later.t_s() <= clock.t_s() + QUIET_S
-            && self.plume.rests_until(later.t_s() + self.spin_up_s)
-        {
+        while later.t_s() <= clock.t_s() + QUIET_S && self.plume.rests_until(later.t_s() + self.spin_up_s) {
             steps += 1;
             later.advance();
         }
@@ -254,13 +245,7 @@ impl Flow for Ocean {
     fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
         self.water.mixing(p, t_s + self.spin_up_s)
     }
-    fn column(
-        &self,
-        place: Vector2<f64>,
-        heights_m: &[f64],
-        t_s: f64,
-        out: &mut [(Vector3<f64>, Mixing)],
-    ) {
+    fn column(&self, place: Vector2<f64>, heights_m: &[f64], t_s: f64, out: &mut [(Vector3<f64>, Mixing)]) {
         let t_s = t_s + self.spin_up_s;
         Flow::column(&self.water, place, heights_m, t_s, out);
     }

@@ -56,9 +56,7 @@ impl Origin {
             spin_up_s: time.spin_up_s,
             spin_up_period_s: time.spin_up_period_s,
             flow_period_s: time.flow_period_s,
-            files: files
-                .map(|name| (name.to_string(), content(&base_dir.join(name))))
-                .collect(),
+            files: files.map(|name| (name.to_string(), content(&base_dir.join(name)))).collect(),
         }
     }
 

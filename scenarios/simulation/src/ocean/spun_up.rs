@@ -41,11 +41,7 @@ struct State {
 
 impl SpunUp {
     pub(crate) fn new(origin: Origin, (water, plume): (Water, Plume)) -> Self {
-        Self(Arc::new(State {
-            origin,
-            water,
-            plume,
-        }))
+        Self(Arc::new(State { origin, water, plume }))
     }
 
     /// What [`Self::read`] needs to make it again.
@@ -86,9 +82,7 @@ pub enum Mismatch {
     /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`,
     /// `sources`, `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`: the content of the
     /// obstacles' files.
-    #[error(
-        "the state was spun up with another `{0}`: runs may share a spin-up only if this is the same"
-    )]
+    #[error("the state was spun up with another `{0}`: runs may share a spin-up only if this is the same")]
     Block(String),
     /// Another seed or another key, which gives another plume.
     #[error("the state was spun up with seed {}, this run has seed {}", theirs.told(), ours.told())]

@@ -117,14 +117,7 @@ fn block(path: &str) -> String {
 #[test]
 fn every_field_of_a_scenario_counts_or_is_said_not_to() {
     let mut seen = std::collections::BTreeSet::new();
-    for name in [
-        "reef_mesh",
-        "harbour_3d",
-        "duck_mt",
-        "dalian_bay",
-        "flume_crab",
-        "wp_turbulent",
-    ] {
+    for name in ["reef_mesh", "harbour_3d", "duck_mt", "dalian_bay", "flume_crab", "wp_turbulent"] {
         let loaded = load(Path::new(name)).unwrap();
         let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 7);
         let whole = serde_json::to_value(&loaded.scenario).unwrap();
@@ -140,14 +133,9 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
             );
             for other in others.iter().filter(|other| **other != as_it_is) {
                 let unlike = origin.unlike(&Origin::of(other, &loaded.base_dir, 7));
-                assert_eq!(
-                    unlike.is_some(),
-                    counts,
-                    "{name}: {path} counts: {unlike:?}"
-                );
+                assert_eq!(unlike.is_some(), counts, "{name}: {path} counts: {unlike:?}");
                 // A file of another name is named as what is missing, not as where it is asked for.
-                let named =
-                    unlike.is_none_or(|u| u == block || (block == "obstacles" && u == "files"));
+                let named = unlike.is_none_or(|u| u == block || (block == "obstacles" && u == "files"));
                 assert!(named, "{name}: {path}");
                 seen.insert(block.clone());
             }
@@ -181,12 +169,7 @@ fn every_field_of_an_origin_counts() {
 #[test]
 fn a_file_of_the_same_name_with_other_contents_is_another_ocean() {
     let loaded = load(Path::new("reef_mesh")).unwrap();
-    let file = loaded
-        .scenario
-        .obstacles
-        .iter()
-        .find_map(ObstacleSpec::file)
-        .unwrap();
+    let file = loaded.scenario.obstacles.iter().find_map(ObstacleSpec::file).unwrap();
     let dir = tempfile::tempdir().unwrap();
     let origin = |base: &Path| Origin::of(&loaded.scenario, base, 7);
     let theirs = origin(&loaded.base_dir);

@@ -17,11 +17,7 @@ pub(crate) fn open_frame(world: &mut World) -> (bool, bool) {
         outbox.plume_due = Some(clock.t_next_s());
     }
     let due = ended || outbox.frame_every.due(&clock);
-    outbox.open = due.then(|| Frame {
-        t_s: clock.t_next_s(),
-        step: clock.step + 1,
-        ..Frame::default()
-    });
+    outbox.open = due.then(|| Frame { t_s: clock.t_next_s(), step: clock.step + 1, ..Frame::default() });
     (due, due || !outbox.is_empty())
 }
 
@@ -30,9 +26,7 @@ pub(crate) fn close_frame(world: &mut World) {
     let Some(mut frame) = world.resource_mut::<Outbox>().open.take() else {
         return;
     };
-    frame
-        .abnormal
-        .clone_from(&world.resource::<Score>().abnormal);
+    frame.abnormal.clone_from(&world.resource::<Score>().abnormal);
     frame.published = world.resource_mut::<Topics>().take_fresh();
     world.resource_mut::<Outbox>().frame = Some(frame);
 }

@@ -55,9 +55,6 @@ impl Outbox {
 
     /// Whether nothing waits for the trial.
     pub(crate) fn is_empty(&self) -> bool {
-        self.frame.is_none()
-            && self.plume_due.is_none()
-            && self.pictures.is_empty()
-            && self.pings.is_empty()
+        self.frame.is_none() && self.plume_due.is_none() && self.pictures.is_empty() && self.pings.is_empty()
     }
 }

@@ -31,10 +31,7 @@ impl Files for Beside<'_> {
                     .map(|line| line.trim_start_matches(path).trim_start_matches(':').into())
                     .collect::<Vec<String>>(),
             };
-            RobotError::File {
-                path: path.into(),
-                problem: lines.join("\n"),
-            }
+            RobotError::File { path: path.into(), problem: lines.join("\n") }
         })
     }
 }
@@ -45,10 +42,7 @@ mod tests {
     use robots::vehicles::{RemusSpec, Vehicle};
 
     fn error(dir: &Path, name: &str) -> String {
-        let spec = RemusSpec {
-            urdf: Some(name.into()),
-            ..RemusSpec::default()
-        };
+        let spec = RemusSpec { urdf: Some(name.into()), ..RemusSpec::default() };
         let error = Vehicle::load(&spec, &Beside(dir)).expect_err("this is wrong");
         error.to_string()
     }
@@ -65,22 +59,14 @@ mod tests {
         std::fs::write(at("hulls/latin.urdf"), b"<robot>\n\xe9").unwrap();
         assert_eq!(
             error(dir.path(), "hulls/latin.urdf"),
-            format!(
-                "{}: it is not UTF-8 text: line 2, byte 8",
-                at("hulls/latin.urdf").display()
-            )
+            format!("{}: it is not UTF-8 text: line 2, byte 8", at("hulls/latin.urdf").display())
         );
-        let mesh = include_str!("../../../../robots/urdf/remus100.urdf").replace(
-            "<capsule radius=\"0.095\" length=\"1.41\"/>",
-            "<mesh filename=\"hull.obj\"/>",
-        );
+        let mesh = include_str!("../../../../robots/urdf/remus100.urdf")
+            .replace("<capsule radius=\"0.095\" length=\"1.41\"/>", "<mesh filename=\"hull.obj\"/>");
         std::fs::write(at("hulls/mesh.urdf"), mesh).unwrap();
         std::fs::write(at("hulls/hull.obj"), "v 0 0 0\nv 1 0\n").unwrap();
         let found = error(dir.path(), "hulls/mesh.urdf");
         let place = "link \"base_link\", collision 1: mesh \"hull.obj\": at 2: ";
-        assert!(
-            found.starts_with(&format!("{}: {place}", at("hulls/mesh.urdf").display())),
-            "{found}"
-        );
+        assert!(found.starts_with(&format!("{}: {place}", at("hulls/mesh.urdf").display())), "{found}");
     }
 }

@@ -140,17 +140,8 @@ mod tests {
     fn every_scenario_reads_and_checks_without_a_warning() {
         for t in CATALOG {
             let scenario = parse(t.name, t.text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
-            assert_eq!(
-                crate::scenario::check(&scenario, &t.unpack().unwrap()),
-                [],
-                "{}",
-                t.name
-            );
-            assert!(
-                !scenario.title.is_empty() && !scenario.citation.is_empty(),
-                "{}",
-                t.name
-            );
+            assert_eq!(crate::scenario::check(&scenario, &t.unpack().unwrap()), [], "{}", t.name);
+            assert!(!scenario.title.is_empty() && !scenario.citation.is_empty(), "{}", t.name);
         }
     }
 }

@@ -10,11 +10,7 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = value.trim();
     whole(value)?;
     let outline = Outline::of(text);
-    let exact = outline
-        .nodes
-        .iter()
-        .rev()
-        .find(|n| n.path == path && !path.is_empty());
+    let exact = outline.nodes.iter().rev().find(|n| n.path == path && !path.is_empty());
     if let Some(node) = exact {
         let mut changed = text.to_string();
         changed.replace_range(node.value.clone(), value);
@@ -26,16 +22,13 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
         let cut = around.rfind(['.', '[']).unwrap_or(0);
         let lacking = &path[cut..];
         around = &path[..cut];
-        let inner = (outline.nodes.iter())
-            .find(|n| n.path == around && text[n.value.clone()].ends_with(')'));
+        let inner = (outline.nodes.iter()).find(|n| n.path == around && text[n.value.clone()].ends_with(')'));
         if let Some(node) = inner {
             let last = (outline.nodes.iter())
                 .filter(|n| node.value.start < n.whole.start && n.whole.end < node.value.end)
                 .map(|n| n.whole.end)
                 .max();
-            let open = text[node.value.clone()]
-                .find('(')
-                .map(|i| node.value.start + i + 1);
+            let open = text[node.value.clone()].find('(').map(|i| node.value.start + i + 1);
             match (last, open) {
                 (Some(end), _) => break (end, lacking, true),
                 (None, Some(open)) => break (open, lacking, false),
@@ -43,12 +36,10 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
             }
         }
         if cut == 0 || outline.nodes.iter().any(|n| n.path == around) {
-            return Err(
-                match lacking.strip_prefix('[').and_then(|l| l.split_once(']')) {
-                    Some((element, _)) => format!("`{around}` has no element {element}"),
-                    None => format!("`{around}` has no fields"),
-                },
-            );
+            return Err(match lacking.strip_prefix('[').and_then(|l| l.split_once(']')) {
+                Some((element, _)) => format!("`{around}` has no element {element}"),
+                None => format!("`{around}` has no fields"),
+            });
         }
     };
     let names: Vec<&str> = missing.trim_start_matches('.').split('.').collect();
@@ -77,11 +68,7 @@ fn whole(value: &str) -> Result<(), String> {
         && (outline.nodes.last()).is_some_and(|n| n.path.is_empty() && n.whole == (0..value.len()))
         && !value.contains("//")
         && !value.contains("/*");
-    if one {
-        Ok(())
-    } else {
-        Err(format!("`{value}` is not one RON value"))
-    }
+    if one { Ok(()) } else { Err(format!("`{value}` is not one RON value")) }
 }
 
 #[cfg(test)]
@@ -106,10 +93,7 @@ mod tests {
         let mass = put(TEXT, "robots[0].body.mass.kg", "30").unwrap();
         assert_eq!(mass, TEXT.replace("Remus()", "Remus(mass: (kg: 30))"));
         let title = put(TEXT, "title", "\"t\"").unwrap();
-        assert_eq!(
-            title,
-            TEXT.replace("(limit_s: 5)", "(limit_s: 5), title: \"t\"")
-        );
+        assert_eq!(title, TEXT.replace("(limit_s: 5)", "(limit_s: 5), title: \"t\""));
     }
 
     #[test]

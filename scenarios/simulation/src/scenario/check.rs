@@ -5,8 +5,8 @@ use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
-    check_able, check_berth, check_faults, check_fitted, check_limits, check_noise,
-    check_obstacles, check_resolved, check_sources, check_steps, check_times, check_view, cost,
+    check_able, check_berth, check_faults, check_fitted, check_limits, check_noise, check_obstacles, check_resolved,
+    check_sources, check_steps, check_times, check_view, cost,
 };
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -66,12 +66,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     if fits {
         check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
     }
-    check_obstacles::known(
-        "permeable",
-        &scenario.permeable,
-        &scenario.obstacles,
-        &mut found,
-    );
+    check_obstacles::known("permeable", &scenario.permeable, &scenario.obstacles, &mut found);
     check_sources::sources(scenario, &area, &terrain, &solid, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);
@@ -82,11 +77,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         let limit_s = scenario.time.limit_s.get();
         check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
         if let Some(vehicle) = &vehicle {
-            let place = check_view::Place {
-                area: &area,
-                terrain: &terrain,
-                obstacles: &obstacles,
-            };
+            let place = check_view::Place { area: &area, terrain: &terrain, obstacles: &obstacles };
             if fits {
                 check_view::view(i, robot, vehicle, &place, &mut found);
             }
@@ -113,10 +104,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         super::check_gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
         check_noise::probes(i, gantry, &mut found);
         if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
-            let problem = format!(
-                "\"{}\" is already the name of robots[{robot}]",
-                gantry.id.as_str()
-            );
+            let problem = format!("\"{}\" is already the name of robots[{robot}]", gantry.id.as_str());
             found.push(Found::error(format!("gantries[{i}].id"), problem));
         }
     }
@@ -155,37 +143,18 @@ fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
     {
         let (shallow, deep) = (s.shallow_m.get(), s.deep_m.get());
         found.push(
-            Found::error(
-                "terrain.shallow_m",
-                format!("must be at most deep_m, {deep}, got {shallow}"),
-            )
-            .hint(
-                "the water gets shallower towards the shore; to turn the slope, change shoreward_heading_deg",
-            ),
+            Found::error("terrain.shallow_m", format!("must be at most deep_m, {deep}, got {shallow}"))
+                .hint("the water gets shallower towards the shore; to turn the slope, change shoreward_heading_deg"),
         );
     }
 }
 
-fn start(
-    i: usize,
-    robot: &RobotSpec,
-    area: &Area,
-    terrain: &Terrain,
-    obstacles: &Obstacles,
-    found: &mut Vec<Found>,
-) {
+fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles: &Obstacles, found: &mut Vec<Found>) {
     let path = format!("robots[{i}].start");
     let (start, id) = (&robot.start, robot.id.as_str());
     if start.depth_m.is_some() == start.altitude_m.is_some() {
-        let given = if start.depth_m.is_some() {
-            "both are"
-        } else {
-            "neither is"
-        };
-        found.push(Found::error(
-            path,
-            format!("give either depth_m or altitude_m; {given} given"),
-        ));
+        let given = if start.depth_m.is_some() { "both are" } else { "neither is" };
+        found.push(Found::error(path, format!("give either depth_m or altitude_m; {given} given")));
         return;
     }
     let p = start.p_W(terrain);
@@ -194,10 +163,7 @@ fn start(
         found.push(
             Found::error(
                 &path,
-                format!(
-                    "robot \"{id}\" at east {} m, north {} m starts {:.1} m outside the area",
-                    p.x, p.y, -distance
-                ),
+                format!("robot \"{id}\" at east {} m, north {} m starts {:.1} m outside the area", p.x, p.y, -distance),
             )
             .hint("bring it inside, or make the area larger"),
         );
@@ -240,10 +206,7 @@ fn start(
         } else if away < BERTH_M {
             found.push(Found::warning(
                 &path,
-                format!(
-                    "robot \"{id}\" starts {away:.2} m from obstacle \"{}\": its hull may touch it",
-                    obstacle.id
-                ),
+                format!("robot \"{id}\" starts {away:.2} m from obstacle \"{}\": its hull may touch it", obstacle.id),
             ));
         }
     }
@@ -263,13 +226,7 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) 
 }
 
 /// Checks hull and instruments by building them. Returns the vehicle if both can be built.
-fn parts(
-    i: usize,
-    robot: &RobotSpec,
-    step_s: f64,
-    base_dir: &Path,
-    found: &mut Vec<Found>,
-) -> Option<Craft> {
+fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<Found>) -> Option<Craft> {
     let path = format!("robots[{i}]");
     match Craft::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
@@ -290,10 +247,7 @@ fn parts(
         Err(e) => {
             let mut fault = robot_error(&path, "vehicle", e);
             // A folder has files of its own, and no field for them here.
-            if matches!(
-                robot.vehicle,
-                VehicleSpec::File(_) | VehicleSpec::Shipped(_)
-            ) {
+            if matches!(robot.vehicle, VehicleSpec::File(_) | VehicleSpec::Shipped(_)) {
                 fault.path = format!("{path}.vehicle");
             }
             found.push(fault);
@@ -307,9 +261,7 @@ pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
     match error {
         RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
             .hint("paths are relative to the scenario file"),
-        RobotError::Invalid { field, problem } => {
-            Found::error(within(robot, part, &field), problem)
-        }
+        RobotError::Invalid { field, problem } => Found::error(within(robot, part, &field), problem),
     }
 }
 
@@ -336,9 +288,7 @@ pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
 /// The path of a part's field from the scenario's root. Parts name their fields by as much of the path as they know.
 pub(super) fn within(whole: &str, part: &str, field: &str) -> String {
     // A variant (`OpenLoop` in `strategy.OpenLoop.table`) is a value and no part of a path.
-    let fields = field
-        .split('.')
-        .filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
+    let fields = field.split('.').filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
     let field = fields.collect::<Vec<_>>().join(".");
     let list = whole.split('[').next().unwrap_or(whole);
     if field.starts_with(&format!("{list}[")) {

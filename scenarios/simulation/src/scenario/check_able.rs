@@ -18,21 +18,13 @@ const SLACK: f64 = 1.05;
 const SHORT: f64 = 0.02;
 
 /// Speeds that the vehicle cannot reach. `water_m_s` is the speed of the water where it starts.
-pub(super) fn speeds(
-    i: usize,
-    robot: &RobotSpec,
-    vehicle: &Craft,
-    water_m_s: f64,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Craft, water_m_s: f64, found: &mut Vec<Found>) {
     let top_m_s = vehicle.top_speed_m_s(robot.autopilot.rpm_limit.get());
     let limit_m_s = robot.guidance.water_speed_limit_m_s.get();
     let carried = vehicle.is_carried();
     let makes = |m_s: f64| {
         if carried {
-            format!(
-                "it reaches at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s at its start"
-            )
+            format!("it reaches at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s at its start")
         } else {
             format!("it reaches at most {m_s:.2} m/s over ground")
         }
@@ -41,51 +33,26 @@ pub(super) fn speeds(
     // Water faster than any is an error of its own.
     if carried && own_m_s < water_m_s && water_m_s <= stream_m_s.1 {
         let problem = format!("the water carries it away: {}", makes(own_m_s));
-        let slow = if limit_m_s < top_m_s {
-            "guidance.water_speed_limit_m_s"
-        } else {
-            "vehicle"
-        };
+        let slow = if limit_m_s < top_m_s { "guidance.water_speed_limit_m_s" } else { "vehicle" };
         found.push(Found::warning(format!("robots[{i}].{slow}"), problem));
     }
     // What the water adds to the vehicle's own speed.
     let water_m_s = if carried { water_m_s } else { 0.0 };
     let start_m_s = robot.start.speed_m_s.get();
     if start_m_s > SLACK * (top_m_s + water_m_s) {
-        let problem = format!(
-            "{start_m_s} m/s is more than the vehicle can do: {}",
-            makes(top_m_s)
-        );
-        found.push(Found::warning(
-            format!("robots[{i}].start.speed_m_s"),
-            problem,
-        ));
+        let problem = format!("{start_m_s} m/s is more than the vehicle can do: {}", makes(top_m_s));
+        found.push(Found::warning(format!("robots[{i}].start.speed_m_s"), problem));
     }
     for (field, m_s) in robot.strategy.wishes().speeds_m_s {
         if m_s > SLACK * (own_m_s + water_m_s) {
-            let by = if limit_m_s < top_m_s {
-                " (guidance.water_speed_limit_m_s)"
-            } else {
-                ""
-            };
-            let problem = format!(
-                "{m_s} m/s is more than the vehicle can do: {}{by}",
-                makes(own_m_s)
-            );
-            found.push(Found::warning(
-                format!("robots[{i}].strategy.{field}"),
-                problem,
-            ));
+            let by = if limit_m_s < top_m_s { " (guidance.water_speed_limit_m_s)" } else { "" };
+            let problem = format!("{m_s} m/s is more than the vehicle can do: {}{by}", makes(own_m_s));
+            found.push(Found::warning(format!("robots[{i}].strategy.{field}"), problem));
         }
     }
     if limit_m_s > SLACK * top_m_s {
-        let problem = format!(
-            "{limit_m_s} m/s is never reached: at full power the vehicle makes {top_m_s:.2} m/s"
-        );
-        found.push(Found::warning(
-            format!("robots[{i}].guidance.water_speed_limit_m_s"),
-            problem,
-        ));
+        let problem = format!("{limit_m_s} m/s is never reached: at full power the vehicle makes {top_m_s:.2} m/s");
+        found.push(Found::warning(format!("robots[{i}].guidance.water_speed_limit_m_s"), problem));
     }
     if let Some(limits) = vehicle.limits() {
         let asked_deg_s = robot.guidance.heading_rate_deg_s.get();
@@ -143,9 +110,7 @@ pub(super) fn capabilities(
                 "{strategy} commands a height, and this vehicle holds none: it goes up and down between the depths of \
                  its autopilot"
             );
-            found.push(
-                Found::error(path, problem).hint("a strategy without a height, such as Route"),
-            );
+            found.push(Found::error(path, problem).hint("a strategy without a height, such as Route"));
         }
     }
     for field in &wishes.waits {
@@ -162,14 +127,9 @@ pub(super) fn capabilities(
     }
     for (field, m_s) in wishes.speeds_m_s {
         if m_s < able.least_speed_m_s {
-            let problem = format!(
-                "{m_s} m/s is slower than this vehicle can be steered at, {:.2} m/s",
-                able.least_speed_m_s
-            );
-            found.push(Found::warning(
-                format!("robots[{i}].strategy.{field}"),
-                problem,
-            ));
+            let problem =
+                format!("{m_s} m/s is slower than this vehicle can be steered at, {:.2} m/s", able.least_speed_m_s);
+            found.push(Found::warning(format!("robots[{i}].strategy.{field}"), problem));
         }
     }
 }
@@ -184,17 +144,11 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
     let mut apart: Vec<Vector2<f64>> = Vec::new();
     for source in &scenario.sources {
         let p = Vector2::new(source.east_m.get(), source.north_m.get());
-        if apart
-            .iter()
-            .all(|other| (p - other).norm() > 2.0 * within_m)
-        {
+        if apart.iter().all(|other| (p - other).norm() > 2.0 * within_m) {
             apart.push(p);
         }
     }
-    let robots = scenario
-        .robots
-        .iter()
-        .map(|r| r.strategy.declares_at_most());
+    let robots = scenario.robots.iter().map(|r| r.strategy.declares_at_most());
     let most = robots.fold(scenario.gantries.len(), usize::saturating_add);
     if most < apart.len() {
         let problem = format!(
@@ -202,20 +156,12 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
             apart.len(),
             if most == 1 { "" } else { "s" }
         );
-        found.push(
-            Found::warning("success", problem).hint("search in Subregions, or with more robots"),
-        );
+        found.push(Found::warning("success", problem).hint("search in Subregions, or with more robots"));
     }
 }
 
 /// Whether the plume has spread when the mission starts.
-pub(super) fn plume(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    water: &Water,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn plume(scenario: &Scenario, area: &Area, terrain: &Terrain, water: &Water, found: &mut Vec<Found>) {
     let seeks = |r: &RobotSpec| r.strategy.searches();
     if !scenario.robots.iter().any(seeks) && scenario.gantries.is_empty() {
         return;
@@ -224,23 +170,16 @@ pub(super) fn plume(
     let Ok(placed) = plumes::release::place(&scenario.sources, area, terrain) else {
         return;
     };
-    let fastest = placed
-        .iter()
-        .map(|s| water.velocity_without_eddies(&s.p_W, 0.0).xy().norm());
+    let fastest = placed.iter().map(|s| water.velocity_without_eddies(&s.p_W, 0.0).xy().norm());
     let Some(m_s) = fastest.max_by(f64::total_cmp) else {
         return;
     };
     let reach_m = spin_up_s * m_s;
     let moves = m_s > 1e-3;
     if spin_up_s <= 0.0 || moves && reach_m < SHORT * area.length_m {
-        let problem = format!(
-            "the plume is {reach_m:.1} m long when the mission starts: there is nothing to find yet"
-        );
+        let problem = format!("the plume is {reach_m:.1} m long when the mission starts: there is nothing to find yet");
         let hint = if moves {
-            format!(
-                "in {:.0} s it crosses the area",
-                (area.length_m / m_s).ceil()
-            )
+            format!("in {:.0} s it crosses the area", (area.length_m / m_s).ceil())
         } else {
             "give it time to develop".to_string()
         };
@@ -266,10 +205,7 @@ pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
         }
     }
     if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
-        found.push(Found::warning(
-            "success",
-            "it asks for a declaration, but no robot searches",
-        ));
+        found.push(Found::warning("success", "it asks for a declaration, but no robot searches"));
     }
 }
 
@@ -280,10 +216,7 @@ mod tests {
     #[test]
     fn speeds_that_no_thrust_makes_are_told() {
         let channel = "uniform_channel";
-        assert_eq!(
-            told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 2.0")]),
-            [""; 0]
-        );
+        assert_eq!(told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 2.0")]), [""; 0]);
         let fast = told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 15")]);
         assert_eq!(fast.len(), 1, "{fast:?}");
         assert!(
@@ -292,24 +225,12 @@ mod tests {
             ),
             "{fast:?}"
         );
-        let start = told(
-            channel,
-            &[(
-                "heading_deg: 0, speed_m_s: 1.5",
-                "heading_deg: 0, speed_m_s: 15",
-            )],
-        );
-        assert!(
-            start[0].starts_with("robots[0].start.speed_m_s: 15 m/s is more"),
-            "{start:?}"
-        );
+        let start = told(channel, &[("heading_deg: 0, speed_m_s: 1.5", "heading_deg: 0, speed_m_s: 15")]);
+        assert!(start[0].starts_with("robots[0].start.speed_m_s: 15 m/s is more"), "{start:?}");
         let limit = "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 15)";
         let limit = told(channel, &[("estimator: DeadReckoning()", limit)]);
         assert_eq!(limit.len(), 1, "{limit:?}");
-        assert!(
-            limit[0].contains("at full power the vehicle makes 2.5"),
-            "{limit:?}"
-        );
+        assert!(limit[0].contains("at full power the vehicle makes 2.5"), "{limit:?}");
     }
 
     #[test]
@@ -319,16 +240,11 @@ mod tests {
         let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 20)");
         assert_eq!(
             told("uniform_channel", &[("(id: \"s1\"", three), all]),
-            [
-                "success: 3 sources are to be declared, but all strategies together make at most 1 declaration"
-            ]
+            ["success: 3 sources are to be declared, but all strategies together make at most 1 declaration"]
         );
         // One declaration half-way is near them all.
         let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 200)");
-        assert_eq!(
-            told("uniform_channel", &[("(id: \"s1\"", three), all]),
-            [""; 0]
-        );
+        assert_eq!(told("uniform_channel", &[("(id: \"s1\"", three), all]), [""; 0]);
         assert_eq!(told("duck_mt", &[]), [""; 0]);
     }
 
@@ -337,14 +253,9 @@ mod tests {
         let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 0")]);
         assert_eq!(
             said,
-            [
-                "time.spin_up_s: the plume is 0.0 m long when the mission starts: there is nothing to find yet"
-            ]
+            ["time.spin_up_s: the plume is 0.0 m long when the mission starts: there is nothing to find yet"]
         );
         let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 10")]);
-        assert!(
-            said[0].starts_with("time.spin_up_s: the plume is "),
-            "{said:?}"
-        );
+        assert!(said[0].starts_with("time.spin_up_s: the plume is "), "{said:?}");
     }
 }

@@ -17,21 +17,15 @@ pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Fo
         let p = robot.start.p_W(terrain);
         let clear = p.z - terrain.bed_z(p.x, p.y);
         if (0.0..DIAMETER_M / 2.0).contains(&clear) {
-            let problem =
-                format!("robot \"{id}\" starts {clear:.2} m above the bed: its hull may touch it");
+            let problem = format!("robot \"{id}\" starts {clear:.2} m above the bed: its hull may touch it");
             found.push(Found::warning(&path, problem));
         }
         // Robots of the same name are reported elsewhere.
-        let others = robots[..i]
-            .iter()
-            .enumerate()
-            .filter(|(_, o)| o.id != robot.id);
+        let others = robots[..i].iter().enumerate().filter(|(_, o)| o.id != robot.id);
         for (k, other) in others {
             let apart = (other.start.p_W(terrain) - p).norm();
             let other = other.id.as_str();
-            let problem = |so: &str| {
-                format!("robot \"{id}\" starts {apart:.2} m from robots[{k}], \"{other}\": {so}")
-            };
+            let problem = |so: &str| format!("robot \"{id}\" starts {apart:.2} m from robots[{k}], \"{other}\": {so}");
             if apart < DIAMETER_M {
                 let problem = problem("their hulls overlap");
                 found.push(Found::error(&path, problem).hint("move one of them"));
@@ -71,25 +65,18 @@ mod tests {
             told(1.0, 2.0),
             [(
                 Severity::Warning,
-                "robot \"auv1\" starts 1.00 m from robots[0], \"auv0\": their hulls may touch"
-                    .into()
+                "robot \"auv1\" starts 1.00 m from robots[0], \"auv0\": their hulls may touch".into()
             )]
         );
         assert_eq!(
             told(0.1, 2.0),
-            [(
-                Severity::Error,
-                "robot \"auv1\" starts 0.10 m from robots[0], \"auv0\": their hulls overlap".into()
-            )]
+            [(Severity::Error, "robot \"auv1\" starts 0.10 m from robots[0], \"auv0\": their hulls overlap".into())]
         );
         let low = told(5.0, 0.05);
         assert_eq!(low.len(), 2, "{low:?}");
         assert_eq!(
             low[0],
-            (
-                Severity::Warning,
-                "robot \"auv0\" starts 0.05 m above the bed: its hull may touch it".into()
-            )
+            (Severity::Warning, "robot \"auv0\" starts 0.05 m above the bed: its hull may touch it".into())
         );
     }
 }

@@ -7,13 +7,7 @@ use robots::vehicles::Craft;
 
 /// Finds faults of what the robot has not, times that contradict each other, and faults after the mission. `vehicle`
 /// is missing if it cannot be built.
-pub(super) fn faults(
-    i: usize,
-    robot: &RobotSpec,
-    vehicle: Option<&Craft>,
-    limit_s: f64,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn faults(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, limit_s: f64, found: &mut Vec<Found>) {
     let drives = vehicle.map(Craft::named_drives);
     for mistake in mistakes(&robot.faults, &robot.sensors, drives.as_deref()) {
         let told = Found::error(format!("robots[{i}].{}", mistake.field), mistake.problem);
@@ -25,9 +19,7 @@ pub(super) fn faults(
     for (k, fault) in robot.faults.iter().enumerate() {
         let at_s = fault.at_s.get();
         if at_s >= limit_s {
-            let problem = format!(
-                "begins at {at_s} s, when the mission is over: time.limit_s is {limit_s} s"
-            );
+            let problem = format!("begins at {at_s} s, when the mission is over: time.limit_s is {limit_s} s");
             let path = format!("robots[{i}].faults[{k}].at_s");
             found.push(Found::warning(path, problem).hint("begin it earlier, or raise the limit"));
         }
@@ -42,10 +34,7 @@ mod tests {
     /// What is said of the channel with these faults.
     fn said(faults: &str) -> Vec<String> {
         let vertical = "vertical: Altitude(2)),";
-        told(
-            "uniform_channel",
-            &[(vertical, &format!("{vertical} faults: [{faults}],"))],
-        )
+        told("uniform_channel", &[(vertical, &format!("{vertical} faults: [{faults}],"))])
     }
 
     /// What the reader says of them first: line, field and problem.
@@ -103,46 +92,26 @@ mod tests {
             told(
                 "uniform_channel",
                 &[
-                    (
-                        vertical,
-                        &format!("{vertical} faults: [(at_s: 3, what: Rudder(Stuck))],")
-                    ),
+                    (vertical, &format!("{vertical} faults: [(at_s: 3, what: Rudder(Stuck))],")),
                     ("Remus100()", "Kinematic(moves: ThroughWater)"),
                 ]
             ),
-            [
-                "robots[0].faults[0].what: a kinematic vehicle has no rudder that could fail: it moves as its helm asks"
-            ]
+            ["robots[0].faults[0].what: a kinematic vehicle has no rudder that could fail: it moves as its helm asks"]
         );
     }
 
     #[test]
     fn nonsense_is_refused_by_the_reader_with_its_place() {
         for (fault, want) in [
-            (
-                "(at_s: -1, what: Compass(Stuck))",
-                "robots[0].faults[0].at_s: must be >= 0, got -1",
-            ),
-            (
-                "(at_s: 1, what: Propeller(Weak(1.5)))",
-                "robots[0].faults[0].what: must be from 0 to 1, got 1.5",
-            ),
-            (
-                "(at_s: 1, what: Fluorometer(StuckAt(10)))",
-                "robots[0].faults[0].what: there is no choice `StuckAt`",
-            ),
-            (
-                "(at_s: 1, what: Nose(Silent))",
-                "robots[0].faults[0].what: there is no choice `Nose`",
-            ),
+            ("(at_s: -1, what: Compass(Stuck))", "robots[0].faults[0].at_s: must be >= 0, got -1"),
+            ("(at_s: 1, what: Propeller(Weak(1.5)))", "robots[0].faults[0].what: must be from 0 to 1, got 1.5"),
+            ("(at_s: 1, what: Fluorometer(StuckAt(10)))", "robots[0].faults[0].what: there is no choice `StuckAt`"),
+            ("(at_s: 1, what: Nose(Silent))", "robots[0].faults[0].what: there is no choice `Nose`"),
             (
                 "(at_s: 1, what: Compass(Biased(500)))",
                 "robots[0].faults[0].what: must be from -180 to 180 degrees, got 500",
             ),
-            (
-                "(at_s: 1, what: Fixes(Lie(up_m: 3)))",
-                "robots[0].faults[0].what: there is no field `up_m`",
-            ),
+            ("(at_s: 1, what: Fixes(Lie(up_m: 3)))", "robots[0].faults[0].what: there is no field `up_m`"),
         ] {
             let said = refused(fault);
             let line = said.split(": ").next().expect("a place");

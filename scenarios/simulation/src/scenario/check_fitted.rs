@@ -26,17 +26,9 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, found
                 why.push(other.so);
             }
         }
-        let problem = format!(
-            "robot \"{}\" carries no {instrument}: it {}",
-            robot.id.as_str(),
-            why.join(", and ")
-        );
+        let problem = format!("robot \"{}\" carries no {instrument}: it {}", robot.id.as_str(), why.join(", and "));
         let path = format!("robots[{i}].{}", need.field);
-        let told = if need.vital {
-            Found::error(path, problem)
-        } else {
-            Found::warning(path, problem)
-        };
+        let told = if need.vital { Found::error(path, problem) } else { Found::warning(path, problem) };
         let hint = format!("fit one, as in `sensors: ({instrument}: ())`");
         found.push(if need.field == "sensors" {
             told.hint(hint)
@@ -47,11 +39,7 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, found
 }
 
 /// What the parts of the robot need, with paths below the robot.
-fn needs(
-    robot: &RobotSpec,
-    able: Option<&Capabilities>,
-    lacks: &dyn Fn(&str) -> bool,
-) -> Vec<Need> {
+fn needs(robot: &RobotSpec, able: Option<&Capabilities>, lacks: &dyn Fn(&str) -> bool) -> Vec<Need> {
     let of_all = |need: Need| match need.field.as_str() {
         "" => need.within("sensors"),
         _ => need,
@@ -60,9 +48,7 @@ fn needs(
     let known = able.copied().unwrap_or_default();
     let commands = robot.strategy.wishes().needs(&known);
     let steers = !commands.is_empty();
-    let mut needs: Vec<Need> = (robot.strategy.needs().into_iter())
-        .map(|n| n.within("strategy"))
-        .collect();
+    let mut needs: Vec<Need> = (robot.strategy.needs().into_iter()).map(|n| n.within("strategy")).collect();
     let of_commands = commands.into_iter().map(|n| match n.field.as_str() {
         "" => of_all(n),
         _ => n.within("strategy"),
@@ -111,9 +97,7 @@ mod tests {
 
     fn problems(scenario: &Scenario) -> Vec<(bool, String)> {
         let found = check(scenario, Path::new("")).into_iter();
-        found
-            .map(|f| (f.severity == Severity::Error, f.path))
-            .collect()
+        found.map(|f| (f.severity == Severity::Error, f.path)).collect()
     }
 
     fn error(path: &str) -> Vec<(bool, String)> {
@@ -127,18 +111,9 @@ mod tests {
     #[test]
     fn what_is_asked_for_must_be_on_board() {
         let moth = "moth_plus";
-        assert_eq!(
-            without(moth, "ctd", &[]),
-            error("robots[0].estimator.layer_aware")
-        );
-        assert_eq!(
-            without(moth, "ranging", &[]),
-            error("robots[0].strategy.layers")
-        );
-        assert_eq!(
-            without(moth, "lbl", &[]),
-            warning("robots[0].strategy.fixes")
-        );
+        assert_eq!(without(moth, "ctd", &[]), error("robots[0].estimator.layer_aware"));
+        assert_eq!(without(moth, "ranging", &[]), error("robots[0].strategy.layers"));
+        assert_eq!(without(moth, "lbl", &[]), warning("robots[0].strategy.fixes"));
         let survey = "robots[0].strategy.after_declaration.sidescan";
         assert_eq!(without("duck_survey", "sidescan", &[]), error(survey));
         let camera = error("robots[0].strategy.survey.camera");
@@ -147,15 +122,10 @@ mod tests {
 
     #[test]
     fn a_height_needs_the_instrument_that_tells_it() {
-        let said = told(
-            "dalian_bay",
-            &[("vertical: Depth(1.5)", "vertical: Altitude(2)")],
-        );
+        let said = told("dalian_bay", &[("vertical: Depth(1.5)", "vertical: Altitude(2)")]);
         assert_eq!(
             said,
-            [
-                "robots[0].strategy.vertical: robot \"auv0\" carries no altimeter: it cannot hold an altitude"
-            ]
+            ["robots[0].strategy.vertical: robot \"auv0\" carries no altimeter: it cannot hold an altitude"]
         );
         let channel = "uniform_channel";
         let vertical = "robots[0].strategy.vertical";
@@ -175,10 +145,7 @@ mod tests {
                  search: Amp(speed_m_s: 1.5, vertical: Altitude(2)))",
                 "search.vertical",
             ),
-            (
-                "External(on_late: Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2))))",
-                "on_late.vertical",
-            ),
+            ("External(on_late: Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2))))", "on_late.vertical"),
             ("Route(points: [(0, 0)], vertical: Altitude(2))", "vertical"),
         ] {
             let strategy = format!("strategy: {strategy}");
@@ -199,10 +166,7 @@ mod tests {
         assert_eq!(without("dalian_bay", "dvl", &[]), error(sensors()));
         // A glider turns at its depths, and before the bed.
         assert_eq!(without("glider_shelf", "depth", &[]), error(sensors()));
-        assert_eq!(
-            without("glider_shelf", "altimeter", &[]),
-            warning(sensors())
-        );
+        assert_eq!(without("glider_shelf", "altimeter", &[]), warning(sensors()));
         // A craft on the surface needs neither.
         assert_eq!(without("surface_lake", "depth", &[]), []);
         assert_eq!(without("surface_lake", "altimeter", &[]), []);
@@ -211,10 +175,7 @@ mod tests {
     #[test]
     fn a_blind_search_is_a_warning() {
         for instrument in ["fluorometer", "adcp"] {
-            assert_eq!(
-                without("uniform_channel", instrument, &[]),
-                warning("robots[0].sensors")
-            );
+            assert_eq!(without("uniform_channel", instrument, &[]), warning("robots[0].sensors"));
         }
         // Nothing is steered by an open loop, which needs nothing.
         assert_eq!(told("remus_dive", &[]), [""; 0]);

@@ -43,7 +43,10 @@ pub(crate) fn check(
                         format!(
                             "gantry \"{}\" starts with its head at east {:.2} m, north {:.2} m, \
                              {:.2} m outside the area",
-                            block.id.as_str(), head.x, head.y, -inside_m
+                            block.id.as_str(),
+                            head.x,
+                            head.y,
+                            -inside_m
                         ),
                     )
                     .hint("the head is at `place`, moved by `start` along heading_deg and to its left"),

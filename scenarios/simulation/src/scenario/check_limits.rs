@@ -28,19 +28,12 @@ const NARROWEST_M: f64 = 1e-3;
 const FASTEST_M_S: f64 = 15.0;
 
 /// Checks area, depth, durations and number of filaments. Returns whether all are within their limits.
-pub(super) fn sizes(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    found: &mut Vec<Found>,
-) -> bool {
+pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) -> bool {
     let before = found.len();
     let nodes: f64 = GridShape::fitting(area).nodes(area).iter().product();
     // A blockage checks its own cells.
     if scenario.water.blockage.is_none() && !(nodes <= MOST_NODES) {
-        let problem = format!(
-            "its currents need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e} are allowed"
-        );
+        let problem = format!("its currents need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e} are allowed");
         found.push(Found::error("area", problem).hint("make length_m and width_m smaller"));
     }
     let half = Vector2::new(area.length_m, area.width_m) / 2.0;
@@ -53,16 +46,10 @@ pub(super) fn sizes(
         let problem = format!("must be at most {DEEPEST_M} m deep, got {depth}");
         found.push(Found::error("terrain", problem));
     } else if depth < SHALLOWEST_M {
-        let problem = format!(
-            "must be at least {SHALLOWEST_M} m deep, got {}",
-            shown(depth)
-        );
+        let problem = format!("must be at least {SHALLOWEST_M} m deep, got {}", shown(depth));
         found.push(Found::error("terrain", problem));
     }
-    for (path, extent) in [
-        ("area.length_m", area.length_m),
-        ("area.width_m", area.width_m),
-    ] {
+    for (path, extent) in [("area.length_m", area.length_m), ("area.width_m", area.width_m)] {
         if extent < NARROWEST_M {
             let problem = format!("must be at least {NARROWEST_M} m, got {}", shown(extent));
             found.push(Found::error(path, problem));
@@ -83,22 +70,14 @@ pub(super) fn sizes(
                 "releases {filaments:.1e} filaments in spin-up and mission; at most {MOST_FILAMENTS:.0e} are allowed"
             );
             let path = format!("sources[{i}].release");
-            found.push(
-                Found::error(path, problem).hint("lower rate_hz, or shorten spin-up or mission"),
-            );
+            found.push(Found::error(path, problem).hint("lower rate_hz, or shorten spin-up or mission"));
         }
     }
     found.len() == before
 }
 
 /// Checks the sizes of a robot's map and of its planner's space without building them.
-pub(super) fn bounds(
-    i: usize,
-    robot: &RobotSpec,
-    area: &Area,
-    terrain: &Terrain,
-    found: &mut Vec<Found>,
-) -> bool {
+pub(super) fn bounds(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) -> bool {
     let path = format!("robots[{i}]");
     let setting = robot.setting(area, terrain, &Obstacles::default());
     let map = robot.map.as_ref().map_or(Ok(()), |map| map.check(area));
@@ -111,30 +90,17 @@ pub(super) fn bounds(
 }
 
 /// The water, unless a current of another crate is wrong where and when the checks ask for it: asked there, it panics.
-pub(super) fn sound(
-    scenario: &Scenario,
-    water: Water,
-    area: &Area,
-    terrain: &Terrain,
-) -> Result<Water, PlumeError> {
+pub(super) fn sound(scenario: &Scenario, water: Water, area: &Area, terrain: &Terrain) -> Result<Water, PlumeError> {
     let until_s = scenario.time.spin_up_s.get() + scenario.time.limit_s.get();
     let starts = (scenario.robots.iter()).map(|r| (r.start.p_W(terrain).xy(), 0.0));
     match (starts.chain(examined(area, until_s))).find_map(|(p, t_s)| water.fault(p, t_s)) {
-        Some(problem) => Err(PlumeError::Invalid {
-            field: "water.currents".to_string(),
-            problem,
-        }),
+        Some(problem) => Err(PlumeError::Invalid { field: "water.currents".to_string(), problem }),
         None => Ok(water),
     }
 }
 
 /// Checks the speed of the water at the robots' starts and in the middle of the area.
-pub(super) fn speeds(
-    scenario: &Scenario,
-    water: &Water,
-    terrain: &Terrain,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn speeds(scenario: &Scenario, water: &Water, terrain: &Terrain, found: &mut Vec<Found>) {
     let starts = scenario.robots.iter().map(|r| r.start.p_W(terrain));
     let middle = scenario.area.build().centre;
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
@@ -180,33 +146,18 @@ mod tests {
     fn what_no_computer_could_bear() {
         let large = told("length_m: 400, width_m: 120", "length_m: 1e9, width_m: 1e9");
         assert!(
-            large.contains(&says(
-                "area",
-                "its currents need a grid of 6.0e16 nodes; at most 2e7 are allowed"
-            )),
+            large.contains(&says("area", "its currents need a grid of 6.0e16 nodes; at most 2e7 are allowed")),
             "{large:?}"
         );
         assert_eq!(
             one("rate_hz: 5", "rate_hz: 1e12"),
-            says(
-                "sources[0].release",
-                "releases 3.8e15 filaments in spin-up and mission; at most 5e7 are allowed"
-            )
+            says("sources[0].release", "releases 3.8e15 filaments in spin-up and mission; at most 5e7 are allowed")
         );
         let longest = told("spin_up_s: 2000", "spin_up_s: 1e18");
-        assert_eq!(
-            longest[0],
-            says(
-                "time.spin_up_s",
-                "must be at most 10000000 s, got 1000000000000000000"
-            )
-        );
+        assert_eq!(longest[0], says("time.spin_up_s", "must be at most 10000000 s, got 1000000000000000000"));
         assert_eq!(
             one("spin_up_s: 2000", "spin_up_s: 2000, spin_up_period_s: 1e-9"),
-            says(
-                "time.spin_up_period_s",
-                "must be at least time.step_s, 0.02, got 0.000000001"
-            )
+            says("time.spin_up_period_s", "must be at least time.step_s, 0.02, got 0.000000001")
         );
     }
 
@@ -219,9 +170,6 @@ mod tests {
         let (path, message) = one("speed_m_s: 0.2", "speed_m_s: 1e6");
         assert_eq!(path, "water.currents");
         assert!(message.starts_with("together they flow at "), "{message}");
-        assert!(
-            message.ends_with("; at most 15 m/s are allowed"),
-            "{message}"
-        );
+        assert!(message.ends_with("; at most 15 m/s are allowed"), "{message}");
     }
 }

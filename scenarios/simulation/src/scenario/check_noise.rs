@@ -65,19 +65,12 @@ mod tests {
             );
             assert_eq!(channel(fluorometer), [want]);
         }
-        for fine in [
-            "noise_v: 0.06",
-            "threshold: 0.01, noise_v: 0.01",
-            "threshold: 0, noise_v: 0",
-        ] {
+        for fine in ["noise_v: 0.06", "threshold: 0.01, noise_v: 0.01", "threshold: 0, noise_v: 0"] {
             assert_eq!(channel(fine), [""; 0]);
         }
         let probes = "probes: (full_scale_kg_m3: 4.7";
         let loud = format!("{probes}, noise_v: 0.01");
         let said = told("flume_crab_paper", &[(probes, &loud)]);
-        assert!(
-            said[0].starts_with("gantries[0].probes.noise_v: noise of 0.01 V"),
-            "{said:?}"
-        );
+        assert!(said[0].starts_with("gantries[0].probes.noise_v: noise of 0.01 V"), "{said:?}");
     }
 }

@@ -37,16 +37,8 @@ pub(super) fn obstacles(
         match Obstacle::build(spec, terrain, base_dir) {
             Ok(obstacle) => {
                 for r in obstacle.remarks(spec, area, terrain) {
-                    let of = if r.wrong {
-                        Found::error
-                    } else {
-                        Found::warning
-                    };
-                    let at = if r.wrong {
-                        format!("{path}.shape")
-                    } else {
-                        path.clone()
-                    };
+                    let of = if r.wrong { Found::error } else { Found::warning };
+                    let at = if r.wrong { format!("{path}.shape") } else { path.clone() };
                     found.push(of(at, r.problem).hint(r.hint));
                 }
                 built.push(obstacle);
@@ -65,23 +57,15 @@ pub(super) fn obstacles(
     let built = Obstacles(built);
     if !built.leave_water(area, terrain) {
         found.push(
-            Found::error(
-                "obstacles",
-                "they fill the whole area: there is no open water in it",
-            )
-            .hint("make them smaller, or the area larger"),
+            Found::error("obstacles", "they fill the whole area: there is no open water in it")
+                .hint("make them smaller, or the area larger"),
         );
     }
     built
 }
 
 /// Checks that a list of ids names obstacles of the scenario.
-pub(super) fn known(
-    list: &str,
-    ids: &[String],
-    obstacles: &[ObstacleSpec],
-    found: &mut Vec<Found>,
-) {
+pub(super) fn known(list: &str, ids: &[String], obstacles: &[ObstacleSpec], found: &mut Vec<Found>) {
     for (k, id) in ids.iter().enumerate() {
         if !obstacles.iter().any(|o| o.id == *id) {
             let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
@@ -160,17 +144,11 @@ mod tests {
     /// What is said of the channel with these obstacles and this blockage.
     fn said(obstacles: &str, blockage: &str) -> Vec<String> {
         let text = CHANNEL
-            .replace(
-                "    sources: [",
-                &format!("    obstacles: [{obstacles}],\n    sources: ["),
-            )
+            .replace("    sources: [", &format!("    obstacles: [{obstacles}],\n    sources: ["))
             .replace("    water: (", &format!("    water: ({blockage}"));
         let scenario = parse("channel", &text).expect("a readable scenario");
         let found = check(&scenario, Path::new("/nowhere"));
-        found
-            .iter()
-            .map(|f| format!("{}: {}", f.path, f.message))
-            .collect()
+        found.iter().map(|f| format!("{}: {}", f.path, f.message)).collect()
     }
 
     const PILE: &str = "shape: Cylinder(radius_m: 0.2, height_m: 9), east_m: 0, north_m: 0.3";
@@ -207,9 +185,7 @@ mod tests {
     fn a_wall_thinner_than_a_cell_is_told() {
         let wall = |size: &str| {
             said(
-                &format!(
-                    "(id: \"wall\", shape: Box(size_m: {size}), east_m: 0, north_m: 0, heading_deg: 60)"
-                ),
+                &format!("(id: \"wall\", shape: Box(size_m: {size}), east_m: 0, north_m: 0, heading_deg: 60)"),
                 "blockage: (cell_m: 4),",
             )
         };
@@ -232,14 +208,9 @@ mod tests {
             )
         };
         let said = |away: f64| said(&caisson(away), "blockage: (cell_m: 5),");
-        let shut = (1..40)
-            .map(|k| said(0.1 * f64::from(k)))
-            .find(|s| !s.is_empty());
+        let shut = (1..40).map(|k| said(0.1 * f64::from(k))).find(|s| !s.is_empty());
         let shut = shut.expect("some cell reaches beyond the caisson");
-        assert!(
-            shut[0].starts_with("sources[0]: source \"") && shut[0].contains("no water comes by"),
-            "{shut:?}"
-        );
+        assert!(shut[0].starts_with("sources[0]: source \"") && shut[0].contains("no water comes by"), "{shut:?}");
         assert_eq!(said(9.0), Vec::<String>::new());
     }
 
@@ -247,24 +218,14 @@ mod tests {
     fn an_area_without_water_is_refused() {
         let land = "(id: \"land\", shape: Box(size_m: (900, 900, 20)), east_m: 0, north_m: 0)";
         let said = said(land, "blockage: (),");
-        assert_eq!(
-            said[0],
-            "obstacles: they fill the whole area: there is no open water in it"
-        );
-        assert!(
-            said[1].starts_with("water.blockage: no water that could flow is left"),
-            "{}",
-            said[1]
-        );
+        assert_eq!(said[0], "obstacles: they fill the whole area: there is no open water in it");
+        assert!(said[1].starts_with("water.blockage: no water that could flow is left"), "{}", said[1]);
     }
 
     #[test]
     fn a_missing_field_of_heights_is_named() {
         let reef = "(id: \"reef\", shape: Heightfield(file: \"reef.asc\"), east_m: 0, north_m: 0)";
         let said = said(reef, "");
-        assert!(
-            said[0].starts_with("obstacles[0].shape.file: /nowhere/reef.asc: No such file"),
-            "{said:?}"
-        );
+        assert!(said[0].starts_with("obstacles[0].shape.file: /nowhere/reef.asc: No such file"), "{said:?}");
     }
 }

@@ -21,12 +21,7 @@ fn about(v: f64) -> String {
 
 /// Finds internal waves and interfaces that are finer than the grid on which the plume sees the water, or faster than
 /// it is renewed. The hull is in the exact water, so there dye and hull would move apart.
-pub(super) fn resolved(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
     if scenario.sources.is_empty() {
         return;
     }
@@ -67,12 +62,7 @@ pub(super) fn resolved(
             );
             found.push(Found::warning("time.flow_period_s", problem));
         }
-        for (k, face) in scales
-            .interfaces
-            .iter()
-            .enumerate()
-            .filter(|(_, f)| f.depth_m < depth_m)
-        {
+        for (k, face) in scales.interfaces.iter().enumerate().filter(|(_, f)| f.depth_m < depth_m) {
             let gap_m = shape.spacing_m(depth_m - face.depth_m, depth_m);
             if gap_m > 1.001 * face.thickness_m {
                 let problem = format!(
@@ -81,10 +71,7 @@ pub(super) fn resolved(
                     about(gap_m),
                     digits(gap_m, f64::ceil),
                 );
-                found.push(Found::warning(
-                    format!("{path}.interfaces[{k}].thickness_m"),
-                    problem,
-                ));
+                found.push(Found::warning(format!("{path}.interfaces[{k}].thickness_m"), problem));
             }
         }
     }
@@ -109,9 +96,7 @@ mod tests {
         let text = format!("{}{layered}{}", &text[..from], &text[to..]);
         let scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
         let found = check(&scenario, Path::new(""));
-        let found = found
-            .into_iter()
-            .map(|f| format!("{}: {}", f.path, f.message));
+        let found = found.into_iter().map(|f| format!("{}: {}", f.path, f.message));
         found.filter(|f| f.contains("plume's")).collect()
     }
 
@@ -121,30 +106,13 @@ mod tests {
         // The grid becomes finer by itself, as far as a computer bears it.
         assert_eq!(told(0.4, 25.0, 62.0), Vec::<String>::new());
         let short = told(1.0, 2.0, 62.0);
-        assert!(
-            short.len() == 1
-                && short[0].starts_with("water.currents[0]: its shortest internal wave, 2 m")
-        );
+        assert!(short.len() == 1 && short[0].starts_with("water.currents[0]: its shortest internal wave, 2 m"));
         let quick = told(1.0, 60.0, 30.0);
-        assert!(
-            quick.len() == 1 && quick[0].starts_with("time.flow_period_s: "),
-            "{quick:?}"
-        );
+        assert!(quick.len() == 1 && quick[0].starts_with("time.flow_period_s: "), "{quick:?}");
         assert!(quick[0].ends_with("at most 2.5 s shows it"), "{quick:?}");
         let thin = told(0.05, 60.0, 120.0);
-        assert!(
-            thin.len() == 1 && thin[0].starts_with("water.currents[0].interfaces[0].thickness_m: "),
-            "{thin:?}"
-        );
-        let cure: f64 = thin[0]
-            .rsplit("; ")
-            .next()
-            .unwrap()
-            .split(' ')
-            .next()
-            .unwrap()
-            .parse()
-            .unwrap();
+        assert!(thin.len() == 1 && thin[0].starts_with("water.currents[0].interfaces[0].thickness_m: "), "{thin:?}");
+        let cure: f64 = thin[0].rsplit("; ").next().unwrap().split(' ').next().unwrap().parse().unwrap();
         assert_eq!(told(cure, 60.0, 120.0), Vec::<String>::new());
     }
 }

@@ -12,13 +12,7 @@ use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// What is released into the water, if the sources have places in it.
-pub(super) fn releases(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    water: &Water,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn releases(scenario: &Scenario, area: &Area, terrain: &Terrain, water: &Water, found: &mut Vec<Found>) {
     let placed = release::place(&scenario.sources, area, terrain).unwrap_or_default();
     for (n, source) in placed.iter().enumerate() {
         let curve = source.release.curve(n, water.density(&source.p_W, 0.0));
@@ -41,9 +35,7 @@ pub(super) fn sources(
     obstacles: &Obstacles,
     found: &mut Vec<Found>,
 ) {
-    for PlumeError::Invalid { field, problem } in
-        release::misplaced(&scenario.sources, area, terrain, obstacles)
-    {
+    for PlumeError::Invalid { field, problem } in release::misplaced(&scenario.sources, area, terrain, obstacles) {
         found.push(Found::error(field, problem));
     }
     let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();

@@ -26,22 +26,12 @@ thread_local! {
 
 /// Finds steps so long that evenly mixed dye would gather in the layers and thin out at the interfaces. The water is
 /// checked before.
-pub(super) fn steps(
-    scenario: &Scenario,
-    water: &Water,
-    area: &Area,
-    terrain: &Terrain,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn steps(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
     if scenario.sources.is_empty() {
         return;
     }
-    let asked = Asked {
-        water: scenario.water.clone(),
-        time: scenario.time.clone(),
-        area: *area,
-        terrain: terrain.clone(),
-    };
+    let asked =
+        Asked { water: scenario.water.clone(), time: scenario.time.clone(), area: *area, terrain: terrain.clone() };
     LATEST.with_borrow_mut(|latest| {
         if latest.as_ref().is_none_or(|(of, _)| *of != asked) {
             *latest = Some((asked, worked_out(scenario, water, area, terrain)));
@@ -57,14 +47,9 @@ fn worked_out(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain
     let shape = scenario.water.grid_shape(area, terrain.deepest_m());
     let sharpest = SharpestMixing::of(water, area, terrain, &shape, spin_up_s + limit_s);
     let drift_s = Every::period(t.drift_period_s.get(), step_s).period_s(step_s);
-    for (field, dt_s, lasts_s) in [
-        ("drift_period_s", drift_s, limit_s),
-        (
-            "spin_up_period_s",
-            t.spin_up_period_s.get().min(spin_up_s),
-            spin_up_s,
-        ),
-    ] {
+    for (field, dt_s, lasts_s) in
+        [("drift_period_s", drift_s, limit_s), ("spin_up_period_s", t.spin_up_period_s.get().min(spin_up_s), spin_up_s)]
+    {
         if sharpest.surely_even(dt_s) {
             continue;
         }
@@ -93,21 +78,11 @@ fn below(s: f64) -> f64 {
     (s * scale + 1e-6).floor() / scale
 }
 
-fn told(
-    field: &str,
-    dt_s: f64,
-    step_s: f64,
-    lasts_s: f64,
-    uneven: &Uneven,
-    longest_s: Option<f64>,
-) -> Found {
+fn told(field: &str, dt_s: f64, step_s: f64, lasts_s: f64, uneven: &Uneven, longest_s: Option<f64>) -> Found {
     let percent = |part: f64| (100.0 * part - 1e-9).ceil();
     let cure = match longest_s {
         Some(s) => format!("at most {s} s keeps it within {} %", percent(EVEN)),
-        None => format!(
-            "no step from time.step_s ({step_s} s) upwards keeps it within {} %",
-            percent(EVEN)
-        ),
+        None => format!("no step from time.step_s ({step_s} s) upwards keeps it within {} %", percent(EVEN)),
     };
     let problem = format!(
         "in steps of {dt_s} s dye that is mixed over the depth becomes up to {} % uneven in {lasts_s} s, because \
@@ -118,10 +93,9 @@ fn told(
     );
     let gentler = "make mixing change more gently, by a thicker interface or less mixing beside it";
     let hint = match longest_s {
-        Some(s) => format!(
-            "set time.{field} to {s} (the plume then takes {:.1} times as long), or {gentler}",
-            dt_s / s
-        ),
+        Some(s) => {
+            format!("set time.{field} to {s} (the plume then takes {:.1} times as long), or {gentler}", dt_s / s)
+        }
         None => gentler.to_string(),
     };
     Found::warning(format!("time.{field}"), problem).hint(hint)
@@ -189,23 +163,14 @@ mod tests {
         for template in CATALOG {
             let loaded = load(Path::new(template.name)).unwrap();
             let found = check(&loaded.scenario, &loaded.base_dir);
-            let steps: Vec<_> = found
-                .iter()
-                .filter(|f| f.path.ends_with("period_s"))
-                .collect();
+            let steps: Vec<_> = found.iter().filter(|f| f.path.ends_with("period_s")).collect();
             assert!(steps.is_empty(), "{}: {steps:?}", template.name);
         }
     }
 
     #[test]
     fn two_digits_and_never_above() {
-        for (s, said) in [
-            (0.678, 0.67),
-            (4.99, 4.9),
-            (12.9, 12.0),
-            (0.0345, 0.034),
-            (0.5, 0.5),
-        ] {
+        for (s, said) in [(0.678, 0.67), (4.99, 4.9), (12.9, 12.0), (0.0345, 0.034), (0.5, 0.5)] {
             assert!((below(s) - said).abs() < 1e-12, "{s}: {}", below(s));
         }
     }

@@ -43,29 +43,18 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
         ("record.plume_period_s", r.plume_period_s),
     ] {
         if period < t.step_s {
-            found.push(Found::error(
-                path,
-                format!("must be at least time.step_s, {step}, got {}", period.get()),
-            ));
+            found.push(Found::error(path, format!("must be at least time.step_s, {step}, got {}", period.get())));
         }
     }
     let flow_s = t.flow_period_s.get();
     if flow_s > 0.0 && flow_s < step {
-        let problem = format!(
-            "must be 0 (at each step of the plume) or at least time.step_s, {step}, got {flow_s}"
-        );
+        let problem = format!("must be 0 (at each step of the plume) or at least time.step_s, {step}, got {flow_s}");
         found.push(Found::error("time.flow_period_s", problem));
     }
     let robots = scenario.robots.iter().map(|r| r.strategy.consulted());
     let gantries = scenario.gantries.iter().map(|g| g.tracker.consulted());
-    let asked = (robots
-        .enumerate()
-        .map(|(i, c)| (format!("robots[{i}].strategy"), c)))
-    .chain(
-        gantries
-            .enumerate()
-            .map(|(i, c)| (format!("gantries[{i}].tracker"), c)),
-    );
+    let asked = (robots.enumerate().map(|(i, c)| (format!("robots[{i}].strategy"), c)))
+        .chain(gantries.enumerate().map(|(i, c)| (format!("gantries[{i}].tracker"), c)));
     for (path, period_s) in asked.filter_map(|(path, c)| Some((path, c?.period_s))) {
         if period_s < step {
             let problem = format!("must be at least time.step_s, {step}, got {period_s}");

@@ -39,11 +39,7 @@ struct Sounder {
 impl Sounder {
     /// Its range at an altitude and a depth, m.
     fn range_m(&self, altitude_m: f64, depth_m: f64) -> f64 {
-        if self.up {
-            depth_m - self.above_m
-        } else {
-            altitude_m + self.above_m
-        }
+        if self.up { depth_m - self.above_m } else { altitude_m + self.above_m }
     }
 
     /// What is wrong at a range, if anything: the field, and a text.
@@ -94,8 +90,7 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Craft) -> Vec<Sounder> {
         name: "adcp",
         up: s.look == Look::Up,
         above_m: above_m("adcp"),
-        least_m: (s.dead_zone_m.get() + s.cell_m.get())
-            / math::cos(s.beam_angle_deg.get().to_radians()),
+        least_m: (s.dead_zone_m.get() + s.cell_m.get()) / math::cos(s.beam_angle_deg.get().to_radians()),
         most_m: f64::INFINITY,
         lacks: "its measuring cell is not in the water, and it does not know the flow",
         fields: ["dead_zone_m", "dead_zone_m"],
@@ -104,13 +99,7 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Craft) -> Vec<Sounder> {
 }
 
 /// Finds heights at which an instrument is out of range, and heights outside the water.
-pub(super) fn view(
-    i: usize,
-    robot: &RobotSpec,
-    vehicle: &Craft,
-    place: &Place,
-    found: &mut Vec<Found>,
-) {
+pub(super) fn view(i: usize, robot: &RobotSpec, vehicle: &Craft, place: &Place, found: &mut Vec<Found>) {
     let depths_m = depths(place);
     let (least_m, most_m) = depths_m;
     let verticals = robot.strategy.wishes().verticals;
@@ -132,16 +121,9 @@ pub(super) fn view(
                 continue;
             }
             if let Some((limit, why)) = blind.iter().flatten().next() {
-                let part = if blind.iter().all(Option::is_some) {
-                    ""
-                } else {
-                    "in a part of the area "
-                };
+                let part = if blind.iter().all(Option::is_some) { "" } else { "in a part of the area " };
                 let problem = format!("{part}this keeps the vehicle {why}");
-                let hint = format!(
-                    "choose another height, or change {limit} of sensors.{}",
-                    s.name
-                );
+                let hint = format!("choose another height, or change {limit} of sensors.{}", s.name);
                 found.push(Found::warning(&path, problem).hint(hint));
             }
         }
@@ -170,11 +152,7 @@ fn start(
     for s in sounders {
         let kept = verticals.first().map(|(_, vertical)| *vertical);
         // The flow is needed only when the vehicle has reached the height it is sent to.
-        let cured = kept.is_some_and(|v| {
-            [least_m, most_m]
-                .iter()
-                .all(|m| s.blind(range_at(s, v, *m)).is_none())
-        });
+        let cured = kept.is_some_and(|v| [least_m, most_m].iter().all(|m| s.blind(range_at(s, v, *m)).is_none()));
         let unneeded = s.name == "altimeter" && !matches!(kept, Some(Vertical::Altitude(_)));
         if unneeded || s.name == "adcp" && cured {
             continue;
@@ -185,10 +163,7 @@ fn start(
         let range_m = place.obstacles.ray(&from, &along, open_m).unwrap_or(open_m);
         if let Some((limit, why)) = s.blind(range_m) {
             let problem = format!("robot \"{id}\" starts {why}");
-            let hint = format!(
-                "start it elsewhere, or give sensors.{} another {limit}",
-                s.name
-            );
+            let hint = format!("start it elsewhere, or give sensors.{} another {limit}", s.name);
             found.push(Found::warning(&path, problem).hint(hint));
         }
     }
@@ -196,10 +171,7 @@ fn start(
         let ahead = robot.start.heading_deg.heading().unit();
         let least_m = ranging.min_range_m.get();
         let mount_m = robot.start.p_W(place.terrain);
-        if let Some(m) =
-            place
-                .obstacles
-                .ray(&mount_m, &Vector3::new(ahead.x, ahead.y, 0.0), least_m)
+        if let Some(m) = place.obstacles.ray(&mount_m, &Vector3::new(ahead.x, ahead.y, 0.0), least_m)
             && m < least_m
         {
             let problem = format!(
@@ -265,27 +237,13 @@ mod tests {
         assert_eq!(low("altitude_m: 2.0, heading"), [""; 0]);
         let said = low("altitude_m: 0.3, heading");
         assert_eq!(said.len(), 2, "{said:?}");
-        assert!(
-            said[0].starts_with("robots[0].start: robot \"auv0\" starts 0.2"),
-            "{said:?}"
-        );
-        assert!(
-            said[0].contains("nearer than the 0.30 m that its altimeter needs"),
-            "{said:?}"
-        );
-        assert!(
-            said[1].contains("nearer than the 0.50 m that its dvl needs"),
-            "{said:?}"
-        );
-        let deep = told(&[
-            ("Level(depth_m: 10)", "Level(depth_m: 60)"),
-            ("altitude_m: 2, heading", "depth_m: 2, heading"),
-        ]);
+        assert!(said[0].starts_with("robots[0].start: robot \"auv0\" starts 0.2"), "{said:?}");
+        assert!(said[0].contains("nearer than the 0.30 m that its altimeter needs"), "{said:?}");
+        assert!(said[1].contains("nearer than the 0.50 m that its dvl needs"), "{said:?}");
+        let deep =
+            told(&[("Level(depth_m: 10)", "Level(depth_m: 60)"), ("altitude_m: 2, heading", "depth_m: 2, heading")]);
         assert_eq!(deep.len(), 2, "{deep:?}");
-        assert!(
-            deep[0].contains("farther than the 30 m that its altimeter reaches"),
-            "{deep:?}"
-        );
+        assert!(deep[0].contains("farther than the 30 m that its altimeter reaches"), "{deep:?}");
     }
 
     #[test]
@@ -294,17 +252,13 @@ mod tests {
         let low = at("vertical: Altitude(0.35)");
         assert_eq!(low.len(), 2, "{low:?}");
         assert!(
-            low.iter()
-                .all(|s| s.starts_with("robots[0].strategy.vertical: this keeps the vehicle 0.2")),
+            low.iter().all(|s| s.starts_with("robots[0].strategy.vertical: this keeps the vehicle 0.2")),
             "{low:?}"
         );
         // Half a metre below the surface the upward profiler has no room for its cell.
         let high = at("vertical: Depth(0.5)");
         assert_eq!(high.len(), 1, "{high:?}");
-        assert!(
-            high[0].contains("of the") || high[0].contains("from the surface"),
-            "{high:?}"
-        );
+        assert!(high[0].contains("of the") || high[0].contains("from the surface"), "{high:?}");
     }
 
     #[test]
@@ -319,14 +273,10 @@ mod tests {
             ["robots[0].strategy.vertical: 11 m is below the bed: the water is 10.00 m deep"]
         );
         let slope = "Slope(shoreward_heading_deg: 0, shallow_m: 4, deep_m: 20)";
-        let part = told(&[
-            ("Level(depth_m: 10)", slope),
-            ("vertical: Altitude(2)", "vertical: Depth(6)"),
-        ]);
+        let part = told(&[("Level(depth_m: 10)", slope), ("vertical: Altitude(2)", "vertical: Depth(6)")]);
         assert!(
-            part.iter().any(|s| s.ends_with(
-                "6 m is below the bed in a part of the area: the water is 4.00 to 20.00 m deep"
-            )),
+            part.iter()
+                .any(|s| s.ends_with("6 m is below the bed in a part of the area: the water is 4.00 to 20.00 m deep")),
             "{part:?}"
         );
     }

@@ -101,13 +101,7 @@ pub fn of_lane(scenario: &Scenario) -> Cost {
     cost
 }
 
-fn robot_cost(
-    robot: &RobotSpec,
-    scenario: &Scenario,
-    depth_m: f64,
-    waves: f64,
-    times: &Times,
-) -> Cost {
+fn robot_cost(robot: &RobotSpec, scenario: &Scenario, depth_m: f64, waves: f64, times: &Times) -> Cost {
     let area = scenario.area.build();
     let steps = times.mission_s / times.step_s;
     let hull = Part::new("", format!("{steps:.1e} steps of a vehicle"));
@@ -136,28 +130,20 @@ fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
             .holds(frames.min(n * ROWS.1) * ROWS.0)
             .takes(frames * FRAME_S)
             .by(r.frame_period_s.get(), -1.0),
-        Part::new(
-            "record.plume_period_s",
-            format!("{shown:.1e} pictures of the plume"),
-        )
-        .takes(shown * points.min(1e6) * POINT_S)
-        .by(r.plume_period_s.get(), -1.0),
+        Part::new("record.plume_period_s", format!("{shown:.1e} pictures of the plume"))
+            .takes(shown * points.min(1e6) * POINT_S)
+            .by(r.plume_period_s.get(), -1.0),
     ]
 }
 
 /// The parts that take most time or memory, largest first, as in "1.6e4 nodes of the plume's flow (area): 2 MB".
 #[must_use]
 pub fn greatest(cost: &Cost) -> Vec<String> {
-    let share =
-        |p: &Part| (p.seconds / cost.seconds().max(1e-9)).max(p.bytes / cost.bytes().max(1.0));
+    let share = |p: &Part| (p.seconds / cost.seconds().max(1e-9)).max(p.bytes / cost.bytes().max(1.0));
     let mut parts: Vec<&Part> = cost.parts.iter().filter(|p| share(p) > 0.05).collect();
     parts.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let said = |p: &&Part| {
-        let path = if p.path.is_empty() {
-            String::new()
-        } else {
-            format!(" ({})", p.path)
-        };
+        let path = if p.path.is_empty() { String::new() } else { format!(" ({})", p.path) };
         let memory = match p.bytes > 0.0 {
             true => format!(": {}", memory(p.bytes)),
             false => String::new(),
@@ -187,9 +173,7 @@ pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
             memory(cost.bytes()),
             memory(limit)
         );
-        found.push(
-            Found::error(&part.path, problem).hint("or allow more memory, as in `--memory 16G`"),
-        );
+        found.push(Found::error(&part.path, problem).hint("or allow more memory, as in `--memory 16G`"));
         return false;
     }
     true

@@ -48,10 +48,7 @@ impl ScenarioError {
         faults.sort_by_key(|f| (f.line, f.column));
         match faults.len() {
             1 => Box::new(faults.remove(0)).into(),
-            _ => Self::Many {
-                path: path.to_string(),
-                faults,
-            },
+            _ => Self::Many { path: path.to_string(), faults },
         }
     }
 
@@ -96,18 +93,12 @@ impl Fault {
     pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
         let before = &text[..span.start];
         // The mark ends with its line: a longer one would hide what matters.
-        let line_end = text[span.start..]
-            .find('\n')
-            .map_or(text.len(), |i| span.start + i);
+        let line_end = text[span.start..].find('\n').map_or(text.len(), |i| span.start + i);
         let end = span.end.min(line_end).max(span.start);
         let line = 1 + before.matches('\n').count();
         let column = 1 + before.chars().rev().take_while(|&c| c != '\n').count();
         // A line too long to look at is not shown.
-        let shown = text
-            .lines()
-            .skip(line.saturating_sub(2))
-            .take(3)
-            .all(|l| l.len() <= LONG);
+        let shown = text.lines().skip(line.saturating_sub(2)).take(3).all(|l| l.len() <= LONG);
         Self {
             path: found.path,
             message: found.message,
@@ -154,22 +145,13 @@ impl Found {
     /// A mistake that stops a run.
     #[must_use]
     pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            path: path.into(),
-            message: message.into(),
-            help: None,
-            severity: Severity::Error,
-            label: "here",
-        }
+        Self { path: path.into(), message: message.into(), help: None, severity: Severity::Error, label: "here" }
     }
 
     /// Something legal that is probably not meant.
     #[must_use]
     pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            severity: Severity::Warning,
-            ..Self::error(path, message)
-        }
+        Self { severity: Severity::Warning, ..Self::error(path, message) }
     }
 
     /// Adds how to correct it.
@@ -194,9 +176,5 @@ impl std::fmt::Display for Found {
 }
 
 fn headline(path: &str, message: &str) -> String {
-    if path.is_empty() {
-        message.to_string()
-    } else {
-        format!("{path}: {message}")
-    }
+    if path.is_empty() { message.to_string() } else { format!("{path}: {message}") }
 }

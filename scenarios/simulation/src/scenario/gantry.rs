@@ -68,10 +68,7 @@ pub struct HeadSpec {
 
 impl Default for HeadSpec {
     fn default() -> Self {
-        Self {
-            forward_m: zero(),
-            left_m: zero(),
-        }
+        Self { forward_m: zero(), left_m: zero() }
     }
 }
 
@@ -79,10 +76,7 @@ impl GantryBlock {
     /// What its searcher may know of the gantry.
     #[must_use]
     pub fn layout(&self, gantry: &Gantry) -> GantryLayout {
-        gantry.layout(
-            self.probes.rate_hz.get(),
-            self.probes.range_v.map(Finite::get),
-        )
+        gantry.layout(self.probes.rate_hz.get(), self.probes.range_v.map(Finite::get))
     }
 
     /// Pose of the gantry's base in the world.

@@ -43,32 +43,13 @@ impl Loaded {
     ///
     /// # Errors
     /// If it is not a scenario: all mistakes of form.
-    pub fn of_text(
-        path: PathBuf,
-        name: String,
-        base_dir: PathBuf,
-        text: String,
-    ) -> Result<Self, ScenarioError> {
+    pub fn of_text(path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Result<Self, ScenarioError> {
         let scenario = parse(&path.display().to_string(), &text)?;
         Ok(Self::of(scenario, path, name, base_dir, text))
     }
 
-    fn of(
-        scenario: Scenario,
-        path: PathBuf,
-        name: String,
-        base_dir: PathBuf,
-        text: String,
-    ) -> Self {
-        Self {
-            read: scenario.clone(),
-            scenario,
-            text,
-            path,
-            name,
-            base_dir,
-            registry: Registry::now(),
-        }
+    fn of(scenario: Scenario, path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Self {
+        Self { read: scenario.clone(), scenario, text, path, name, base_dir, registry: Registry::now() }
     }
 
     /// The text of the file; if the scenario was changed since, its own text, without the comments of the file.
@@ -131,9 +112,7 @@ impl Loaded {
 /// without mistakes of form is checked by [`Loaded::check`].
 pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     let shown = path.display().to_string();
-    let name = path
-        .file_stem()
-        .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let mut base_dir = path.parent().unwrap_or(Path::new("")).to_path_buf();
     let text = match (read(path), catalog::template(&shown)) {
         (Err(Unread::Missing), Some(template)) => {
@@ -156,11 +135,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
             });
         }
         (Err(Unread::Other(problem, help)), _) => {
-            return Err(ScenarioError::File {
-                path: shown,
-                problem,
-                help: help.map(str::to_string),
-            });
+            return Err(ScenarioError::File { path: shown, problem, help: help.map(str::to_string) });
         }
         (Ok(text), _) => text,
     };
@@ -180,22 +155,12 @@ pub fn load_text(registry: &Registry, name: &str, text: &str) -> Result<Loaded, 
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_text_in(
-    registry: &Registry,
-    name: &str,
-    text: &str,
-    base_dir: &Path,
-) -> Result<Loaded, ScenarioError> {
+pub fn load_text_in(registry: &Registry, name: &str, text: &str, base_dir: &Path) -> Result<Loaded, ScenarioError> {
     let (name, text, base_dir) = (name.to_string(), text.to_string(), base_dir.to_path_buf());
     registry.scope(|| loaded(Path::new(&name), name.clone(), base_dir, text))
 }
 
-fn loaded(
-    path: &Path,
-    name: String,
-    base_dir: PathBuf,
-    text: String,
-) -> Result<Loaded, ScenarioError> {
+fn loaded(path: &Path, name: String, base_dir: PathBuf, text: String) -> Result<Loaded, ScenarioError> {
     let shown = path.display().to_string();
     let scenario = read_whole(&shown, &text, &|s| check(s, &base_dir))?;
     let path = path.to_path_buf();
@@ -235,19 +200,13 @@ pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
 }
 
 /// Reads a scenario. If it has mistakes of form, `meaning` adds those of meaning that do not follow from them.
-fn read_whole(
-    name: &str,
-    text: &str,
-    meaning: &dyn Fn(&Scenario) -> Vec<Found>,
-) -> Result<Scenario, ScenarioError> {
+fn read_whole(name: &str, text: &str, meaning: &dyn Fn(&Scenario) -> Vec<Found>) -> Result<Scenario, ScenarioError> {
     let outline = Outline::of(text);
     if outline.nodes.is_empty() {
         return Err(ScenarioError::File {
             path: name.to_string(),
             problem: "the file is empty, or holds only comments".to_string(),
-            help: Some(
-                "`rheotaxis init duck_st` writes a whole scenario to start from".to_string(),
-            ),
+            help: Some("`rheotaxis init duck_st` writes a whole scenario to start from".to_string()),
         });
     }
     let citation = version_first(name, text, &outline)?;
@@ -266,15 +225,10 @@ fn read(path: &Path) -> Result<String, Unread> {
         _ => Unread::Other(format!("cannot be read: {e}"), None),
     };
     if path.is_dir() {
-        return Err(Unread::Other(
-            "is a folder".to_string(),
-            Some("name the scenario files in it"),
-        ));
+        return Err(Unread::Other("is a folder".to_string(), Some("name the scenario files in it")));
     }
     let mut bytes = Vec::new();
-    files::open(path)
-        .and_then(|f| f.take(LONGEST + 1).read_to_end(&mut bytes))
-        .map_err(other)?;
+    files::open(path).and_then(|f| f.take(LONGEST + 1).read_to_end(&mut bytes)).map_err(other)?;
     if bytes.len() as u64 > LONGEST {
         return Err(Unread::Other(
             format!("is longer than {} MiB", LONGEST >> 20),
@@ -285,10 +239,7 @@ fn read(path: &Path) -> Result<String, Unread> {
     String::from_utf8(text).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
         let line = 1 + e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count();
-        Unread::Other(
-            format!("is not UTF-8 text: line {line}, byte {good}"),
-            Some("save it as UTF-8"),
-        )
+        Unread::Other(format!("is not UTF-8 text: line {line}, byte {good}"), Some("save it as UTF-8"))
     })
 }
 

@@ -40,8 +40,7 @@ pub use load::{Loaded, hash, load, load_text, load_text_in, load_with, parse, pa
 pub use outline::{Node, Outline};
 pub use reader::read;
 pub use schema::{
-    AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,
-    TimeSpec,
+    AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec, TimeSpec,
 };
 pub use success::{DeclaredSpec, ReachedSpec, SuccessSpec};
 pub use version::{OLDEST, VERSION, Version};

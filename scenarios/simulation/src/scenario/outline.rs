@@ -44,17 +44,7 @@ struct Frame {
 
 impl Frame {
     fn new(path: String, bracket: Option<(char, usize)>, variant: bool) -> Self {
-        Self {
-            path,
-            bracket,
-            variant,
-            count: 0,
-            key: None,
-            start: None,
-            end: 0,
-            last: 0..0,
-            before: 0,
-        }
+        Self { path, bracket, variant, count: 0, key: None, start: None, end: 0, last: 0..0, before: 0 }
     }
 
     fn item_path(&self, text: &str) -> String {
@@ -74,11 +64,7 @@ impl Frame {
         let path = self.item_path(text);
         let key = self.key.take();
         if let Some(start) = self.start.take() {
-            nodes.push(Node {
-                path,
-                whole: key.map_or(start, |k| k.start)..self.end,
-                value: start..self.end,
-            });
+            nodes.push(Node { path, whole: key.map_or(start, |k| k.start)..self.end, value: start..self.end });
             self.count += 1;
         }
     }
@@ -121,11 +107,7 @@ impl Outline {
                 open @ (b'(' | b'[' | b'{') => {
                     let variant = top.start.is_some();
                     top.take(token.clone());
-                    let path = if deep {
-                        String::new()
-                    } else {
-                        top.item_path(text)
-                    };
+                    let path = if deep { String::new() } else { top.item_path(text) };
                     stack.push(Frame::new(path, Some((open as char, at)), variant));
                 }
                 b')' | b']' | b'}' => {
@@ -165,19 +147,12 @@ impl Outline {
 
     /// The innermost node over a place.
     pub(super) fn at(&self, place: usize) -> Option<&Node> {
-        self.nodes
-            .iter()
-            .filter(|n| n.whole.start <= place && place < n.whole.end)
-            .min_by_key(|n| n.whole.len())
+        self.nodes.iter().filter(|n| n.whole.start <= place && place < n.whole.end).min_by_key(|n| n.whole.len())
     }
 }
 
 pub(super) fn joined(path: &str, part: &str) -> String {
-    if path.is_empty() {
-        part.to_string()
-    } else {
-        format!("{path}.{part}")
-    }
+    if path.is_empty() { part.to_string() } else { format!("{path}.{part}") }
 }
 
 pub(super) fn is_blank(rest: &str) -> bool {
@@ -208,17 +183,13 @@ pub(super) fn token_len(rest: &str) -> usize {
     if raw[hashes..].starts_with('"') {
         let closing = format!("\"{}", "#".repeat(hashes));
         let from = hashes + 2;
-        return rest[from..]
-            .find(&closing)
-            .map_or(whole, |i| from + i + closing.len());
+        return rest[from..].find(&closing).map_or(whole, |i| from + i + closing.len());
     }
     let first = rest.chars().next().map_or(1, char::len_utf8);
     if "()[]{},:=;".contains(&rest[..first]) || rest.starts_with(char::is_whitespace) {
         return first;
     }
-    rest.find(|c: char| c.is_whitespace() || "()[]{},:=;\"/".contains(c))
-        .unwrap_or(whole)
-        .max(first)
+    rest.find(|c: char| c.is_whitespace() || "()[]{},:=;\"/".contains(c)).unwrap_or(whole).max(first)
 }
 
 fn block_comment(rest: &str) -> usize {

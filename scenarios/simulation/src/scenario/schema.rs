@@ -96,15 +96,11 @@ impl TryFrom<String> for Id {
         let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
         if s.len() > LONGEST_ID {
             let n = s.len();
-            Err(format!(
-                "must have at most {LONGEST_ID} characters, because names of files are made of it, got {n}"
-            ))
+            Err(format!("must have at most {LONGEST_ID} characters, because names of files are made of it, got {n}"))
         } else if !s.is_empty() && s.chars().all(fits) {
             Ok(Self(s))
         } else {
-            Err(format!(
-                "must be made of a-z, 0-9 and _, and not empty, got {s:?}"
-            ))
+            Err(format!("must be made of a-z, 0-9 and _, and not empty, got {s:?}"))
         }
     }
 }
@@ -186,9 +182,7 @@ impl TerrainSpec {
     #[must_use]
     pub fn build(&self, area: &Area) -> Terrain {
         match self {
-            TerrainSpec::Level(level) => Terrain::Level {
-                depth_m: level.depth_m.get(),
-            },
+            TerrainSpec::Level(level) => Terrain::Level { depth_m: level.depth_m.get() },
             TerrainSpec::Slope(slope) => Terrain::sloping_over(
                 area,
                 slope.shoreward_heading_deg.heading(),

@@ -35,18 +35,11 @@ impl SuccessSpec {
     #[must_use]
     pub fn words(&self) -> String {
         match self {
-            SuccessSpec::Declared(d) => format!(
-                "a source is declared within {} m of a true one",
-                d.within_m.get()
-            ),
-            SuccessSpec::AllDeclared(d) => format!(
-                "every true source is declared within {} m, and every robot ends its mission",
-                d.within_m.get()
-            ),
-            SuccessSpec::Reached(r) => format!(
-                "a robot comes within {} m of a true source",
-                r.within_m.get()
-            ),
+            SuccessSpec::Declared(d) => format!("a source is declared within {} m of a true one", d.within_m.get()),
+            SuccessSpec::AllDeclared(d) => {
+                format!("every true source is declared within {} m, and every robot ends its mission", d.within_m.get())
+            }
+            SuccessSpec::Reached(r) => format!("a robot comes within {} m of a true source", r.within_m.get()),
             SuccessSpec::Completed => "every robot comes to its planned end".to_owned(),
         }
     }

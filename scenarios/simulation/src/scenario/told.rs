@@ -12,8 +12,5 @@ pub(super) fn told(name: &str, changes: &[(&str, &str)]) -> Vec<String> {
     }
     let scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
     let found = check(&scenario, Path::new(""));
-    found
-        .iter()
-        .map(|f| format!("{}: {}", f.path, f.message))
-        .collect()
+    found.iter().map(|f| format!("{}: {}", f.path, f.message)).collect()
 }

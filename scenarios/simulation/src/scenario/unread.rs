@@ -16,15 +16,8 @@ pub(super) fn unread(text: &str, error: &SpannedError) -> (Range<usize>, Found) 
 
 /// Byte offset of a line and column (in characters).
 fn offset(text: &str, at: Position) -> usize {
-    let start: usize = text
-        .split_inclusive('\n')
-        .take(at.line - 1)
-        .map(str::len)
-        .sum();
-    text[start..]
-        .char_indices()
-        .nth(at.col - 1)
-        .map_or(text.len(), |(i, _)| start + i)
+    let start: usize = text.split_inclusive('\n').take(at.line - 1).map(str::len).sum();
+    text[start..].char_indices().nth(at.col - 1).map_or(text.len(), |(i, _)| start + i)
 }
 
 /// The range without blanks at its ends, if something is left.
@@ -37,9 +30,7 @@ fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
 
 fn lower(s: &str) -> String {
     let mut chars = s.chars();
-    chars.next().map_or_else(String::new, |c| {
-        c.to_lowercase().collect::<String>() + chars.as_str()
-    })
+    chars.next().map_or_else(String::new, |c| c.to_lowercase().collect::<String>() + chars.as_str())
 }
 
 #[cfg(test)]

@@ -24,11 +24,7 @@ pub struct Version(u32);
 impl TryFrom<u32> for Version {
     type Error = String;
     fn try_from(v: u32) -> Result<Self, String> {
-        if (OLDEST..=VERSION).contains(&v) {
-            Ok(Self(VERSION))
-        } else {
-            Err(unknown(v))
-        }
+        if (OLDEST..=VERSION).contains(&v) { Ok(Self(VERSION)) } else { Err(unknown(v)) }
     }
 }
 
@@ -44,11 +40,7 @@ fn unknown(got: impl std::fmt::Display) -> String {
 
 /// Checks the version before anything else, because a file of another version may differ in everything. Returns the
 /// name that this version gives to the citation.
-pub(super) fn version_first(
-    name: &str,
-    text: &str,
-    outline: &Outline,
-) -> Result<Renamed, ScenarioError> {
+pub(super) fn version_first(name: &str, text: &str, outline: &Outline) -> Result<Renamed, ScenarioError> {
     let first = outline
         .nodes
         .iter()
@@ -107,8 +99,7 @@ mod tests {
     const OLD: &str = include_str!("version_1.ron");
 
     fn new() -> String {
-        OLD.replace("version: 1", "version: 2")
-            .replace("    source: ", "    citation: ")
+        OLD.replace("version: 1", "version: 2").replace("    source: ", "    citation: ")
     }
 
     fn read(text: &str) -> Scenario {
@@ -143,8 +134,7 @@ mod tests {
         assert_eq!(
             told(&mixed),
             [(
-                "old.ron:5:5: source: from version 2 on this field is called `citation`"
-                    .to_string(),
+                "old.ron:5:5: source: from version 2 on this field is called `citation`".to_string(),
                 "write `citation:` in place of `source:`".to_string()
             )]
         );
@@ -160,9 +150,7 @@ mod tests {
 
     #[test]
     fn other_mistakes_are_told_beside_a_wrong_name() {
-        let mixed = OLD
-            .replace("version: 1", "version: 2")
-            .replace("limit_s: 1800", "limit_s: -1800");
+        let mixed = OLD.replace("version: 1", "version: 2").replace("limit_s: 1800", "limit_s: -1800");
         let said = lines(&mixed);
         assert_eq!(said.len(), 2, "{said:?}");
         assert!(said[0].contains("called `citation`"), "{said:?}");
@@ -187,10 +175,7 @@ mod tests {
         assert!(old.ends_with("the field `source` is missing"), "{old}");
         assert!(hint.starts_with("add `source: ...`"), "{hint}");
         let (new_one, _) = lacking(&new(), "citation:").remove(0);
-        assert!(
-            new_one.ends_with("the field `citation` is missing"),
-            "{new_one}"
-        );
+        assert!(new_one.ends_with("the field `citation` is missing"), "{new_one}");
 
         let (_, hint) = told(&new().replace("    title:", "    titel:")).remove(0);
         assert!(hint.contains("title, citation, area"), "{hint}");
@@ -198,21 +183,12 @@ mod tests {
         assert!(hint.contains("title, source, area"), "{hint}");
 
         let twice = OLD.replace("    area: (", "    source: \"x\",\n    area: (");
-        assert_eq!(
-            lines(&twice),
-            ["old.ron:7:5: the field `source` is given twice"]
-        );
+        assert_eq!(lines(&twice), ["old.ron:7:5: the field `source` is given twice"]);
     }
 
     #[test]
     fn versions_that_are_not_read_are_told_before_all_else() {
-        let said = lines(
-            &OLD.replace("version: 1", "version: 3")
-                .replace("title", "titel"),
-        );
-        assert_eq!(
-            said,
-            ["old.ron:3:5: version: this program reads versions 1 and 2, got 3"]
-        );
+        let said = lines(&OLD.replace("version: 1", "version: 3").replace("title", "titel"));
+        assert_eq!(said, ["old.ron:3:5: version: this program reads versions 1 and 2, got 3"]);
     }
 }

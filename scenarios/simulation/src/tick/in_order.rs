@@ -21,16 +21,11 @@ impl SystemExecutor for InOrder {
         _: Option<&FixedBitSet>,
         fault: fn(BevyError, ErrorContext),
     ) {
-        #[expect(
-            unsafe_code,
-            reason = "bevy gives an executor its systems in no other way"
-        )]
+        #[expect(unsafe_code, reason = "bevy gives an executor its systems in no other way")]
         // SAFETY: the systems are only run.
         let systems = unsafe { schedule.systems_mut() };
         for system in systems {
-            if let Err(RunSystemError::Failed(error)) =
-                system.run_without_applying_deferred((), world)
-            {
+            if let Err(RunSystemError::Failed(error)) = system.run_without_applying_deferred((), world) {
                 let (name, last_run) = (system.name(), system.get_last_run());
                 fault(error, ErrorContext::System { name, last_run });
             }
@@ -45,8 +40,7 @@ pub(super) fn without_conditions(schedule: &Schedule) -> bool {
     let graph = schedule.graph();
     let mut systems = graph.systems.iter();
     let mut sets = graph.system_sets.iter();
-    systems.all(|(_, _, conditions)| conditions.is_empty())
-        && sets.all(|(_, _, conditions)| conditions.is_empty())
+    systems.all(|(_, _, conditions)| conditions.is_empty()) && sets.all(|(_, _, conditions)| conditions.is_empty())
 }
 
 /// Whether a system of a schedule puts anything off. To be asked after the schedule is initialized.

@@ -102,23 +102,13 @@ impl Field {
     /// A field that every message has.
     #[must_use]
     pub const fn always(name: &'static str, kind: FieldKind, what: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            required: true,
-            what,
-        }
+        Self { name, kind, required: true, what }
     }
 
     /// A field that a message has only if there is a value.
     #[must_use]
     pub const fn sometimes(name: &'static str, kind: FieldKind, what: &'static str) -> Self {
-        Self {
-            name,
-            kind,
-            required: false,
-            what,
-        }
+        Self { name, kind, required: false, what }
     }
 }
 
@@ -163,14 +153,7 @@ impl Topic {
         what: &'static str,
         fields: &'static [Field],
     ) -> Self {
-        Self {
-            name,
-            key,
-            what,
-            rate,
-            payload: Payload::Json,
-            fields,
-        }
+        Self { name, key, what, rate, payload: Payload::Json, fields }
     }
 
     /// JSON Schema (draft 2020-12) of the payload, or of the attachment if the payload is packed.
@@ -191,12 +174,7 @@ impl Topic {
                 (field.name.to_owned(), Value::Object(schema))
             })
             .collect();
-        let required: Vec<&str> = self
-            .fields
-            .iter()
-            .filter(|f| f.required)
-            .map(|f| f.name)
-            .collect();
+        let required: Vec<&str> = self.fields.iter().filter(|f| f.required).map(|f| f.name).collect();
         let what = match self.payload {
             Payload::PackedF32 | Payload::Jpeg => {
                 format!("{} This is the schema of the attachment.", self.what)
@@ -259,10 +237,7 @@ mod tests {
     #[test]
     fn a_schema_lists_its_fields() {
         let clock = run::CLOCK[0].schema();
-        assert_eq!(
-            clock["required"],
-            json!(["t_s", "step", "ended", "sent", "superseded"])
-        );
+        assert_eq!(clock["required"], json!(["t_s", "step", "ended", "sent", "superseded"]));
         assert_eq!(clock["properties"]["step"]["type"], "integer");
         assert_eq!(clock["additionalProperties"], false);
     }

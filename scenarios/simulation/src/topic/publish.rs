@@ -34,10 +34,7 @@ impl Topics {
     /// For a run that has declared these topics.
     #[must_use]
     pub fn new(declared: Vec<Topic>) -> Self {
-        Self {
-            declared,
-            ..Self::default()
-        }
+        Self { declared, ..Self::default() }
     }
 
     /// Publishes a value of a topic at a simulated time. `id` takes the place of `<id>` in the topic's key; it is
@@ -56,20 +53,15 @@ impl Topics {
             "the topic `{name}` has the key `{}`, for which \"{id}\" is no id",
             topic.key
         );
-        let value = serde_json::to_value(value)
-            .unwrap_or_else(|e| panic!("a value of the topic `{name}` is not JSON: {e}"));
+        let value =
+            serde_json::to_value(value).unwrap_or_else(|e| panic!("a value of the topic `{name}` is not JSON: {e}"));
         assert!(
             topic.payload == Payload::Json && value.is_object(),
             "a value of the topic `{name}` must be a JSON object: publish a struct with named fields"
         );
         let key = topic.key.replace("<id>", id);
         self.fresh.insert(key.clone());
-        let published = Published {
-            topic: *topic,
-            key: key.clone(),
-            t_s,
-            value,
-        };
+        let published = Published { topic: *topic, key: key.clone(), t_s, value };
         self.newest.insert(key, published);
     }
 
@@ -106,9 +98,7 @@ mod tests {
         for (id, m) in [("b", 1), ("a", 2), ("b", 3)] {
             topics.publish(&DEPTH, id, f64::from(m), &json!({ "m": m }));
         }
-        let taken: Vec<_> = (topics.take_fresh().into_iter())
-            .map(|p| (p.key, p.t_s, p.value["m"].clone()))
-            .collect();
+        let taken: Vec<_> = (topics.take_fresh().into_iter()).map(|p| (p.key, p.t_s, p.value["m"].clone())).collect();
         let [a, b] = ["own/a/depth", "own/b/depth"].map(str::to_string);
         assert_eq!(taken, [(a, 2.0, json!(2)), (b, 3.0, json!(3))]);
         assert_eq!(topics.take_fresh(), []);

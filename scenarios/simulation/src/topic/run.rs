@@ -8,11 +8,7 @@ pub const STATE_RATE: &str = "with the state, at most 20 a second";
 pub const ONCE: &str = "once, kept for those who come later";
 
 /// The time of a message.
-pub const T: Field = Field::always(
-    "t_s",
-    FieldKind::Number,
-    "Simulated time, s; zero is the start of the mission.",
-);
+pub const T: Field = Field::always("t_s", FieldKind::Number, "Simulated time, s; zero is the start of the mission.");
 /// A place or vector in the plane (east, north).
 pub const E_N: FieldKind = FieldKind::Vector(2);
 /// A place or vector in space (east, north, up).

@@ -18,11 +18,7 @@ pub struct NotControlled {
 }
 
 fn those(outside: &[String]) -> String {
-    if outside.is_empty() {
-        "none has".to_string()
-    } else {
-        format!("those that have: {}", outside.join(", "))
-    }
+    if outside.is_empty() { "none has".to_string() } else { format!("those that have: {}", outside.join(", ")) }
 }
 
 /// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
@@ -33,8 +29,7 @@ pub fn consulted(scenario: &Scenario) -> Vec<(String, Consulted)> {
     let gantries = scenario.gantries.iter();
     let gantries = gantries.filter_map(|g| Some((g.id.as_str(), g.tracker.consulted()?)));
     let all = robots.chain(gantries);
-    all.map(|(id, consulted)| (id.to_string(), consulted))
-        .collect()
+    all.map(|(id, consulted)| (id.to_string(), consulted)).collect()
 }
 
 /// Their ids.
@@ -80,20 +75,12 @@ impl Trial {
     ///
     /// # Errors
     /// If the scenario has no such robot, or its strategy is another.
-    pub fn control(
-        &mut self,
-        robot: &str,
-        controller: impl Controller + 'static,
-    ) -> Result<(), NotControlled> {
+    pub fn control(&mut self, robot: &str, controller: impl Controller + 'static) -> Result<(), NotControlled> {
         let outside = self.controlled();
         if !outside.iter().any(|name| name == robot) {
-            return Err(NotControlled {
-                robot: robot.to_string(),
-                outside,
-            });
+            return Err(NotControlled { robot: robot.to_string(), outside });
         }
-        self.controllers
-            .insert(robot.to_string(), Box::new(controller));
+        self.controllers.insert(robot.to_string(), Box::new(controller));
         Ok(())
     }
 
@@ -130,20 +117,12 @@ impl Trial {
 
     /// Whether questions of this tick are open.
     pub(crate) fn waits(&self) -> bool {
-        self.progress
-            .open
-            .as_ref()
-            .is_some_and(|open| !open.is_empty())
+        self.progress.open.as_ref().is_some_and(|open| !open.is_empty())
     }
 
     /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
     /// robot cannot carry out counts as nonsense. `None` if it has no open question.
-    pub fn answer(
-        &mut self,
-        robot: &str,
-        heard: Heard,
-        watch: &mut dyn Watch,
-    ) -> Option<Consultation> {
+    pub fn answer(&mut self, robot: &str, heard: Heard, watch: &mut dyn Watch) -> Option<Consultation> {
         let open = self.progress.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
         let question = open.remove(n);

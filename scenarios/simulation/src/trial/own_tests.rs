@@ -8,8 +8,7 @@ use plumes::error::PlumeError;
 use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
 use robots::error::RobotError;
 use robots::handoff::{
-    Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings,
-    Setting, Vertical,
+    Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings, Setting, Vertical,
 };
 use robots::sense::{Around, Fitting, Sensor, SensorParams, Sensors};
 use robots::strategy::{Strategies, Strategy, StrategyParams};
@@ -40,11 +39,7 @@ struct Wild {
 }
 
 impl Listed for Wild {
-    const ENTRY: Entry = Entry {
-        name: "Wild",
-        what: "decides nonsense",
-        source: "a test",
-    };
+    const ENTRY: Entry = Entry { name: "Wild", what: "decides nonsense", source: "a test" };
 }
 
 impl StrategyParams for Wild {
@@ -73,8 +68,7 @@ impl Strategy for Wild {
         };
         let declares = self.bad == Bad::DeclaredNan;
         Decision {
-            declared: declares
-                .then(|| Declaration::first(seen.t_s, Vector2::new(0.0, nan), "wild")),
+            declared: declares.then(|| Declaration::first(seen.t_s, Vector2::new(0.0, nan), "wild")),
             ..Decision::new(Behaviour::Other("wild"), goal)
         }
     }
@@ -86,11 +80,7 @@ impl Strategy for Wild {
 struct Mute {}
 
 impl Listed for Mute {
-    const ENTRY: Entry = Entry {
-        name: "mute",
-        what: "a depth that is no number",
-        source: "a test",
-    };
+    const ENTRY: Entry = Entry { name: "mute", what: "a depth that is no number", source: "a test" };
 }
 
 impl SensorParams for Mute {
@@ -117,11 +107,7 @@ struct Burst {
 }
 
 impl Listed for Burst {
-    const ENTRY: Entry = Entry {
-        name: "Burst",
-        what: "faster than any water",
-        source: "a test",
-    };
+    const ENTRY: Entry = Entry { name: "Burst", what: "faster than any water", source: "a test" };
 }
 
 impl CurrentParams for Burst {
@@ -170,19 +156,10 @@ fn changed(changes: &[(&str, &str)]) -> Result<Loaded, String> {
         .and_then(|r| r.with::<Sensors, Mute>())
         .and_then(|r| r.with::<Currents, Burst>())
         .expect("new names");
-    let mut text = template("uniform_channel")
-        .expect("in the catalogue")
-        .text
-        .to_string();
+    let mut text = template("uniform_channel").expect("in the catalogue").text.to_string();
     let short = [
-        (
-            "spin_up_s: 2000, limit_s: 1800",
-            "spin_up_s: 20, limit_s: 2",
-        ),
-        (
-            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-            "Wild(bad: Fine)",
-        ),
+        ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 20, limit_s: 2"),
+        ("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "Wild(bad: Fine)"),
     ];
     for (from, to) in short.iter().chain(changes) {
         assert_eq!(text.matches(from).count(), 1, "{from}");
@@ -197,18 +174,9 @@ fn what_a_strategy_decides_is_checked_and_the_strategy_named() {
     for (bad, fault) in [
         ("SpeedNan", "`speed_m_s` must be from 0 to 100, got NaN"),
         ("SpeedNegative", "`speed_m_s` must be from 0 to 100, got -3"),
-        (
-            "SpeedHuge",
-            "`speed_m_s` must be from 0 to 100, got 1000000000",
-        ),
-        (
-            "CourseNan",
-            "`heading_rad` must be within ±1000000, got NaN",
-        ),
-        (
-            "DeclaredNan",
-            "`declare.position_m` must be within ±1000000, got NaN",
-        ),
+        ("SpeedHuge", "`speed_m_s` must be from 0 to 100, got 1000000000"),
+        ("CourseNan", "`heading_rad` must be within ±1000000, got NaN"),
+        ("DeclaredNan", "`declare.position_m` must be within ±1000000, got NaN"),
     ] {
         assert_eq!(
             said(&[("bad: Fine", &format!("bad: {bad}"))]),
@@ -238,20 +206,10 @@ fn a_current_faster_than_any_water_ends_the_run_and_is_named() {
     // asked.
     for burst in ["Burst(at_s: 0)", "Burst(at_s: 10)", "Burst(at_s: 21.9)"] {
         let refused = with(burst);
-        assert!(
-            refused.contains("water.currents: the current Burst flows at (1000000, 0) m/s"),
-            "{burst}: {refused}"
-        );
+        assert!(refused.contains("water.currents: the current Burst flows at (1000000, 0) m/s"), "{burst}: {refused}");
     }
-    let unchecked =
-        changed(&[("currents: [", "currents: [Burst(at_s: 10), ")]).expect("of the right form");
+    let unchecked = changed(&[("currents: [", "currents: [Burst(at_s: 10), ")]).expect("of the right form");
     let ended = ended(&unchecked);
-    assert!(
-        ended.starts_with("the current Burst flows at (1000000, 0) m/s"),
-        "{ended}"
-    );
-    assert!(
-        ended.ends_with("both must be within ±15; correct the current"),
-        "{ended}"
-    );
+    assert!(ended.starts_with("the current Burst flows at (1000000, 0) m/s"), "{ended}");
+    assert!(ended.ends_with("both must be within ±15; correct the current"), "{ended}");
 }

@@ -41,10 +41,7 @@ fn pictured(ocean: &Ocean, t_s: f64) -> WaterFrame {
         for i in 0..rows {
             for j in 0..columns {
                 let middle = |k: u32, n: u32| (f64::from(k) + 0.5) / f64::from(n) - 0.5;
-                let local = Vector2::new(
-                    middle(i, rows) * area.length_m,
-                    middle(j, columns) * area.width_m,
-                );
+                let local = Vector2::new(middle(i, rows) * area.length_m, middle(j, columns) * area.width_m);
                 let p = area.world(local);
                 let z = ocean.terrain.bed_z(p.x, p.y) * (1.0 - share);
                 let p_W = Vector3::new(p.x, p.y, z);
@@ -57,9 +54,5 @@ fn pictured(ocean: &Ocean, t_s: f64) -> WaterFrame {
             }
         }
     }
-    WaterFrame {
-        t_s,
-        points,
-        centre: area.centre,
-    }
+    WaterFrame { t_s, points, centre: area.centre }
 }

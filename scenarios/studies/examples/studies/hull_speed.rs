@@ -3,11 +3,7 @@
 //! Each vehicle turns and dives in moving water for half an hour, in steps of 0.02 s, without instruments, plume or
 //! contacts. Prints real time over computing time of one thread. Run it on an idle machine.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::disallowed_methods,
-    reason = "it measures and speaks"
-)]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "it measures and speaks")]
 
 use nalgebra::{Matrix3, Vector3};
 use rheotaxis::scenario::Beside;
@@ -43,12 +39,7 @@ impl Flow for Shear {
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         let mut gradient = Matrix3::zeros();
         gradient[(0, 2)] = 0.002;
-        WaterSample {
-            velocity: self.velocity(p, t_s),
-            gradient,
-            rate: Vector3::zeros(),
-            density_kg_m3: 1025.0,
-        }
+        WaterSample { velocity: self.velocity(p, t_s), gradient, rate: Vector3::zeros(), density_kg_m3: 1025.0 }
     }
 }
 
@@ -69,11 +60,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 fn seconds(craft: &Craft) -> f64 {
     let mut craft = craft.clone();
     let set = match craft.idle() {
-        Actuation::Fins(_) => Actuation::Fins(ActuatorCommand {
-            rudder_rad: 0.05,
-            stern_rad: 0.0,
-            rpm: 1000.0,
-        }),
+        Actuation::Fins(_) => Actuation::Fins(ActuatorCommand { rudder_rad: 0.05, stern_rad: 0.0, rpm: 1000.0 }),
         Actuation::Drives(idle) => {
             let Craft::Described(vehicle) = &craft else {
                 return f64::NAN;

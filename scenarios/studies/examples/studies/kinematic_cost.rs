@@ -6,11 +6,7 @@
 //! that what else the machine does is left out. A word after the command chooses the vehicles whose names hold it, such
 //! as `0.1`. Run it on an idle machine.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::disallowed_methods,
-    reason = "it measures and speaks"
-)]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "it measures and speaks")]
 
 use nalgebra::Vector3;
 use rheotaxis::ocean::SpunUp;
@@ -36,10 +32,7 @@ const FIFTHS: [(&str, &str); 4] = [
     ("step_s: 0.05", "step_s: 0.2"),
 ];
 /// Frames as seldom as somebody needs who reads only the result.
-const QUIET: (&str, &str) = (
-    "success:",
-    "record: (frame_period_s: 10, plume_period_s: 1000),\n    success:",
-);
+const QUIET: (&str, &str) = ("success:", "record: (frame_period_s: 10, plume_period_s: 1000),\n    success:");
 
 /// `duck_st` with another vehicle and a few other texts.
 fn duck(vehicle: &str, changes: &[(&str, &str)]) -> Result<Loaded, Box<dyn Error>> {
@@ -124,14 +117,7 @@ impl Mission<'_> {
     fn least_s(&self, track: &[Vector3<f64>]) -> [f64; 3] {
         let rounds: Vec<_> = (0..ROUNDS).map(|_| self.pieces_s(track)).collect();
         [0, 1, 2].map(|which| {
-            (0..rounds[0].len())
-                .map(|n| {
-                    rounds
-                        .iter()
-                        .map(|r| r[n][which])
-                        .fold(f64::INFINITY, f64::min)
-                })
-                .sum()
+            (0..rounds[0].len()).map(|n| rounds.iter().map(|r| r[n][which]).fold(f64::INFINITY, f64::min)).sum()
         })
     }
 }
@@ -151,24 +137,14 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         ("point, steps of 0.1 s", "Kinematic()", with(&TENTHS), 0.1),
         ("point, steps of 0.2 s", "Kinematic()", with(&FIFTHS), 0.2),
     ] {
-        if std::env::args()
-            .nth(2)
-            .is_some_and(|part| !name.contains(&part))
-        {
+        if std::env::args().nth(2).is_some_and(|part| !name.contains(&part)) {
             continue;
         }
         let loaded = duck(vehicle, &changes)?;
         let (mut beside_ms, mut asking_ms, mut lasts_s) = (Vec::new(), Vec::new(), 0.0);
         for seed in 900_001..900_006 {
-            let spun_up = Trial::assemble(&loaded, seed)?
-                .spin_up(&mut Unwatched)
-                .ok_or("the spin-up was stopped")?;
-            let mission = Mission {
-                loaded: &loaded,
-                seed,
-                spun_up: &spun_up,
-                read_s,
-            };
+            let spun_up = Trial::assemble(&loaded, seed)?.spin_up(&mut Unwatched).ok_or("the spin-up was stopped")?;
+            let mission = Mission { loaded: &loaded, seed, spun_up: &spun_up, read_s };
             let track = mission.track();
             let [whole_s, asked_s, alone_s] = mission.least_s(&track);
             beside_ms.push(1e3 * (whole_s - asked_s));

@@ -16,43 +16,19 @@ use std::error::Error;
 use std::process::ExitCode;
 
 /// Name, what it shows, and the example itself.
-type Example = (
-    &'static str,
-    &'static str,
-    fn() -> Result<(), Box<dyn Error>>,
-);
+type Example = (&'static str, &'static str, fn() -> Result<(), Box<dyn Error>>);
 
 const EXAMPLES: [Example; 6] = [
-    (
-        "own_campaign",
-        "a campaign over arms of your own",
-        own_campaign::main,
-    ),
-    (
-        "rising_thread",
-        "the crab's plume from the side, beside a neutral one [FILE.png]",
-        rising_thread::main,
-    ),
-    (
-        "mosaic",
-        "the pictures of a source added up [FILE.png]",
-        mosaic::main,
-    ),
-    (
-        "hull_speed",
-        "how fast a hull alone is computed",
-        hull_speed::main,
-    ),
+    ("own_campaign", "a campaign over arms of your own", own_campaign::main),
+    ("rising_thread", "the crab's plume from the side, beside a neutral one [FILE.png]", rising_thread::main),
+    ("mosaic", "the pictures of a source added up [FILE.png]", mosaic::main),
+    ("hull_speed", "how fast a hull alone is computed", hull_speed::main),
     (
         "kinematic_cost",
         "what a mission of a kinematic vehicle costs beside its plume [PART OF A NAME]",
         kinematic_cost::main,
     ),
-    (
-        "scale",
-        "how cost grows with filaments, robots and lanes [FILE.svg]",
-        scale::main,
-    ),
+    ("scale", "how cost grows with filaments, robots and lanes [FILE.svg]", scale::main),
 ];
 
 fn main() -> ExitCode {

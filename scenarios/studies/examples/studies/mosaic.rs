@@ -34,31 +34,17 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let bundled = template(SCENARIO).ok_or("not in the catalogue")?;
     let text = bundled.text.replace(CLEARER.0, CLEARER.1);
     let loaded = load_text(&Registry::default(), SCENARIO, &text)?;
-    let mut ocean =
-        Origin::of(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
+    let mut ocean = Origin::of(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
     ocean.spin_up(|_| true);
     let Terrain::Level { depth_m } = ocean.terrain else {
         return Err("a level bed is needed: all pictures are from one height".into());
     };
     let source = ocean.sources()[0].xy();
     let optics = Optics::new(&loaded.scenario.optics)?;
-    let scene = Scene {
-        terrain: &ocean.terrain,
-        obstacles: &ocean.obstacles,
-        dye: ocean.plume(),
-        optics: &optics,
-    };
-    let camera = CameraModel::new(&CameraSpec {
-        width: 96,
-        height: 72,
-        view_deg: Positive::new(90.0),
-        ..CameraSpec::default()
-    });
-    let mut place = Place::new(
-        &AddUpSpec::default(),
-        source + Vector2::from(TOLD_M),
-        Heading::from_deg(90.0),
-    );
+    let scene = Scene { terrain: &ocean.terrain, obstacles: &ocean.obstacles, dye: ocean.plume(), optics: &optics };
+    let camera =
+        CameraModel::new(&CameraSpec { width: 96, height: 72, view_deg: Positive::new(90.0), ..CameraSpec::default() });
+    let mut place = Place::new(&AddUpSpec::default(), source + Vector2::from(TOLD_M), Heading::from_deg(90.0));
     let mut strip = Vec::new();
     for (n, north) in [0.0, 0.9, -0.9].into_iter().enumerate() {
         for k in 0..9 {
@@ -75,14 +61,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
                 R_BC: turned(0.0, FRAC_PI_2),
                 view_rad: camera.view_rad,
             };
-            let stand = Stand {
-                position: at.xy(),
-                altitude_m: ALTITUDE_M,
-                R_WB: UnitQuaternion::identity(),
-            };
-            place
-                .add(&picture, &stand)
-                .map_err(|why| format!("{why:?}"))?;
+            let stand = Stand { position: at.xy(), altitude_m: ALTITUDE_M, R_WB: UnitQuaternion::identity() };
+            place.add(&picture, &stand).map_err(|why| format!("{why:?}"))?;
             if n == 0 && k == 4 || n == 2 && k == 8 {
                 let said = place.weigh();
                 println!(
@@ -112,19 +92,14 @@ fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &Weighed) -> RgbImage {
     let grey = |v: f64| Rgb([(128.0 + 110.0 * v).clamp(0.0, 255.0) as u8; 3]);
     let unseen = Rgb([40, 50, 90]);
     let cell = |x: u32, y: u32| mosaic.contrast(x as usize, (h - 1 - y) as usize);
-    let panels =
-        [0, 1].map(|k| RgbImage::from_fn(w, h, |x, y| cell(x, y).map_or(unseen, |c| grey(c[k]))));
+    let panels = [0, 1].map(|k| RgbImage::from_fn(w, h, |x, y| cell(x, y).map_or(unseen, |c| grey(c[k]))));
     let mut likely = panels[0].clone();
     for (p, log) in &said.places {
         let at = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i32 - mosaic.low[k]);
         // From red, against a source, over white to green, for it.
         let v = (log / 12.0).clamp(-1.0, 1.0);
         let [more, less] = [255.0, 255.0 * (1.0 - v.abs())].map(|v| v as u8);
-        let colour = if v > 0.0 {
-            [less, more, less]
-        } else {
-            [more, less, less]
-        };
+        let colour = if v > 0.0 { [less, more, less] } else { [more, less, less] };
         for (dx, dy) in (0..3).flat_map(|x| (0..3).map(move |y| (x, y))) {
             let (x, y) = (at[0] + dx, h as i32 - 1 - at[1] - dy);
             if (0..w as i32).contains(&x) && (0..h as i32).contains(&y) {

@@ -24,22 +24,11 @@ const CAMPAIGN: &str = r#"(
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let campaign = Campaign::new(
-        "own.ron",
-        "own",
-        CAMPAIGN,
-        load(Path::new("uniform_channel"))?,
-    )?;
+    let campaign = Campaign::new("own.ron", "own", CAMPAIGN, load(Path::new("uniform_channel"))?)?;
     campaign.check()?;
     let dir = std::env::temp_dir().join(format!("rheotaxis-own-campaign-{}", std::process::id()));
     // Both arms of a seed run in one and the same plume.
-    run(
-        &campaign,
-        &dir,
-        &RunOptions::default(),
-        &AtomicBool::new(false),
-        &|_| {},
-    )?;
+    run(&campaign, &dir, &RunOptions::default(), &AtomicBool::new(false), &|_| {})?;
     let rows = read_rows(&dir)?;
     for (arm, name) in ["one", "two"].iter().enumerate() {
         let own: Vec<_> = rows.iter().filter(|row| row.arm == *name).collect();

@@ -39,27 +39,20 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let loaded = load(Path::new("flume_crab"))?;
     let composition = loaded.scenario.sources[0].release.buoyancy.clone();
     let mut sides = Vec::new();
-    for (title, buoyancy) in [
-        ("neutral", BuoyancySpec::Neutral),
-        ("47 g/L of salt, made neutral with 2-propanol", composition),
-    ] {
+    for (title, buoyancy) in
+        [("neutral", BuoyancySpec::Neutral), ("47 g/L of salt, made neutral with 2-propanol", composition)]
+    {
         let mut scenario = loaded.scenario.clone();
         scenario.sources[0].release.buoyancy = buoyancy;
         let origin = Origin::of(&scenario, &loaded.base_dir, 1);
         sides.push((title, watched(&origin, &loaded.base_dir)?));
     }
-    println!(
-        "| distance, cm | neutral, cm above the bed | brine, cm | rise by Briggs without turbulence, cm |"
-    );
+    println!("| distance, cm | neutral, cm above the bed | brine, cm | rise by Briggs without turbulence, cm |");
     println!("|---|---|---|---|");
     for slice in 0..SLICES {
         let x = (slice as f64 + 0.5) * SLICE_M;
         let [neutral, brine] = [0, 1].map(|k: usize| 100.0 * sides[k].1.heights_m[slice]);
-        println!(
-            "| {:.0} | {neutral:.1} | {brine:.1} | {:.1} |",
-            100.0 * x,
-            100.0 * briggs(x)
-        );
+        println!("| {:.0} | {neutral:.1} | {brine:.1} | {:.1} |", 100.0 * x, 100.0 * briggs(x));
     }
     std::fs::write(file, png(&drawn(&sides))?)?;
     println!("\n{file}");
@@ -119,11 +112,8 @@ fn drawn(sides: &[(&str, Side)]) -> String {
             let line = [panel.x[0], panel.x[1]].map(|x| panel.at([x, height]));
             c.line(line[0], line[1], &Style::line("#444444", 1.0).dashed("5 4"));
         }
-        let mean = side
-            .heights_m
-            .iter()
-            .enumerate()
-            .map(|(n, z)| panel.at([100.0 * SLICE_M * (n as f64 + 0.5), 100.0 * z]));
+        let mean =
+            side.heights_m.iter().enumerate().map(|(n, z)| panel.at([100.0 * SLICE_M * (n as f64 + 0.5), 100.0 * z]));
         c.polyline(mean.collect(), &Style::line("#d2691e", 2.2));
         c.unclip();
         panel.frame(&mut c, 1.0);
@@ -136,11 +126,6 @@ fn drawn(sides: &[(&str, Side)]) -> String {
         let at = panel.at([panel.x[1] - 1.0, 7.9]);
         c.text(at, 10.0, Anchor::End, "outer probes");
     }
-    c.text(
-        [450.0, 400.0],
-        11.0,
-        Anchor::Middle,
-        "cm down-stream of the nozzle; line: mean height over five minutes",
-    );
+    c.text([450.0, 400.0], 11.0, Anchor::Middle, "cm down-stream of the nozzle; line: mean height over five minutes");
     c.svg("rising_thread")
 }

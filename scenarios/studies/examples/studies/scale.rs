@@ -4,11 +4,7 @@
 //! second of mission, and the memory of a process of its own. Run it on an idle machine. It prints a table and writes
 //! `docs/figures/scale.svg`, or the file that is named.
 
-#![allow(
-    clippy::print_stdout,
-    clippy::disallowed_methods,
-    reason = "it measures and speaks"
-)]
+#![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "it measures and speaks")]
 
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
@@ -52,9 +48,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     }
     let file = args.first().map_or("docs/figures/scale.svg", |file| file);
     if file.starts_with('-') {
-        println!(
-            "usage: scale [FILE]   measures, prints a table and draws FILE [default: docs/figures/scale.svg]"
-        );
+        println!("usage: scale [FILE]   measures, prints a table and draws FILE [default: docs/figures/scale.svg]");
         return Ok(());
     }
     let mut curves = Vec::new();
@@ -80,9 +74,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 /// A point measured by a process of its own, so that none holds the memory of those before it.
 fn in_a_process(what: &str, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
     let mut process = Command::new(std::env::current_exe()?);
-    let ended = process
-        .args(["scale", POINT, what, &n.to_string()])
-        .output()?;
+    let ended = process.args(["scale", POINT, what, &n.to_string()]).output()?;
     let said = String::from_utf8_lossy(&ended.stdout).into_owned();
     let mut numbers = said.split_whitespace().map(str::parse::<f64>);
     match (numbers.next(), numbers.next()) {
@@ -175,10 +167,8 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
     for (k, (what, curve)) in curves.iter().enumerate() {
         let log = |v: f64| math::ln(v.max(1e-3)) / math::ln(10.0);
         let x: Vec<f64> = curve.iter().map(|p| log(p.n as f64)).collect();
-        let columns: [Vec<f64>; 2] = [
-            curve.iter().map(|p| log(p.ms)).collect(),
-            curve.iter().map(|p| log(p.mb)).collect(),
-        ];
+        let columns: [Vec<f64>; 2] =
+            [curve.iter().map(|p| log(p.ms)).collect(), curve.iter().map(|p| log(p.mb)).collect()];
         let all = || columns.iter().flatten().copied();
         let panel = Panel {
             left: 330.0 * k as f64 + 60.0,
@@ -186,10 +176,7 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
             width: 260.0,
             height: 230.0,
             x: [x[0] - 0.1, x[x.len() - 1] + 0.1],
-            y: [
-                all().fold(f64::MAX, f64::min) - 0.2,
-                all().fold(f64::MIN, f64::max) + 0.2,
-            ],
+            y: [all().fold(f64::MAX, f64::min) - 0.2, all().fold(f64::MIN, f64::max) + 0.2],
         };
         panel.grid(&mut c, 40.0);
         panel.frame(&mut c, 1.0);
@@ -199,11 +186,7 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
         let middle = panel.left + 0.5 * panel.width;
         c.text([middle, 310.0], 11.0, Anchor::Middle, "log10 of the number");
         for (column, ink) in columns.iter().zip(INK) {
-            let points: Vec<_> = x
-                .iter()
-                .zip(column)
-                .map(|(x, y)| panel.at([*x, *y]))
-                .collect();
+            let points: Vec<_> = x.iter().zip(column).map(|(x, y)| panel.at([*x, *y])).collect();
             for p in &points {
                 c.circle(*p, 3.0, &Style::fill(ink));
             }
@@ -223,12 +206,7 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
                 c.text([panel.left + 18.0, y], 11.0, Anchor::Start, text);
             }
             let y = 56.0 + 30.0;
-            c.text(
-                [panel.left + 18.0, y],
-                11.0,
-                Anchor::Start,
-                "dashed: in proportion",
-            );
+            c.text([panel.left + 18.0, y], 11.0, Anchor::Start, "dashed: in proportion");
         }
     }
     c.svg("scale")

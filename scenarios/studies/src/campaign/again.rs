@@ -14,13 +14,7 @@ impl Campaign {
     /// Makes runs anew whose tracks are to be shown, so many at the same time; 0 means one on each core. Once `stop` is
     /// set, no run begins. `made` is called after each, from any thread.
     #[must_use]
-    pub fn films(
-        &self,
-        picks: Vec<Pick>,
-        jobs: usize,
-        stop: &AtomicBool,
-        made: &(dyn Fn() + Sync),
-    ) -> Vec<Shown> {
+    pub fn films(&self, picks: Vec<Pick>, jobs: usize, stop: &AtomicBool, made: &(dyn Fn() + Sync)) -> Vec<Shown> {
         let one = |pick: Pick| {
             let film = if stop.load(Ordering::Relaxed) {
                 Err("left out, because the report was interrupted".to_string())
@@ -57,9 +51,7 @@ impl Campaign {
         let ended = trial.run(&mut follower);
         if ended.digest != row.digest {
             let (now, then) = (&ended.digest, &row.digest);
-            return Err(format!(
-                "its row is out of date: the run has the digest {now} now, and {then} in its row"
-            ));
+            return Err(format!("its row is out of date: the run has the digest {now} now, and {then} in its row"));
         }
         let gathered = follower.finish(&trial, &ended);
         let ocean = trial.simulation.ocean();

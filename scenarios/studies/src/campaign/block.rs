@@ -59,9 +59,7 @@ pub fn declarations_path(dir: &Path, block: u64) -> PathBuf {
 /// Whether a file of this name belongs to a campaign's folder.
 pub(super) fn is_of_campaign(name: &str) -> bool {
     let of_block = |begin: &str| {
-        let number = name
-            .strip_prefix(begin)
-            .and_then(|n| n.strip_suffix(".parquet"));
+        let number = name.strip_prefix(begin).and_then(|n| n.strip_suffix(".parquet"));
         number.is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit()))
     };
     name == FILE || of_block("part-") || of_block("declarations-")
@@ -69,10 +67,7 @@ pub(super) fn is_of_campaign(name: &str) -> bool {
 
 /// The blocks that have a file, in order. Readers go by the files that exist, not by the plan.
 pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, CampaignError> {
-    let unread = |e: std::io::Error| CampaignError::Read {
-        path: dir.to_owned(),
-        problem: e.to_string(),
-    };
+    let unread = |e: std::io::Error| CampaignError::Read { path: dir.to_owned(), problem: e.to_string() };
     let files = match fs::read_dir(dir) {
         Ok(files) => files,
         Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
@@ -95,45 +90,27 @@ pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, Campa
 /// under its name.
 pub(super) fn write_block(dir: &Path, block: u64, rows: &[RunRow]) -> Result<(), CampaignError> {
     let number = ("block", block.to_string());
-    let declarations: Vec<DeclarationRow> = (rows.iter().flat_map(|r| &r.declarations))
-        .cloned()
-        .collect();
+    let declarations: Vec<DeclarationRow> = (rows.iter().flat_map(|r| &r.declarations)).cloned().collect();
     let notes = [number.clone()];
     write_table(&declarations_path(dir, block), &declarations, &notes)?;
-    let notes = [
-        number,
-        ("rows", rows.len().to_string()),
-        ("rows_hash", rows_hash(rows)),
-    ];
+    let notes = [number, ("rows", rows.len().to_string()), ("rows_hash", rows_hash(rows))];
     write_table(&block_path(dir, block), rows, &notes)
 }
 
-fn write_table<T: Record>(
-    path: &Path,
-    rows: &[T],
-    notes: &[(&str, String)],
-) -> Result<(), CampaignError> {
+fn write_table<T: Record>(path: &Path, rows: &[T], notes: &[(&str, String)]) -> Result<(), CampaignError> {
     let sealed = TableWriter::new(Vec::new(), notes).and_then(|mut table| {
         table.before_columns(&seal::room())?;
         table.rows(rows)?;
         table.finish()
     });
-    let mut bytes = sealed.map_err(|e| CampaignError::Write {
-        path: path.to_owned(),
-        problem: e.to_string(),
-    })?;
+    let mut bytes = sealed.map_err(|e| CampaignError::Write { path: path.to_owned(), problem: e.to_string() })?;
     seal::close(&mut bytes);
     write_on_disk(path, &bytes)?;
     Ok(())
 }
 
 /// Adds rows to those in a block's file, whoever wrote them; a damaged file is replaced.
-pub(super) fn add_to_block(
-    dir: &Path,
-    manifest: &Manifest,
-    block: u64,
-    rows: &[RunRow],
-) -> Result<(), CampaignError> {
+pub(super) fn add_to_block(dir: &Path, manifest: &Manifest, block: u64, rows: &[RunRow]) -> Result<(), CampaignError> {
     let mut all: BTreeMap<u64, RunRow> = BTreeMap::new();
     let there = read_block(dir, manifest, block).rows();
     let before = there.len();
@@ -161,16 +138,9 @@ pub fn read_block(dir: &Path, manifest: &Manifest, block: u64) -> BlockState {
 }
 
 /// The rows of a block with their declarations; `None` if there are no rows.
-fn sound(
-    dir: &Path,
-    manifest: &Manifest,
-    block: u64,
-) -> Result<Option<Vec<RunRow>>, CampaignError> {
+fn sound(dir: &Path, manifest: &Manifest, block: u64) -> Result<Option<Vec<RunRow>>, CampaignError> {
     let (path, beside) = (block_path(dir, block), declarations_path(dir, block));
-    let broken = |path: &Path, problem: String| CampaignError::Broken {
-        path: path.to_owned(),
-        problem,
-    };
+    let broken = |path: &Path, problem: String| CampaignError::Broken { path: path.to_owned(), problem };
     let runs = manifest.runs_of(block);
     let Some((mut rows, notes)) = read_table::<RunRow>(&path, Some(runs.clone().count()))? else {
         return Ok(None);
@@ -202,10 +172,7 @@ type Noted<T> = (Vec<T>, Vec<KeyValue>);
 
 /// The lines of a table and the notes in its footer; `None` if there is no file. If it is not known how many lines
 /// there may be, there are at most as many as the file has bytes.
-fn read_table<T: Record>(
-    path: &Path,
-    most: Option<usize>,
-) -> Result<Option<Noted<T>>, CampaignError> {
+fn read_table<T: Record>(path: &Path, most: Option<usize>) -> Result<Option<Noted<T>>, CampaignError> {
     let path = || path.to_owned();
     let unread = |e: std::io::Error| {
         let (path, problem) = (path(), e.to_string());

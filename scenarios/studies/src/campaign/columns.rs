@@ -65,9 +65,7 @@ pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, Str
         let at = before + line.position().map_or(0, csv::Position::line);
         for ((ColumnInfo { name, .. }, ..), field) in T::COLUMNS.iter().zip(&line) {
             if n == 0 && *name != field {
-                return Err(format!(
-                    "line {at}: a column must be called {name}, not `{field}`"
-                ));
+                return Err(format!("line {at}: a column must be called {name}, not `{field}`"));
             }
         }
         if line.len() != T::COLUMNS.len() {
@@ -120,22 +118,13 @@ mod tests {
 
     #[test]
     fn every_run_and_every_declaration_is_a_line_under_the_names() {
-        let declared = DeclarationRow {
-            rule: "stop, at last".to_string(),
-            ..DeclarationRow::default()
-        };
-        let twice = RunRow {
-            declarations: vec![declared; 2],
-            ..row(0, Some((1.0, 2.0)))
-        };
+        let declared = DeclarationRow { rule: "stop, at last".to_string(), ..DeclarationRow::default() };
+        let twice = RunRow { declarations: vec![declared; 2], ..row(0, Some((1.0, 2.0))) };
         let [runs, declarations] = as_csv(&[twice, row(1, None)]);
         let commas: Vec<usize> = runs.lines().map(|l| l.matches(',').count()).collect();
         assert_eq!(commas, [RunRow::COLUMNS.len() - 1; 3]);
         assert!(runs.starts_with("run,") && !runs.contains("NaN"));
         assert_eq!(declarations.lines().count(), 3);
-        assert!(
-            declarations.contains(",\"stop, at last\","),
-            "{declarations}"
-        );
+        assert!(declarations.contains(",\"stop, at last\","), "{declarations}");
     }
 }

@@ -19,11 +19,7 @@ pub fn block_of(campaign: &Campaign, spin_up_s: f64, mission_s: f64, shares: u64
     let arms = campaign.n_arms();
     // At best, the arms of a seed share its spin-up.
     let group_s = spin_up_s + arms as f64 * mission_s;
-    let in_time = if group_s > 0.0 {
-        (BLOCK_S / group_s).min(LONGEST as f64) as u64
-    } else {
-        LONGEST
-    };
+    let in_time = if group_s > 0.0 { (BLOCK_S / group_s).min(LONGEST as f64) as u64 } else { LONGEST };
     let groups = campaign.n_runs() / arms;
     let dealt = groups / shares.saturating_mul(A_SHARE).max(1);
     arms * in_time.min(LONGEST / arms).min(dealt).max(1)

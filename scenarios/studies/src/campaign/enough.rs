@@ -35,10 +35,7 @@ impl Wanted {
 #[must_use]
 pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
     let Some(until) = &campaign.spec.until else {
-        return Wanted {
-            runs: manifest.runs,
-            decided: true,
-        };
+        return Wanted { runs: manifest.runs, decided: true };
     };
     let (cells, most) = (campaign.n_cells(), campaign.spec.seeds.count());
     // Successes of each cell that has any, among the seeds examined so far.
@@ -46,14 +43,9 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
     let mut seeds = 0;
     loop {
         let none = ((found.len() as u64) < cells).then_some(&0);
-        let next = (found.values().chain(none))
-            .filter_map(|k| next_n(*k, seeds, until.half_width, most))
-            .max();
+        let next = (found.values().chain(none)).filter_map(|k| next_n(*k, seeds, until.half_width, most)).max();
         let Some(next) = next else {
-            return Wanted {
-                runs: seeds * cells,
-                decided: true,
-            };
+            return Wanted { runs: seeds * cells, decided: true };
         };
         // Runs go seed by seed, so these are the rows of the seeds that have not been examined.
         let new = seeds * cells..next * cells;
@@ -70,10 +62,7 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
                 }
             }
             if there < (new.end.min((block + 1) * manifest.block)) - new.start {
-                return Wanted {
-                    runs: new.end,
-                    decided: next == most,
-                };
+                return Wanted { runs: new.end, decided: next == most };
             }
         }
         seeds = next;

@@ -86,9 +86,6 @@ pub enum CampaignError {
 
 impl From<OutputError> for CampaignError {
     fn from(error: OutputError) -> Self {
-        CampaignError::Write {
-            path: error.path,
-            problem: error.source.to_string(),
-        }
+        CampaignError::Write { path: error.path, problem: error.source.to_string() }
     }
 }

@@ -1,8 +1,5 @@
 //! The runs of one seed: those with the same ocean in lanes, the others one after the other.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "wall times are columns of the table; nothing of them enters a run"
-)]
+#![allow(clippy::disallowed_methods, reason = "wall times are columns of the table; nothing of them enters a run")]
 
 use super::contained::contained;
 use super::one_run::{Gatherer, RunName, failed, guarded, outcome_name};
@@ -31,12 +28,7 @@ pub(crate) struct Heed<'a> {
 
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
 /// ocean afterwards take the spin-up over from each other, and the first of them from `kept` if one is there.
-pub(crate) fn in_lanes(
-    runs: &[Planned<'_>],
-    kept: Option<&SpinUps>,
-    heed: Heed<'_>,
-    keep: &mut dyn FnMut(RunRow),
-) {
+pub(crate) fn in_lanes(runs: &[Planned<'_>], kept: Option<&SpinUps>, heed: Heed<'_>, keep: &mut dyn FnMut(RunRow)) {
     let all: Vec<_> = runs.iter().map(|(name, l)| (*l, name.seed)).collect();
     let mut spun = Vec::new();
     for group in alike(&all, cost::limit()) {
@@ -113,12 +105,7 @@ struct Walls {
 impl Walls {
     /// When the missions begin.
     fn new(going: u32, spin_up: Option<Duration>) -> Self {
-        Self {
-            last: Instant::now(),
-            going,
-            mission: Duration::ZERO,
-            spin_up,
-        }
+        Self { last: Instant::now(), going, mission: Duration::ZERO, spin_up }
     }
 
     /// The wall times of spin-up and mission of a run that ends now.
@@ -153,27 +140,15 @@ mod tests {
     fn planned(arms: &[(String, Loaded)]) -> Vec<Planned<'_>> {
         let mut runs = Vec::new();
         for (run, (arm, loaded)) in (0..).zip(arms) {
-            let name = RunName {
-                run,
-                arm: arm.clone(),
-                ..RunName::default()
-            };
+            let name = RunName { run, arm: arm.clone(), ..RunName::default() };
             runs.push((name, loaded));
         }
         runs
     }
 
-    fn rows(
-        runs: &[Planned<'_>],
-        begin: &dyn Fn() -> bool,
-        go_on: &dyn Fn() -> bool,
-    ) -> Vec<RunRow> {
+    fn rows(runs: &[Planned<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
         let mut rows = Vec::new();
-        let heed = Heed {
-            begin,
-            go_on,
-            took: &|_| {},
-        };
+        let heed = Heed { begin, go_on, took: &|_| {} };
         in_lanes(runs, None, heed, &mut |row| rows.push(row));
         rows
     }
@@ -216,8 +191,7 @@ mod tests {
         };
         let whole = rows(&runs, &|| true, &|| true);
         let part = rows(&runs, &|| true, &go_on);
-        let digests =
-            |rows: &[RunRow]| -> Vec<String> { rows.iter().map(|r| r.digest.clone()).collect() };
+        let digests = |rows: &[RunRow]| -> Vec<String> { rows.iter().map(|r| r.digest.clone()).collect() };
         assert_eq!(digests(&part), digests(&whole)[..1]);
     }
 

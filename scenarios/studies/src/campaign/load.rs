@@ -22,14 +22,8 @@ macro_rules! catalog {
 }
 
 /// The campaigns that come with the program.
-pub const CAMPAIGNS: &[Template] = catalog![
-    "duck_beta",
-    "uniform_beta",
-    "crab_units",
-    "wp_maps",
-    "moth_plus",
-    "kinematic_steps"
-];
+pub const CAMPAIGNS: &[Template] =
+    catalog!["duck_beta", "uniform_beta", "crab_units", "wp_maps", "moth_plus", "kinematic_steps"];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program.
 ///
@@ -39,11 +33,7 @@ pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
     let shown = path.display().to_string();
     let refused = |problem: String, help: Option<String>| {
         let path = shown.clone();
-        CampaignError::from(ScenarioError::File {
-            path,
-            problem,
-            help,
-        })
+        CampaignError::from(ScenarioError::File { path, problem, help })
     };
     let text = match files::read_text(path, LONGEST) {
         Ok(text) => text,
@@ -57,16 +47,10 @@ pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
         }
         Err(e) => return Err(refused(format!("cannot be read: {e}"), None)),
     };
-    let name = path
-        .file_stem()
-        .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let spec = CampaignSpec::parse(&shown, &text)?;
     let beside = path.parent().unwrap_or(Path::new("")).join(&spec.base);
-    let base = if beside.is_file() {
-        load_scenario(&beside)?
-    } else {
-        load_scenario(Path::new(&spec.base))?
-    };
+    let base = if beside.is_file() { load_scenario(&beside)? } else { load_scenario(Path::new(&spec.base))? };
     Campaign::new(&shown, &name, &text, base)
 }
 
@@ -88,13 +72,11 @@ mod tests {
     #[test]
     fn an_arm_that_asks_a_searcher_outside_is_refused() {
         let base = load_scenario(Path::new("duck_external")).unwrap();
-        let text = "(version: 2, title: \"t\", base: \"duck_external\", seeds: 2, arms: [(name: \"a\"), (name: \"b\")])";
+        let text =
+            "(version: 2, title: \"t\", base: \"duck_external\", seeds: 2, arms: [(name: \"a\"), (name: \"b\")])";
         let refused = Campaign::new("own.ron", "own", text, base).unwrap().check();
         let said = refused.unwrap_err().to_string();
-        assert!(
-            said.contains("auv0 asks a searcher outside the program"),
-            "{said}"
-        );
+        assert!(said.contains("auv0 asks a searcher outside the program"), "{said}");
     }
 
     #[test]

@@ -110,12 +110,9 @@ impl Manifest {
                 return Err(CampaignError::Read { path, problem });
             }
         };
-        let unlike = |problem: String| CampaignError::Read {
-            path: path.clone(),
-            problem,
-        };
-        let read: Self = serde_json::from_str(&text)
-            .map_err(|e| unlike(format!("it is not what this program writes: {e}")))?;
+        let unlike = |problem: String| CampaignError::Read { path: path.clone(), problem };
+        let read: Self =
+            serde_json::from_str(&text).map_err(|e| unlike(format!("it is not what this program writes: {e}")))?;
         if read.format != FORMAT {
             let problem = format!(
                 "the folder has format {}, this program reads and writes format {FORMAT}: \
@@ -149,26 +146,18 @@ impl Manifest {
     /// # Errors
     /// If this program cannot read its texts, or if its hashes and numbers do not belong to them.
     pub fn campaign(&self) -> Result<Campaign, CampaignError> {
-        let unlike = |problem: String| CampaignError::Read {
-            path: PathBuf::from(FILE),
-            problem,
-        };
+        let unlike = |problem: String| CampaignError::Read { path: PathBuf::from(FILE), problem };
         for (what, text, said) in [
             ("campaign", &self.campaign_text, &self.campaign_hash),
             ("scenario", &self.scenario_text, &self.scenario_hash),
         ] {
             let is = hash(text);
             if is != *said {
-                let problem = format!(
-                    "{what}_text: its hash is {is}, {what}_hash says {said}: one was changed"
-                );
+                let problem = format!("{what}_text: its hash is {is}, {what}_hash says {said}: one was changed");
                 return Err(unlike(problem));
             }
         }
-        let (path, name) = (
-            PathBuf::from(&self.scenario_name),
-            self.scenario_name.clone(),
-        );
+        let (path, name) = (PathBuf::from(&self.scenario_name), self.scenario_name.clone());
         let text = self.scenario_text.clone();
         let base = Loaded::of_text(path, name, self.base_dir.clone(), text)?;
         let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
@@ -178,10 +167,7 @@ impl Manifest {
             return Err(unlike(problem));
         }
         if !self.block.is_multiple_of(arms) {
-            let problem = format!(
-                "block: must be a multiple of the campaign's {arms} arms, got {}",
-                self.block
-            );
+            let problem = format!("block: must be a multiple of the campaign's {arms} arms, got {}", self.block);
             return Err(unlike(problem));
         }
         Ok(campaign)
@@ -199,10 +185,7 @@ impl Manifest {
             Some(mark) => format!("its runs have the key with the mark {mark}: give it with --key"),
             None => "its runs have no key: leave out --key and RHEOTAXIS_KEY".to_string(),
         };
-        Err(CampaignError::Read {
-            path: PathBuf::from(FILE),
-            problem,
-        })
+        Err(CampaignError::Read { path: PathBuf::from(FILE), problem })
     }
 
     /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
@@ -214,11 +197,7 @@ impl Manifest {
             ("campaign", &self.campaign_hash, &ours.campaign_hash),
             ("version", &self.version, &ours.version),
             ("program", &self.program, &ours.program),
-            (
-                "block size",
-                &self.block.to_string(),
-                &ours.block.to_string(),
-            ),
+            ("block size", &self.block.to_string(), &ours.block.to_string()),
             ("mark of the key", &key(self), &key(ours)),
         ];
         (pairs.iter())
@@ -248,10 +227,7 @@ impl Manifest {
         }
         let there = Self::of(dir)?;
         let block = if asked { self.block } else { there.block };
-        let what = there.differences(&Self {
-            block,
-            ..self.clone()
-        });
+        let what = there.differences(&Self { block, ..self.clone() });
         if what.is_empty() {
             return Ok(there);
         }
@@ -281,28 +257,15 @@ mod tests {
         let said = write(8, true).unwrap_err().to_string();
         assert!(said.contains("block size 4 there, 8 here"), "{said}");
         // The same version with another strategy of somebody's own.
-        let built_anew = Manifest {
-            program: "0".repeat(32),
-            ..Manifest::new(&campaign, 4)
-        };
+        let built_anew = Manifest { program: "0".repeat(32), ..Manifest::new(&campaign, 4) };
         let refused = built_anew.write_first(dir.path(), true).unwrap_err();
         let ours = program_mark();
         let said = refused.to_string();
-        assert!(
-            said.contains(&format!("program {ours} there, 0000")),
-            "{said}"
-        );
+        assert!(said.contains(&format!("program {ours} there, 0000")), "{said}");
         assert_eq!((first.block, second.block), (4, 4));
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
         assert_eq!(first.seeds, "seeds 1 to 10");
-        assert_eq!(
-            Manifest::of(dir.path())
-                .unwrap()
-                .campaign()
-                .unwrap()
-                .n_runs(),
-            40
-        );
+        assert_eq!(Manifest::of(dir.path()).unwrap().campaign().unwrap().n_runs(), 40);
     }
 
     #[test]
@@ -318,34 +281,14 @@ mod tests {
             read.unwrap_err().to_string()
         };
         for (field, value, says) in [
-            (
-                "block",
-                0.into(),
-                "block: must be from 1 to 1099511627776, got 0",
-            ),
-            (
-                "block",
-                3.into(),
-                "block: must be a multiple of the campaign's 2 arms, got 3",
-            ),
+            ("block", 0.into(), "block: must be from 1 to 1099511627776, got 0"),
+            ("block", 3.into(), "block: must be a multiple of the campaign's 2 arms, got 3"),
             ("block", (1_u64 << 63).into(), "got 9223372036854775808"),
             ("block", (-4).into(), "-4"),
-            (
-                "runs",
-                0.into(),
-                "runs: must be from 1 to 1099511627776, got 0",
-            ),
-            (
-                "runs",
-                (1_u64 << 63).into(),
-                "runs: must be from 1 to 1099511627776, got 9223372036854775808",
-            ),
+            ("runs", 0.into(), "runs: must be from 1 to 1099511627776, got 0"),
+            ("runs", (1_u64 << 63).into(), "runs: must be from 1 to 1099511627776, got 9223372036854775808"),
             ("runs", 41.into(), "runs: must be the campaign's 40, got 41"),
-            (
-                "campaign_text",
-                "(version: 2)".into(),
-                "campaign_text: its hash is",
-            ),
+            ("campaign_text", "(version: 2)".into(), "campaign_text: its hash is"),
             ("scenario_hash", "00".into(), "scenario_hash says 00"),
             ("format", 3.into(), "the folder has format 3"),
         ] {
@@ -357,9 +300,6 @@ mod tests {
         old.as_object_mut().unwrap().remove("format");
         fs::write(dir.path().join(FILE), old.to_string()).unwrap();
         let said = Manifest::of(dir.path()).unwrap_err().to_string();
-        assert!(
-            said.contains("the folder has format 1, this program reads and writes format 2"),
-            "{said}"
-        );
+        assert!(said.contains("the folder has format 1, this program reads and writes format 2"), "{said}");
     }
 }

@@ -4,8 +4,8 @@ use super::contained::contained;
 use super::in_lanes::{Heed, in_lanes};
 use super::row::{DeclarationRow, RunRow};
 use output::results::{
-    DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth,
-    Summary, SummaryBuilder, Totals,
+    DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary,
+    SummaryBuilder, Totals,
 };
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
@@ -33,11 +33,7 @@ pub struct RunName {
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
 #[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
-    let heed = Heed {
-        begin: &|| true,
-        go_on: &|| true,
-        took: &|_| {},
-    };
+    let heed = Heed { begin: &|| true, go_on: &|| true, took: &|_| {} };
     let mut made = None;
     let runs = [(name.clone(), loaded)];
     in_lanes(&runs, None, heed, &mut |row| made = Some(row));
@@ -59,12 +55,7 @@ pub(super) struct Gatherer<'a> {
 
 impl<'a> Gatherer<'a> {
     /// For a run that goes on as long as `go_on` says so.
-    pub(super) fn new(
-        run: usize,
-        name: &RunName,
-        loaded: &Loaded,
-        go_on: &'a dyn Fn() -> bool,
-    ) -> Self {
+    pub(super) fn new(run: usize, name: &RunName, loaded: &Loaded, go_on: &'a dyn Fn() -> bool) -> Self {
         let builder = SummaryBuilder::new(&RunInfo {
             scenario_name: loaded.name.clone(),
             title: loaded.scenario.title.clone(),
@@ -73,11 +64,7 @@ impl<'a> Gatherer<'a> {
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         });
-        Self {
-            run,
-            builder,
-            go_on,
-        }
+        Self { run, builder, go_on }
     }
 
     /// The row of the run at its end, with the wall times of its spin-up and mission.
@@ -127,16 +114,12 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         let of_first = r.declarations.iter().zip(of_first);
         of_first.map(|(d, traced_m)| (&r.id, d, traced_m))
     });
-    let by_gantries =
-        (summary.gantries.iter()).filter_map(|g| Some((&g.id, g.declaration.as_ref()?, None)));
-    let mut all: Vec<(&String, &DeclarationSummary, Option<f64>)> =
-        by_robots.chain(by_gantries).collect();
+    let by_gantries = (summary.gantries.iter()).filter_map(|g| Some((&g.id, g.declaration.as_ref()?, None)));
+    let mut all: Vec<(&String, &DeclarationSummary, Option<f64>)> = by_robots.chain(by_gantries).collect();
     all.sort_by(|a, b| a.1.t_s.total_cmp(&b.1.t_s));
     let first = all.first().copied();
     let declared = first.map(|(_, d, _)| d);
-    let declarations: Vec<DeclarationRow> = (all.iter())
-        .map(|(robot, d, _)| declaration(name, robot, d))
-        .collect();
+    let declarations: Vec<DeclarationRow> = (all.iter()).map(|(robot, d, _)| declaration(name, robot, d)).collect();
     let near = |s: &&SourceSummary| {
         within_m.is_some_and(|within_m| {
             declarations.iter().any(|d| {
@@ -149,10 +132,8 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
     // Several gantries share a row only if nobody asks for the path of one of them.
     let gantry = summary.gantries.first();
     let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
-    let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) = (
-        paired(|g| g.speed_far_near_m_s),
-        paired(|g| g.offset_far_near_m),
-    );
+    let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) =
+        (paired(|g| g.speed_far_near_m_s), paired(|g| g.offset_far_near_m));
     let stated = summary.robots.iter().find_map(|r| r.map_stated.as_ref());
     let error = declared.and_then(|d| d.error.as_ref());
     let evidence = declared.and_then(|d| d.evidence);
@@ -187,8 +168,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         near_speed_m_s,
         far_offset_m,
         near_offset_m,
-        correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s))
-            .min_by(f64::total_cmp),
+        correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s)).min_by(f64::total_cmp),
         map_cell_p: stated.map(|m| m.cell_p),
         map_near_p: stated.map(|m| m.near_p),
         map_cell_true: stated.and_then(|m| m.cell_true).map(u64::from),
@@ -253,21 +233,10 @@ mod tests {
 
     #[test]
     fn a_panicking_run_is_a_row_with_its_error() {
-        let name = RunName {
-            run: 4,
-            arm: "a".to_string(),
-            seed: Seed::from(9),
-            ..RunName::default()
-        };
+        let name = RunName { run: 4, arm: "a".to_string(), seed: Seed::from(9), ..RunName::default() };
         let row = guarded(&name, || panic!("the hull is {} m long", -1));
-        assert_eq!(
-            row.error.as_deref(),
-            Some("panicked: the hull is -1 m long")
-        );
+        assert_eq!(row.error.as_deref(), Some("panicked: the hull is -1 m long"));
         assert_eq!((row.run, row.arm.as_str(), row.seed), (4, "a", 9));
-        assert_eq!(
-            (row.outcome.as_str(), row.success, row.digest.as_str()),
-            ("failed", false, "")
-        );
+        assert_eq!((row.outcome.as_str(), row.success, row.digest.as_str()), ("failed", false, ""));
     }
 }

@@ -65,8 +65,7 @@ impl Campaign {
     /// Remarks on how the file was read: that its seeds are those of version 1.
     #[must_use]
     pub fn notes(&self) -> Vec<Fault> {
-        let located =
-            |found| Fault::located(&self.shown, &self.text, &Outline::of(&self.text), found);
+        let located = |found| Fault::located(&self.shown, &self.text, &Outline::of(&self.text), found);
         self.spec.note().map(located).into_iter().collect()
     }
 
@@ -101,10 +100,7 @@ impl Campaign {
         let (condition, seed_index) = match &self.spec.until {
             None => (group / seeds.count(), group % seeds.count()),
             // Seed by seed, so that a campaign that ends early has the same number of runs of each condition.
-            Some(_) => (
-                group % self.spec.n_conditions(),
-                group / self.spec.n_conditions(),
-            ),
+            Some(_) => (group % self.spec.n_conditions(), group / self.spec.n_conditions()),
         };
         Place {
             run,
@@ -195,14 +191,11 @@ impl Campaign {
         let place = |i: u64| (i / arms as u64, (i % arms as u64) as usize);
         // Draws from a few values make the same scenario again and again: each is checked once.
         let hash_of = |(condition, arm)| Ok(hash(&self.text_of(condition, arm)?.1));
-        let hashes: Vec<(u64, Result<String, CampaignError>)> = (0..variants)
-            .into_par_iter()
-            .map(|i| (i, hash_of(place(i))))
-            .collect();
+        let hashes: Vec<(u64, Result<String, CampaignError>)> =
+            (0..variants).into_par_iter().map(|i| (i, hash_of(place(i)))).collect();
         let mut known = BTreeSet::new();
         let new = |(_, hash): &(u64, Result<String, CampaignError>)| {
-            hash.as_ref()
-                .map_or(true, |hash| known.insert(hash.clone()))
+            hash.as_ref().map_or(true, |hash| known.insert(hash.clone()))
         };
         let new: Vec<_> = hashes.into_iter().filter(new).collect();
         let one = |i: u64| -> Result<(), CampaignError> {
@@ -210,10 +203,7 @@ impl Campaign {
             loaded.check()?;
             match controlled(&loaded.scenario) {
                 asking if asking.is_empty() => Ok(()),
-                asking => Err(CampaignError::Outside {
-                    arm: loaded.name.clone(),
-                    robots: asking.join(", "),
-                }),
+                asking => Err(CampaignError::Outside { arm: loaded.name.clone(), robots: asking.join(", ") }),
             }
         };
         let first = (new.into_par_iter())
@@ -258,7 +248,8 @@ mod tests {
         assert_eq!(arm.registry.carried::<u8>().collect::<Vec<_>>(), [&7]);
     }
 
-    const ARMS: &str = r#"seeds: 3, arms: [(name: "slow", set: [("robots[0].strategy.speed_m_s", "1")]), (name: "fast")]"#;
+    const ARMS: &str =
+        r#"seeds: 3, arms: [(name: "slow", set: [("robots[0].strategy.speed_m_s", "1")]), (name: "fast")]"#;
 
     #[test]
     fn arms_share_seeds_and_so_do_conditions_unless_they_are_hashed() {
@@ -283,14 +274,8 @@ mod tests {
         seeds.sort_unstable();
         seeds.dedup();
         assert_eq!(seeds.len(), 6);
-        assert_eq!(
-            c.condition_name(1),
-            "time.limit_s=10; sources[0].rate_g_s=2"
-        );
-        assert_eq!(
-            c.condition_name(2),
-            "time.limit_s=20; sources[0].rate_g_s=1"
-        );
+        assert_eq!(c.condition_name(1), "time.limit_s=10; sources[0].rate_g_s=2");
+        assert_eq!(c.condition_name(2), "time.limit_s=20; sources[0].rate_g_s=1");
         assert_eq!(places[12].condition, 2);
         let changed = c.loaded(2, 0).unwrap().scenario;
         assert_eq!(changed.time.limit_s.get(), 20.0);
@@ -303,9 +288,7 @@ mod tests {
         let c = campaign(&format!(
             r#"{ARMS}, conditions: Random(n: 50, draw: [("time.limit_s", LogUniform(10, 1000)), ("terrain.depth_m", Choice(["9", "11"]))])"#
         ));
-        let limits: Vec<f64> = (0..50)
-            .map(|i| c.loaded(i, 0).unwrap().scenario.time.limit_s.get())
-            .collect();
+        let limits: Vec<f64> = (0..50).map(|i| c.loaded(i, 0).unwrap().scenario.time.limit_s.get()).collect();
         assert!(limits.iter().all(|l| (10.0..1000.0).contains(l)));
         // Half of them lie below the geometric mean: 25 of 50, standard deviation 3.5; five of these are allowed.
         let below = limits.iter().filter(|l| **l < 100.0).count();
@@ -318,12 +301,7 @@ mod tests {
         let limit_s = |rest: &str| campaign(rest).limit_s().unwrap();
         let base = campaign(ARMS).base.scenario.time.limit_s.get();
         assert_eq!(limit_s(ARMS), base);
-        assert_eq!(
-            limit_s(&format!(
-                r#"{ARMS}, conditions: Grid([("time.limit_s", ["30", "20"])])"#
-            )),
-            20.0
-        );
+        assert_eq!(limit_s(&format!(r#"{ARMS}, conditions: Grid([("time.limit_s", ["30", "20"])])"#)), 20.0);
         let arm = r#"seeds: 3, arms: [(name: "a"), (name: "b", set: [("time.limit_s", "9")])]"#;
         assert_eq!(limit_s(arm), 9.0);
     }
@@ -331,31 +309,21 @@ mod tests {
     #[test]
     fn mistakes_in_an_arm_are_the_loaders_and_name_it() {
         let said = |path: &str, value: &str| -> String {
-            let c = campaign(&format!(
-                r#"seeds: 1, arms: [(name: "good"), (name: "odd", set: [("{path}", "{value}")])]"#
-            ));
+            let c =
+                campaign(&format!(r#"seeds: 1, arms: [(name: "good"), (name: "odd", set: [("{path}", "{value}")])]"#));
             match c.check().unwrap_err() {
                 CampaignError::Scenario(e) => e.lines().join("\n"),
                 other => other.to_string(),
             }
         };
         let negative = said("time.limit_s", "-1");
-        assert!(
-            negative.starts_with("uniform_channel (arm odd):"),
-            "{negative}"
-        );
+        assert!(negative.starts_with("uniform_channel (arm odd):"), "{negative}");
         assert!(negative.contains("time.limit_s: must be > 0"), "{negative}");
         let unknown = said("time.limits", "1");
         assert!(unknown.contains("there is no field `limits`"), "{unknown}");
         let outside = said("sources[0].east_m", "9000");
-        assert!(
-            outside.contains("(arm odd)") && outside.contains("sources[0]"),
-            "{outside}"
-        );
+        assert!(outside.contains("(arm odd)") && outside.contains("sources[0]"), "{outside}");
         let nowhere = said("robots[4].id", "1");
-        assert_eq!(
-            nowhere,
-            "uniform_channel (arm odd): `robots[4].id`: `robots` has no element 4"
-        );
+        assert_eq!(nowhere, "uniform_channel (arm odd): `robots[4].id`: `robots` has no element 4");
     }
 }

@@ -53,9 +53,7 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
         return Err(CampaignError::NoRun { run, runs });
     }
     match read_block(dir, &manifest, run / manifest.block) {
-        BlockState::Done(rows) | BlockState::Part(rows) => {
-            Ok(rows.into_iter().find(|r| r.run == run))
-        }
+        BlockState::Done(rows) | BlockState::Part(rows) => Ok(rows.into_iter().find(|r| r.run == run)),
         BlockState::Missing => Ok(None),
         BlockState::Broken(error) => Err(error),
     }
@@ -98,16 +96,9 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
     }
     let declarations_path = beside(to);
     let csv_beside = csv.map(beside);
-    let files = [
-        Some(to),
-        Some(&declarations_path),
-        csv,
-        csv_beside.as_deref(),
-    ];
+    let files = [Some(to), Some(&declarations_path), csv, csv_beside.as_deref()];
     for file in files.into_iter().flatten() {
-        clear_abandoned(folder_of(file), |name| {
-            file.file_name().is_some_and(|f| f == name)
-        });
+        clear_abandoned(folder_of(file), |name| file.file_name().is_some_and(|f| f == name));
     }
     let mut runs = Table::create(to, csv)?;
     let mut declared = Table::create(&declarations_path, csv_beside.as_deref())?;
@@ -119,12 +110,7 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
     let (rows, declarations) = (runs.lines, declared.lines);
     // If one file cannot be given its name, the others are not affected.
     runs.close().and(declared.close())?;
-    Ok(Merged {
-        rows,
-        of: wanted(&manifest.campaign()?, dir, &manifest).runs,
-        declarations,
-        declarations_path,
-    })
+    Ok(Merged { rows, of: wanted(&manifest.campaign()?, dir, &manifest).runs, declarations, declarations_path })
 }
 
 /// A table that grows block by block.
@@ -136,10 +122,7 @@ struct Table<'a, T> {
 }
 
 fn unwritten<E: ToString>(path: &Path) -> impl Fn(E) -> CampaignError + use<'_, E> {
-    move |e| CampaignError::Write {
-        path: path.to_owned(),
-        problem: e.to_string(),
-    }
+    move |e| CampaignError::Write { path: path.to_owned(), problem: e.to_string() }
 }
 
 impl<'a, T: Record> Table<'a, T> {
@@ -155,12 +138,7 @@ impl<'a, T: Record> Table<'a, T> {
                 Some((path, to))
             }
         };
-        Ok(Self {
-            path,
-            parquet,
-            csv,
-            lines: 0,
-        })
+        Ok(Self { path, parquet, csv, lines: 0 })
     }
 
     fn add(&mut self, records: &[T]) -> Result<(), CampaignError> {
@@ -168,8 +146,7 @@ impl<'a, T: Record> Table<'a, T> {
         self.parquet.rows(records).map_err(unwritten(self.path))?;
         if let Some((path, to)) = &mut self.csv {
             for record in records {
-                to.write_record(csv_fields(record))
-                    .map_err(unwritten(path))?;
+                to.write_record(csv_fields(record)).map_err(unwritten(path))?;
             }
         }
         Ok(())

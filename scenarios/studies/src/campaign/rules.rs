@@ -34,14 +34,9 @@ impl Campaign {
 
     /// Shows `what` a scenario, and if arms or conditions set something of `field`, that of each of them.
     fn each(&self, field: &str, mut what: impl FnMut(&Scenario)) -> Result<(), CampaignError> {
-        let set =
-            |paths: &[(String, String)]| paths.iter().any(|(path, _)| path.starts_with(field));
+        let set = |paths: &[(String, String)]| paths.iter().any(|(path, _)| path.starts_with(field));
         let by_arms = self.spec.arms.iter().any(|a| set(&a.set));
-        let conditions = if set(&self.condition(0)) {
-            self.spec.n_conditions()
-        } else {
-            1
-        };
+        let conditions = if set(&self.condition(0)) { self.spec.n_conditions() } else { 1 };
         let arms = if by_arms { self.spec.arms.len() } else { 1 };
         for condition in 0..conditions {
             for arm in 0..arms {

@@ -1,8 +1,5 @@
 //! Runs the remaining work of this process's share of a campaign.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "wall time decides when rows are written, never what a run does"
-)]
+#![allow(clippy::disallowed_methods, reason = "wall time decides when rows are written, never what a run does")]
 
 use super::block::{add_to_block, is_of_campaign, present, read_block};
 use super::cost::block_of;
@@ -132,10 +129,7 @@ pub fn run(
         }
         let place = (options.shard, campaign.n_arms(), wanted.runs);
         let share = Share::look(dir, &manifest, &by_cost, place, tell)?;
-        tell(Event::Begun {
-            runs: share.runs,
-            done: share.done,
-        });
+        tell(Event::Begun { runs: share.runs, done: share.done });
         let mut saved = Instant::now();
         let mut stopping = false;
         let ended = work.go(&|| share.next(), &|row| share.keep(row), &mut |over| {
@@ -151,10 +145,7 @@ pub fn run(
         ended.and(share.write_out())?;
         let left = share.runs - share.done - share.kept();
         if left > 0 {
-            return Ok(RunEnded::Stopped {
-                done: share.kept(),
-                left,
-            });
+            return Ok(RunEnded::Stopped { done: share.kept(), left });
         }
         // Somebody may have removed rows meanwhile. They are made again.
         if share.kept() > 0 {
@@ -191,11 +182,7 @@ fn new_manifest(campaign: &Campaign, options: &RunOptions, first: &RunRow) -> Ma
 
 /// Makes the folder the campaign's own, or checks that it is. `None` if it is new: then the first run determines the
 /// length of blocks.
-fn settle(
-    campaign: &Campaign,
-    dir: &Path,
-    options: &RunOptions,
-) -> Result<Option<Manifest>, CampaignError> {
+fn settle(campaign: &Campaign, dir: &Path, options: &RunOptions) -> Result<Option<Manifest>, CampaignError> {
     let found = Manifest::find(dir)?;
     let asked = (options.block)
         .map(|block| block.max(1).next_multiple_of(campaign.n_arms()))
@@ -223,10 +210,7 @@ fn settle(
         }
         return asked.map(|_| ours.write_first(dir, true)).transpose();
     }
-    let ours = Manifest {
-        block: ours.block.next_multiple_of(campaign.n_arms()),
-        ..ours
-    };
+    let ours = Manifest { block: ours.block.next_multiple_of(campaign.n_arms()), ..ours };
     ours.write(dir)?;
     Ok(Some(ours))
 }

@@ -20,11 +20,7 @@ pub(super) fn room() -> Vec<u8> {
 /// Puts the seal into its space.
 pub(super) fn close(bytes: &mut [u8]) {
     let digits = AT + MARK.len();
-    assert_eq!(
-        bytes.get(AT..digits),
-        Some(MARK),
-        "the table was begun without room for its seal: write it first"
-    );
+    assert_eq!(bytes.get(AT..digits), Some(MARK), "the table was begun without room for its seal: write it first");
     let mut digest = Digest::default();
     digest.bytes(&bytes[..digits]);
     digest.bytes(&bytes[digits + DIGITS..]);
@@ -53,11 +49,7 @@ pub(super) fn look(file: &mut (impl Read + Seek)) -> std::io::Result<Result<(), 
         }
     }
     let whole = digest.hex().as_bytes() == &head[digits..];
-    Ok(if whole {
-        Ok(())
-    } else {
-        Err("its bytes are not those that were written (wrong hash)".to_string())
-    })
+    Ok(if whole { Ok(()) } else { Err("its bytes are not those that were written (wrong hash)".to_string()) })
 }
 
 #[cfg(test)]

@@ -47,11 +47,7 @@ impl Seeds {
     pub fn seed(self, condition: u64, index: u64) -> u64 {
         match self {
             Seeds::Literal { first, .. } => first + index,
-            Seeds::Hashed { seed, .. } => key(
-                seed,
-                &format!("condition {condition}"),
-                &format!("seed {index}"),
-            ),
+            Seeds::Hashed { seed, .. } => key(seed, &format!("condition {condition}"), &format!("seed {index}")),
         }
     }
 
@@ -98,12 +94,8 @@ pub(super) enum Asked {
 /// Puts the bare number that [`Asked`] reads into the schema of the forms.
 fn or_number(forms: &mut Schema) {
     if let Some(Value::Array(forms)) = forms.get_mut("oneOf") {
-        let what =
-            "`20` is seeds 1 to 20; in a file of version 1, 20 seeds hashed from its `seed`.";
-        forms.insert(
-            0,
-            json!({ "type": "integer", "minimum": 1, "maximum": MOST, "description": what }),
-        );
+        let what = "`20` is seeds 1 to 20; in a file of version 1, 20 seeds hashed from its `seed`.";
+        forms.insert(0, json!({ "type": "integer", "minimum": 1, "maximum": MOST, "description": what }));
     }
 }
 
@@ -132,10 +124,7 @@ mod tests {
 
     #[test]
     fn literal_seeds_are_consecutive_and_the_same_under_each_condition() {
-        let seeds = Seeds::Literal {
-            first: 101,
-            count: 3,
-        };
+        let seeds = Seeds::Literal { first: 101, count: 3 };
         let all: Vec<u64> = (0..3).map(|k| seeds.seed(7, k)).collect();
         assert_eq!(all, [101, 102, 103]);
         assert_eq!(seeds.seed(0, 2), seeds.seed(1, 2));
@@ -156,10 +145,7 @@ mod tests {
         assert_eq!(literal(0, MOST), None);
         let said = literal(u64::MAX, 2).unwrap();
         assert_eq!(said.0, "first");
-        assert!(
-            said.1.contains("from 0 to 18446744073709551614"),
-            "{said:?}"
-        );
+        assert!(said.1.contains("from 0 to 18446744073709551614"), "{said:?}");
         for count in [0, MOST + 1] {
             let said = Seeds::Hashed { seed: 1, count }.fault().unwrap();
             assert_eq!(said.0, "count");

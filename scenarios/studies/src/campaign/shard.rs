@@ -30,17 +30,11 @@ impl FromStr for Shard {
     fn from_str(s: &str) -> Result<Self, String> {
         let wrong = || "must be I/N with I from 1 to N, such as 3/8".to_string();
         let (i, n) = s.split_once('/').ok_or_else(wrong)?;
-        let (i, count): (u64, u64) = (
-            i.parse().map_err(|_| wrong())?,
-            n.parse().map_err(|_| wrong())?,
-        );
+        let (i, count): (u64, u64) = (i.parse().map_err(|_| wrong())?, n.parse().map_err(|_| wrong())?);
         if i == 0 || i > count {
             return Err(wrong());
         }
-        Ok(Self {
-            index: i - 1,
-            count,
-        })
+        Ok(Self { index: i - 1, count })
     }
 }
 
@@ -59,18 +53,15 @@ impl Shard {
     ///
     /// # Errors
     /// If the variables do not make a share.
-    pub fn from_environment(
-        get: impl Fn(&str) -> Option<String>,
-    ) -> Result<Option<Self>, CampaignError> {
+    pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Option<Self>, CampaignError> {
         let number = |name: &str| -> Result<Option<u64>, CampaignError> {
             let Some(text) = get(name) else {
                 return Ok(None);
             };
-            text.trim().parse().map(Some).map_err(|_| {
-                CampaignError::Shard(format!(
-                    "{name} is `{text}`, not a whole number: give --shard"
-                ))
-            })
+            text.trim()
+                .parse()
+                .map(Some)
+                .map_err(|_| CampaignError::Shard(format!("{name} is `{text}`, not a whole number: give --shard")))
         };
         let total = |names: &[&str]| -> Result<u64, CampaignError> {
             for name in names {
@@ -88,14 +79,10 @@ impl Shard {
             let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
             let Some(count) = number("SLURM_ARRAY_TASK_COUNT")? else {
                 return Err(CampaignError::Shard(
-                    "SLURM_ARRAY_TASK_ID is set but not SLURM_ARRAY_TASK_COUNT: give --shard"
-                        .into(),
+                    "SLURM_ARRAY_TASK_ID is set but not SLURM_ARRAY_TASK_COUNT: give --shard".into(),
                 ));
             };
-            let index = id
-                .checked_sub(min)
-                .filter(|d| d % step == 0)
-                .map(|d| d / step);
+            let index = id.checked_sub(min).filter(|d| d % step == 0).map(|d| d / step);
             ("SLURM_ARRAY_TASK_ID", index, count)
         } else if let Some(id) = number("HQ_TASK_ID")? {
             let count = total(&["RHEOTAXIS_SHARDS"])?;
@@ -161,11 +148,7 @@ mod tests {
         };
         assert_eq!(slurm("7", "5", "1", "4"), share(2, 4));
         assert_eq!(slurm("9", "1", "4", "3"), share(2, 3));
-        assert!(
-            slurm("9", "1", "1", "3")
-                .unwrap_err()
-                .contains("give --shard")
-        );
+        assert!(slurm("9", "1", "1", "3").unwrap_err().contains("give --shard"));
         let hq = [("HQ_TASK_ID", "2"), ("RHEOTAXIS_SHARDS", "5")];
         assert_eq!(from(&hq), share(1, 5));
         assert!(from(&hq[..1]).unwrap_err().contains("set RHEOTAXIS_SHARDS"));

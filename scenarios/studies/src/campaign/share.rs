@@ -1,8 +1,6 @@
 //! A share of a campaign: the runs still to do, and the blocks that their rows fill.
 
-use super::block::{
-    BlockState, add_to_block, block_path, declarations_path, present, read_block, write_block,
-};
+use super::block::{BlockState, add_to_block, block_path, declarations_path, present, read_block, write_block};
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
@@ -100,8 +98,7 @@ impl<'a> Share<'a> {
             }
             let rows = match read_block(dir, manifest, block) {
                 BlockState::Broken(error)
-                    if is_special(&block_path(dir, block))
-                        || is_special(&declarations_path(dir, block)) =>
+                    if is_special(&block_path(dir, block)) || is_special(&declarations_path(dir, block)) =>
                 {
                     return Err(error);
                 }
@@ -111,9 +108,7 @@ impl<'a> Share<'a> {
                 }
                 state => state.rows(),
             };
-            let there: BTreeSet<u64> = (rows.iter().map(|r| r.run))
-                .filter(|run| asked.contains(run))
-                .collect();
+            let there: BTreeSet<u64> = (rows.iter().map(|r| r.run)).filter(|run| asked.contains(run)).collect();
             share.done += there.len() as u64;
             if there.len() as u64 == asked.end - asked.start {
                 line.whole.insert(block);
@@ -146,9 +141,7 @@ impl<'a> Share<'a> {
                 done = line.there.get(&block);
             }
             let runs = first..(first + self.arms).min(self.end);
-            let left: Vec<u64> = runs
-                .filter(|r| done.is_none_or(|d| !d.contains(r)))
-                .collect();
+            let left: Vec<u64> = runs.filter(|r| done.is_none_or(|d| !d.contains(r))).collect();
             line.next = first + self.arms;
             if !left.is_empty() {
                 return Some(left);

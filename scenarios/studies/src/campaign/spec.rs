@@ -12,10 +12,7 @@ const VERSION: u32 = 2;
 const WIDEST: f64 = 0.5;
 
 /// Campaign files, for `rheotaxis explain`.
-pub const FILE: FileKind = FileKind::new::<File>(
-    "campaign",
-    "A campaign file, which `rheotaxis campaign plan` reads.",
-);
+pub const FILE: FileKind = FileKind::new::<File>("campaign", "A campaign file, which `rheotaxis campaign plan` reads.");
 
 /// A campaign: one scenario, several arms, many seeds.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,11 +85,7 @@ impl Arm {
     #[must_use]
     pub fn words(&self) -> String {
         let set: Vec<String> = self.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
-        if set.is_empty() {
-            "as it is".to_string()
-        } else {
-            set.join("; ")
-        }
+        if set.is_empty() { "as it is".to_string() } else { set.join("; ") }
     }
 }
 
@@ -147,14 +140,9 @@ impl CampaignSpec {
         let file: File = read(name, text, &meaning)?;
         let outline = Outline::of(text);
         let (spec, found) = Self::of(file);
-        let faults: Vec<Fault> = (found.into_iter().chain(spec.check()))
-            .map(|found| Fault::located(name, text, &outline, found))
-            .collect();
-        if faults.is_empty() {
-            Ok(spec)
-        } else {
-            Err(ScenarioError::of(name, faults))
-        }
+        let faults: Vec<Fault> =
+            (found.into_iter().chain(spec.check())).map(|found| Fault::located(name, text, &outline, found)).collect();
+        if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::of(name, faults)) }
     }
 
     /// What a file means, and which of its fields its version does not have.
@@ -235,9 +223,9 @@ impl CampaignSpec {
     pub fn n_conditions(&self) -> u64 {
         match &self.conditions {
             Conditions::Single => 1,
-            Conditions::Grid(axes) => (axes.iter()).fold(1, |n: u64, (_, values)| {
-                n.saturating_mul(values.len() as u64)
-            }),
+            Conditions::Grid(axes) => {
+                (axes.iter()).fold(1, |n: u64, (_, values)| n.saturating_mul(values.len() as u64))
+            }
             Conditions::Random(random) => random.n,
         }
     }
@@ -247,10 +235,7 @@ impl CampaignSpec {
         let mut wrong = |path: &str, problem: String| found.push(Found::error(path, problem));
         if !(1..=VERSION).contains(&self.version) {
             let got = self.version;
-            wrong(
-                "version",
-                format!("this program reads versions 1 and {VERSION}, got {got}"),
-            );
+            wrong("version", format!("this program reads versions 1 and {VERSION}, got {got}"));
         }
         if let Some((field, problem)) = self.seeds.fault() {
             wrong("seeds", format!("{field} {problem}"));
@@ -259,10 +244,7 @@ impl CampaignSpec {
             && !(until.half_width > 0.0 && until.half_width < WIDEST)
         {
             let got = until.half_width;
-            wrong(
-                "until.half_width",
-                format!("must be above 0 and below {WIDEST}, got {got}"),
-            );
+            wrong("until.half_width", format!("must be above 0 and below {WIDEST}, got {got}"));
         }
         if self.arms.is_empty() {
             wrong("arms", "there must be at least one arm".to_string());
@@ -273,10 +255,7 @@ impl CampaignSpec {
             }
             if self.arms[..i].iter().any(|a| a.name == arm.name) {
                 let name = &arm.name;
-                wrong(
-                    &format!("arms[{i}].name"),
-                    format!("\"{name}\" is taken by another arm"),
-                );
+                wrong(&format!("arms[{i}].name"), format!("\"{name}\" is taken by another arm"));
             }
         }
         let varied: Vec<&String> = match &self.conditions {
@@ -284,10 +263,7 @@ impl CampaignSpec {
             Conditions::Grid(axes) => {
                 for (i, (_, values)) in axes.iter().enumerate() {
                     if values.is_empty() {
-                        wrong(
-                            &format!("conditions[{i}]"),
-                            "there must be at least one value".to_string(),
-                        );
+                        wrong(&format!("conditions[{i}]"), "there must be at least one value".to_string());
                     }
                 }
                 axes.iter().map(|(path, _)| path).collect()
@@ -295,10 +271,7 @@ impl CampaignSpec {
             Conditions::Random(random) => {
                 if !(1..=MOST).contains(&random.n) {
                     let got = random.n;
-                    wrong(
-                        "conditions.n",
-                        format!("must be from 1 to {MOST}, got {got}"),
-                    );
+                    wrong("conditions.n", format!("must be from 1 to {MOST}, got {got}"));
                 }
                 for (i, (_, draw)) in random.draw.iter().enumerate() {
                     if let Err(problem) = draw.check() {
@@ -311,21 +284,14 @@ impl CampaignSpec {
         for (i, arm) in self.arms.iter().enumerate() {
             for (path, _) in &arm.set {
                 if varied.contains(&path) {
-                    wrong(
-                        &format!("arms[{i}].set"),
-                        format!("`{path}` is set by the conditions too"),
-                    );
+                    wrong(&format!("arms[{i}].set"), format!("`{path}` is set by the conditions too"));
                 }
             }
         }
-        let runs = (self.n_conditions())
-            .checked_mul(self.seeds.count())
-            .and_then(|n| n.checked_mul(self.arms.len() as u64));
+        let runs =
+            (self.n_conditions()).checked_mul(self.seeds.count()).and_then(|n| n.checked_mul(self.arms.len() as u64));
         if runs.is_none_or(|n| n > MOST) {
-            wrong(
-                "seeds",
-                format!("the campaign has more than {MOST} runs (arms x conditions x seeds)"),
-            );
+            wrong("seeds", format!("the campaign has more than {MOST} runs (arms x conditions x seeds)"));
         }
         found
     }
@@ -334,15 +300,13 @@ impl CampaignSpec {
 impl Draw {
     fn check(&self) -> Result<(), String> {
         match self {
-            Draw::Uniform(a, b) if !(a.is_finite() && b.is_finite() && a < b) => Err(format!(
-                "needs two finite numbers, the smaller first, got {a}, {b}"
-            )),
-            Draw::LogUniform(a, b) if !(*a > 0.0 && b.is_finite() && a < b) => Err(format!(
-                "needs two positive numbers, the smaller first, got {a}, {b}"
-            )),
-            Draw::Choice(values) if values.is_empty() => {
-                Err("there must be at least one value".to_string())
+            Draw::Uniform(a, b) if !(a.is_finite() && b.is_finite() && a < b) => {
+                Err(format!("needs two finite numbers, the smaller first, got {a}, {b}"))
             }
+            Draw::LogUniform(a, b) if !(*a > 0.0 && b.is_finite() && a < b) => {
+                Err(format!("needs two positive numbers, the smaller first, got {a}, {b}"))
+            }
+            Draw::Choice(values) if values.is_empty() => Err("there must be at least one value".to_string()),
             _ => Ok(()),
         }
     }

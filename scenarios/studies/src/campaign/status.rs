@@ -52,10 +52,7 @@ impl Status {
     pub fn of(dir: &Path) -> Result<Self, CampaignError> {
         let manifest = Manifest::of(dir)?;
         let campaign = manifest.campaign()?;
-        let named = |name: &String| ArmStatus {
-            name: name.clone(),
-            ..ArmStatus::default()
-        };
+        let named = |name: &String| ArmStatus { name: name.clone(), ..ArmStatus::default() };
         let wanted = wanted(&campaign, dir, &manifest);
         let mut status = Self {
             arms: campaign.spec.arms.iter().map(|a| named(&a.name)).collect(),

@@ -37,12 +37,8 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
             schema.push_str(&format!("  {presence} {kind} {name}{logical};\n"));
         }
         schema.push('}');
-        let said = (T::COLUMNS.iter()).map(|(c, ..)| {
-            (
-                c.name.to_string(),
-                json!({ "unit": c.unit, "meaning": c.what }),
-            )
-        });
+        let said =
+            (T::COLUMNS.iter()).map(|(c, ..)| (c.name.to_string(), json!({ "unit": c.unit, "meaning": c.what })));
         let said = Value::Object(said.collect()).to_string();
         let notes = (notes.iter())
             .map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()))
@@ -78,9 +74,7 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
                     let values = rows.map(|r| get(r).map(u64::cast_signed));
                     put::<Int64Type>(to, *optional, values)?;
                 }
-                Column::Truth(get, _) => {
-                    put::<BoolType>(to, *optional, rows.map(|r| Some(get(r))))?
-                }
+                Column::Truth(get, _) => put::<BoolType>(to, *optional, rows.map(|r| Some(get(r))))?,
                 Column::Text(get, _) => {
                     let values = rows.map(|r| get(r).map(ByteArray::from));
                     put::<ByteArrayType>(to, *optional, values)?;
@@ -103,8 +97,7 @@ fn put<D: DataType>(
     values: impl Iterator<Item = Option<D::T>>,
 ) -> Result<()> {
     let values: Vec<Option<D::T>> = values.collect();
-    let levels: Option<Vec<i16>> =
-        optional.then(|| values.iter().map(|v| i16::from(v.is_some())).collect());
+    let levels: Option<Vec<i16>> = optional.then(|| values.iter().map(|v| i16::from(v.is_some())).collect());
     let there: Vec<D::T> = values.into_iter().flatten().collect();
     (to.typed::<D>()).write_batch(&there, levels.as_deref(), None)?;
     to.close()
@@ -116,23 +109,12 @@ fn odd(what: &str) -> ParquetError {
 
 /// All rows of a table of at most `most` rows, and the notes in its footer. What footer and pages claim is first
 /// compared with the file and with that number, because the library would reserve memory for any claim.
-pub(super) fn read<T: Record>(
-    from: impl ChunkReader + 'static,
-    most: usize,
-) -> Result<(Vec<T>, Vec<KeyValue>)> {
+pub(super) fn read<T: Record>(from: impl ChunkReader + 'static, most: usize) -> Result<(Vec<T>, Vec<KeyValue>)> {
     let length = from.len();
     let reader = SerializedFileReader::new(from)?;
     let meta = reader.metadata().file_metadata();
-    let names: Vec<&str> = meta
-        .schema()
-        .get_fields()
-        .iter()
-        .map(|f| f.name())
-        .collect();
-    if !names
-        .iter()
-        .eq(T::COLUMNS.iter().map(|(info, ..)| &info.name))
-    {
+    let names: Vec<&str> = meta.schema().get_fields().iter().map(|f| f.name()).collect();
+    if !names.iter().eq(T::COLUMNS.iter().map(|(info, ..)| &info.name)) {
         return Err(odd("its columns are not those of this table"));
     }
     let fits = |n: i64| usize::try_from(n).is_ok_and(|n| n <= most);
@@ -167,9 +149,7 @@ pub(super) fn read<T: Record>(
 
 fn row_of<T: Record>(fields: &Row) -> Result<T> {
     let mut row = T::default();
-    for ((ColumnInfo { name, .. }, _, column), (_, field)) in
-        T::COLUMNS.iter().zip(fields.get_column_iter())
-    {
+    for ((ColumnInfo { name, .. }, _, column), (_, field)) in T::COLUMNS.iter().zip(fields.get_column_iter()) {
         match (column, field) {
             (Column::Number(_, set), Field::ULong(v)) => set(&mut row, *v),
             (Column::Truth(_, set), Field::Bool(v)) => set(&mut row, *v),
@@ -217,11 +197,7 @@ mod tests {
         file.write_all(&bytes).unwrap();
         let said = read::<RunRow>(file, 2).unwrap_err().to_string();
         assert!(said.contains("more rows than it can"), "{said}");
-        assert!(
-            notes
-                .iter()
-                .any(|n| n.key == "k" && n.value.as_deref() == Some("v"))
-        );
+        assert!(notes.iter().any(|n| n.key == "k" && n.value.as_deref() == Some("v")));
         let said = notes.iter().find(|n| n.key == COLUMNS).unwrap();
         let said: Value = serde_json::from_str(said.value.as_deref().unwrap()).unwrap();
         assert_eq!(said.as_object().unwrap().len(), RunRow::COLUMNS.len());

@@ -8,10 +8,7 @@ pub(super) fn with_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     with(ThreadPoolBuilder::new().build(), work)
 }
 
-fn with<R: Send>(
-    wanted: Result<ThreadPool, ThreadPoolBuildError>,
-    work: impl FnOnce() -> R + Send,
-) -> R {
+fn with<R: Send>(wanted: Result<ThreadPool, ThreadPoolBuildError>, work: impl FnOnce() -> R + Send) -> R {
     let here = || ThreadPoolBuilder::new().num_threads(1).use_current_thread();
     match wanted.or_else(|_| here().build()) {
         Ok(pool) => pool.install(work),

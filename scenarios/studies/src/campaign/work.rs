@@ -1,9 +1,6 @@
 //! The threads of a campaign. Each takes the arms of one seed at a time, those with the same ocean in lanes, and every
 //! row is kept as soon as its run ends.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "the limit of wall time decides when to stop, never what a run does"
-)]
+#![allow(clippy::disallowed_methods, reason = "the limit of wall time decides when to stop, never what a run does")]
 
 use super::error::CampaignError;
 use super::in_lanes::{Heed, Planned, in_lanes};
@@ -37,12 +34,7 @@ pub(super) struct Limits<'a> {
 
 impl<'a> Limits<'a> {
     pub(super) fn new(max_wall: Option<Duration>, stop: &'a AtomicBool) -> Self {
-        Self {
-            begun: Instant::now(),
-            max_wall,
-            stop,
-            longest_ms: AtomicU64::new(0),
-        }
+        Self { begun: Instant::now(), max_wall, stop, longest_ms: AtomicU64::new(0) }
     }
 
     /// Notes how long a run took, or runs in lanes together.
@@ -154,12 +146,7 @@ impl Work<'_> {
     }
 
     /// Makes runs of one seed and condition.
-    fn seed(
-        &self,
-        runs: &[u64],
-        heed: Heed<'_>,
-        keep: &mut dyn FnMut(RunRow),
-    ) -> Result<(), CampaignError> {
+    fn seed(&self, runs: &[u64], heed: Heed<'_>, keep: &mut dyn FnMut(RunRow)) -> Result<(), CampaignError> {
         let condition = runs.first().map(|run| self.campaign.place(*run).condition);
         let scenarios = self.scenarios(condition.unwrap_or_default())?;
         let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);

@@ -52,8 +52,7 @@ pub struct Compared {
 pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<Compared> {
     let ours = |f: &Figure| {
         let asked = |r: &&RunRow| {
-            f.arm.as_ref().is_none_or(|arm| r.arm == *arm)
-                && f.among.is_none_or(|event| event.of(r) == Some(true))
+            f.arm.as_ref().is_none_or(|arm| r.arm == *arm) && f.among.is_none_or(|event| event.of(r) == Some(true))
         };
         let of: Vec<RunRow> = runs.iter().filter(asked).cloned().collect();
         f.quantity.of(&of)
@@ -72,9 +71,7 @@ fn one(figure: &Figure, ours: Estimate) -> Compared {
             let single = matches!(paper, Paper::Run(_));
             if interval.contains(value) {
                 Standing::Inside
-            } else if papers_interval
-                .is_some_and(|p| p.low <= interval.high && interval.low <= p.high)
-            {
+            } else if papers_interval.is_some_and(|p| p.low <= interval.high && interval.low <= p.high) {
                 Standing::Meets
             } else if single && ours.spread.is_some_and(|s| s.contains(value)) {
                 Standing::AmongRuns
@@ -84,12 +81,7 @@ fn one(figure: &Figure, ours: Estimate) -> Compared {
         }
         _ => Standing::None,
     };
-    Compared {
-        figure: figure.clone(),
-        ours,
-        papers_interval,
-        standing,
-    }
+    Compared { figure: figure.clone(), ours, papers_interval, standing }
 }
 
 #[cfg(test)]

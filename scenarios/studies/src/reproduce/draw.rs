@@ -70,15 +70,8 @@ impl Law {
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub(super) fn drawn<'a>(
-    draws: &[Draw],
-    arm: &str,
-    loaded: &'a Loaded,
-    seed: Seed,
-) -> Result<Cow<'a, Loaded>, String> {
-    changed(draws, arm, loaded, &|path| {
-        Stream::new(seed, path, "draw").uniform()
-    })
+pub(super) fn drawn<'a>(draws: &[Draw], arm: &str, loaded: &'a Loaded, seed: Seed) -> Result<Cow<'a, Loaded>, String> {
+    changed(draws, arm, loaded, &|path| Stream::new(seed, path, "draw").uniform())
 }
 
 /// Checks that the arms of draws are there and that every value that can be drawn is legal.
@@ -129,11 +122,7 @@ fn changed<'a>(
     let Cow::Owned(text) = text else {
         return Ok(Cow::Borrowed(loaded));
     };
-    let (path, name, base_dir) = (
-        loaded.path.clone(),
-        loaded.name.clone(),
-        loaded.base_dir.clone(),
-    );
+    let (path, name, base_dir) = (loaded.path.clone(), loaded.name.clone(), loaded.base_dir.clone());
     let read = || Loaded::of_text(path, name, base_dir, text);
     let changed = loaded.registry.scope(read);
     changed.map(Cow::Owned).map_err(|e| e.to_string())
@@ -151,11 +140,7 @@ mod tests {
     }
 
     fn draw(path: &str, of: Law) -> Draw {
-        Draw {
-            arms: Vec::new(),
-            path: path.to_string(),
-            of,
-        }
+        Draw { arms: Vec::new(), path: path.to_string(), of }
     }
 
     #[test]

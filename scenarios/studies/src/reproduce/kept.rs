@@ -7,9 +7,7 @@
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
 use super::run::Reproduced;
-use crate::campaign::{
-    DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes,
-};
+use crate::campaign::{DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes};
 use output::files::{ReportError, make_folder, write_whole};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasher, RandomState};
@@ -42,19 +40,14 @@ impl Table {
         if !path.exists() {
             return Ok(None);
         }
-        let wrong = |path: &Path, problem: String| ReproduceError::Table {
-            path: path.to_path_buf(),
-            problem,
-        };
-        let text = |path: &Path| {
-            files::read_text(path, LONGEST).map_err(|e| wrong(path, format!("cannot be read: {e}")))
-        };
+        let wrong = |path: &Path, problem: String| ReproduceError::Table { path: path.to_path_buf(), problem };
+        let text =
+            |path: &Path| files::read_text(path, LONGEST).map_err(|e| wrong(path, format!("cannot be read: {e}")));
         let runs = text(&path)?;
         let (head, lines) = runs.split_once('\n').unwrap_or((&runs, ""));
         let said = (head.strip_prefix(HEAD)).and_then(|rest| rest.split_once(", hash "));
         let Some((hash, rows)) = said.and_then(|(_, rest)| rest.split_once(", rows ")) else {
-            let problem =
-                format!("line 1: must be `{HEAD}NAME, hash HASH, rows HASH`, got `{head}`");
+            let problem = format!("line 1: must be `{HEAD}NAME, hash HASH, rows HASH`, got `{head}`");
             return Err(wrong(&path, problem));
         };
         let declarations = text(&beside)?;
@@ -67,15 +60,11 @@ impl Table {
             wrong(&path, problem)
         });
         let rows: Vec<RunRow> = from_csv(lines, 1).map_err(|e| wrong(&path, e))?;
-        let declared: Vec<DeclarationRow> =
-            from_csv(&declarations, 0).map_err(|e| wrong(&beside, e))?;
+        let declared: Vec<DeclarationRow> = from_csv(&declarations, 0).map_err(|e| wrong(&beside, e))?;
         if let Some(changed) = changed {
             return Err(changed);
         }
-        let mut runs: BTreeMap<_, _> = rows
-            .into_iter()
-            .map(|r| ((r.seed, r.arm.clone()), r))
-            .collect();
+        let mut runs: BTreeMap<_, _> = rows.into_iter().map(|r| ((r.seed, r.arm.clone()), r)).collect();
         for d in declared {
             let Some(run) = runs.get_mut(&(d.seed, d.arm.clone())) else {
                 let problem = format!("seed {}, arm `{}`: no such run", d.seed, d.arm);
@@ -97,11 +86,7 @@ impl Table {
     pub fn put(&mut self, row: &Reproduced) {
         self.hash.clone_from(&row.scenario.1);
         for run in &row.runs {
-            let run = RunRow {
-                spin_up_wall_s: 0.0,
-                mission_wall_s: 0.0,
-                ..run.clone()
-            };
+            let run = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..run.clone() };
             self.runs.insert((run.seed, run.arm.clone()), run);
         }
     }
@@ -165,13 +150,9 @@ impl Table {
     pub fn stale(&self, reference: &Reference, n: usize) -> Option<String> {
         let (was, is) = (&self.hash, reference.loaded.hash());
         if *was != is {
-            return Some(format!(
-                "its scenario has hash {is}, that of the table {was}"
-            ));
+            return Some(format!("its scenario has hash {is}, that of the table {was}"));
         }
-        self.drawn(n)
-            .into_iter()
-            .find_map(|seed| self.differs(reference, seed))
+        self.drawn(n).into_iter().find_map(|seed| self.differs(reference, seed))
     }
 
     /// Different seeds, drawn at random: what is checked must not be known before.
@@ -189,10 +170,7 @@ impl Table {
         let mut scenarios = Vec::new();
         for (arm, loaded) in reference.arms.iter().filter(|(arm, _)| was(arm).is_some()) {
             let made = drawn(&reference.row.draw, arm, loaded, Seed::from(seed));
-            scenarios.push((
-                arm,
-                made.expect("ends and values of every draw were checked"),
-            ));
+            scenarios.push((arm, made.expect("ends and values of every draw were checked")));
         }
         let mut runs: Vec<Planned<'_>> = Vec::new();
         for (arm, loaded) in &scenarios {
@@ -205,11 +183,7 @@ impl Table {
             };
             runs.push((name, loaded));
         }
-        let heed = Heed {
-            begin: &|| true,
-            go_on: &|| true,
-            took: &|_| {},
-        };
+        let heed = Heed { begin: &|| true, go_on: &|| true, took: &|_| {} };
         let mut found = None;
         in_lanes(&runs, None, heed, &mut |is| {
             let is = &is;
@@ -222,9 +196,7 @@ impl Table {
                 .or_else(|| of_declarations().find_map(|(is, was)| difference(is, was)));
             if let Some((column, [now, before])) = differs {
                 let arm = &is.arm;
-                found = Some(format!(
-                    "seed {seed} of arm `{arm}` now has {column} {now}, in the table {before}"
-                ));
+                found = Some(format!("seed {seed} of arm `{arm}` now has {column} {now}, in the table {before}"));
             }
         });
         found
@@ -240,10 +212,7 @@ fn of_rows(rows: &str, declarations: &str) -> String {
 }
 
 fn paths(dir: &Path, id: &str) -> [PathBuf; 2] {
-    [
-        dir.join(format!("{id}.csv")),
-        dir.join(format!("{id}-declarations.csv")),
-    ]
+    [dir.join(format!("{id}.csv")), dir.join(format!("{id}-declarations.csv"))]
 }
 
 #[cfg(test)]
@@ -292,10 +261,7 @@ mod tests {
         table.put(&first);
         table.write(dir.path(), &first).unwrap();
         let mut back = Table::read(dir.path(), &reference).unwrap().unwrap();
-        assert_eq!(
-            back.from_seed(5, 9, &reference).len(),
-            3 * reference.arms.len()
-        );
+        assert_eq!(back.from_seed(5, 9, &reference).len(), 3 * reference.arms.len());
         assert!(back.from_seed(4, 9, &reference).is_empty());
         let one = &back.of_arms(&reference)[0];
         assert_eq!(one.declarations[0].t_s.to_bits(), (0.1_f64 + 0.2).to_bits());
@@ -303,10 +269,7 @@ mod tests {
         back.put(&reproduced(&reference, 3..6));
         back.write(dir.path(), &first).unwrap();
         let again = Table::read(dir.path(), &reference).unwrap().unwrap();
-        assert_eq!(
-            again.from_seed(3, 9, &reference).len(),
-            5 * reference.arms.len()
-        );
+        assert_eq!(again.from_seed(3, 9, &reference).len(), 5 * reference.arms.len());
     }
 
     #[test]
@@ -327,13 +290,7 @@ mod tests {
     fn every_measure_of_a_run_and_of_its_declarations_is_checked() {
         let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
         let stop = AtomicBool::new(false);
-        let plan = Plan {
-            n: 1,
-            first_seed: 4,
-            key: Key::public(),
-            until_half_width: None,
-            jobs: 1,
-        };
+        let plan = Plan { n: 1, first_seed: 4, key: Key::public(), until_half_width: None, jobs: 1 };
         let begun = Reproduced::begin(&reference);
         let row = reproduce(&reference, begun, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         let mut table = Table::default();
@@ -353,11 +310,7 @@ mod tests {
         let none = |run: &mut RunRow| run.declarations.push(DeclarationRow::default());
         changed(&mut table, &none, "number of declarations");
         let text = std::fs::read_to_string(dir.path().join("wp_laminar.csv")).unwrap();
-        std::fs::write(
-            dir.path().join("wp_laminar.csv"),
-            text.replacen("4,", "5,", 1),
-        )
-        .unwrap();
+        std::fs::write(dir.path().join("wp_laminar.csv"), text.replacen("4,", "5,", 1)).unwrap();
         let said = Table::read(dir.path(), &reference).unwrap_err().to_string();
         assert!(said.contains("changed after it was written"), "{said}");
     }
@@ -376,21 +329,12 @@ mod tests {
             Table::read(dir.path(), &reference).unwrap_err().to_string()
         };
         let no_head = said(text.replacen('#', "", 1));
-        assert!(
-            no_head.contains("wp_laminar.csv") && no_head.contains("line 1"),
-            "{no_head}"
-        );
+        assert!(no_head.contains("wp_laminar.csv") && no_head.contains("line 1"), "{no_head}");
         let letters = said(text.replacen(",1.1,", ",x,", 1));
-        assert!(
-            letters.contains("line 3") && letters.contains("error_m"),
-            "{letters}"
-        );
+        assert!(letters.contains("line 3") && letters.contains("error_m"), "{letters}");
         let cut = said(text[..text.len() - 20].to_string());
         assert!(cut.contains("line"), "{cut}");
         let column = said(text.replacen("seed_index", "seed_number", 1));
-        assert!(
-            column.contains("line 2") && column.contains("seed_index"),
-            "{column}"
-        );
+        assert!(column.contains("line 2") && column.contains("seed_index"), "{column}");
     }
 }

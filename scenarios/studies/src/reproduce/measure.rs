@@ -50,9 +50,7 @@ fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
 
 /// Whether a look at the place of declaration number `k` said this; `None` if there is no such declaration.
 fn said(r: &RunRow, k: u32, verdict: Verdict) -> Option<bool> {
-    (r.declarations.iter())
-        .find(|d| d.number == u64::from(k))
-        .map(|d| d.verdict == verdict.name())
+    (r.declarations.iter()).find(|d| d.number == u64::from(k)).map(|d| d.verdict == verdict.name())
 }
 
 impl RunEvent {
@@ -62,9 +60,7 @@ impl RunEvent {
         match self {
             RunEvent::Success => Some(r.success),
             RunEvent::Declared => Some(r.declared_s.is_some()),
-            RunEvent::MostlyAlong => {
-                (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs())
-            }
+            RunEvent::MostlyAlong => (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs()),
             RunEvent::CorrectCell => Some(r.correct_cell_s.is_some()),
             RunEvent::MapCellTrue => r.map_cell_true.map(|yes| yes > 0),
             RunEvent::MapNearTrue => r.map_near_true.map(|yes| yes > 0),
@@ -74,9 +70,7 @@ impl RunEvent {
                 of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
             }
             RunEvent::RegionFixUnder(k, m) => RunEvent::RegionFixOver(k, m).of(r).map(|over| !over),
-            RunEvent::RegionErrorOver(k, m) => of_region(r, k)?
-                .error_m
-                .map(|error_m| error_m >= f64::from(m)),
+            RunEvent::RegionErrorOver(k, m) => of_region(r, k)?.error_m.map(|error_m| error_m >= f64::from(m)),
             RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
             }
@@ -157,10 +151,9 @@ impl Measure {
             | Measure::MissionS => Unit::Seconds,
             Measure::MapCellP | Measure::MapNearP => Unit::Share,
             Measure::SpeedMS | Measure::NearGainMS => Unit::Speed,
-            Measure::Ngdr
-            | Measure::Declarations
-            | Measure::FarDeclarations(_)
-            | Measure::SourcesDeclared => Unit::Number,
+            Measure::Ngdr | Measure::Declarations | Measure::FarDeclarations(_) | Measure::SourcesDeclared => {
+                Unit::Number
+            }
             _ => Unit::Metres,
         }
     }
@@ -229,10 +222,7 @@ mod tests {
             fix_m,
             ..DeclarationRow::default()
         };
-        let rejected = DeclarationRow {
-            verdict: "rejected".to_string(),
-            ..at(2, "AlongFlow", 300.0, 0.0, None)
-        };
+        let rejected = DeclarationRow { verdict: "rejected".to_string(), ..at(2, "AlongFlow", 300.0, 0.0, None) };
         let row = RunRow {
             declarations: vec![
                 at(0, UP_FLOW_EDGE, 480.0, -4.0, None),
@@ -243,14 +233,8 @@ mod tests {
             ..RunRow::default()
         };
         let yes = |e: RunEvent| e.of(&row);
-        assert_eq!(
-            [0, 1, 2].map(|k| yes(RunEvent::RegionDeclared(k))),
-            [Some(true), Some(false), Some(true)]
-        );
-        assert_eq!(
-            [0, 1, 2].map(|k| yes(RunEvent::RegionAtEdge(k))),
-            [Some(true), Some(false), Some(false)]
-        );
+        assert_eq!([0, 1, 2].map(|k| yes(RunEvent::RegionDeclared(k))), [Some(true), Some(false), Some(true)]);
+        assert_eq!([0, 1, 2].map(|k| yes(RunEvent::RegionAtEdge(k))), [Some(true), Some(false), Some(false)]);
         assert_eq!(yes(RunEvent::RegionFixOver(2, 12)), Some(true));
         assert_eq!(yes(RunEvent::RegionFixUnder(2, 12)), Some(false));
         assert_eq!(yes(RunEvent::RegionFixOver(0, 1)), Some(false));
@@ -262,16 +246,10 @@ mod tests {
         assert_eq!(of(Measure::Declarations), Some(3.0));
         assert_eq!(of(Measure::FarDeclarations(40)), Some(1.0));
         assert_eq!(of(Measure::SourcesDeclared), Some(1.0));
-        assert_eq!(
-            (of(Measure::RegionAlongM(2)), of(Measure::RegionAcrossM(2))),
-            (Some(3.0), Some(31.0))
-        );
+        assert_eq!((of(Measure::RegionAlongM(2)), of(Measure::RegionAcrossM(2))), (Some(3.0), Some(31.0)));
         assert_eq!(of(Measure::RegionErrorM(1)), None);
         // A failed run says nothing about its declarations.
-        let failed = RunRow {
-            error: Some("x".into()),
-            ..row.clone()
-        };
+        let failed = RunRow { error: Some("x".into()), ..row.clone() };
         assert_eq!(Measure::Declarations.of(&failed), None);
     }
 
@@ -282,18 +260,9 @@ mod tests {
             verdict: verdict.name().to_string(),
             ..DeclarationRow::default()
         };
-        let row = RunRow {
-            declarations: vec![at(0, Verdict::Verified), at(1, Verdict::CannotTell)],
-            ..RunRow::default()
-        };
-        let of = |k| {
-            [
-                RunEvent::Verified(k),
-                RunEvent::Rejected(k),
-                RunEvent::CannotTell(k),
-            ]
-            .map(|e| e.of(&row))
-        };
+        let row =
+            RunRow { declarations: vec![at(0, Verdict::Verified), at(1, Verdict::CannotTell)], ..RunRow::default() };
+        let of = |k| [RunEvent::Verified(k), RunEvent::Rejected(k), RunEvent::CannotTell(k)].map(|e| e.of(&row));
         assert_eq!(of(0), [Some(true), Some(false), Some(false)]);
         assert_eq!(of(1), [Some(false), Some(false), Some(true)]);
         // A place that was never reached has no verdict.
@@ -312,10 +281,7 @@ mod tests {
         // Six points, five intervals.
         assert_eq!(Measure::LcdpIntervalS.of(&found), Some(100.0));
         // One point has no interval; a rule on other things has no points; without a declaration nothing is measured.
-        let one = RunRow {
-            zone_points: Some(1.0),
-            ..found
-        };
+        let one = RunRow { zone_points: Some(1.0), ..found };
         assert_eq!(Measure::LcdpIntervalS.of(&one), None);
         for other in [row(0, Some((1.0, 1.0))), row(1, None)] {
             assert_eq!(Measure::IdentificationS.of(&other), None);

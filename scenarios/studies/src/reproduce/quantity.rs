@@ -4,8 +4,7 @@ use super::measure::{Measure, RunEvent};
 use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
 use crate::campaign::stats::{
-    Interval, LEAST_VALUES, finite_sorted, mean_interval, positive_mean_interval, quantile,
-    quantile_interval, wilson,
+    Interval, LEAST_VALUES, finite_sorted, mean_interval, positive_mean_interval, quantile, quantile_interval, wilson,
 };
 use serde::{Deserialize, Serialize};
 
@@ -67,11 +66,7 @@ impl Quantity {
             }
             Quantity::Mean(m) => of_values(rows, m, |sorted| {
                 let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
-                let interval = if m.is_signed() {
-                    mean_interval(sorted)
-                } else {
-                    positive_mean_interval(sorted)
-                };
+                let interval = if m.is_signed() { mean_interval(sorted) } else { positive_mean_interval(sorted) };
                 ((!sorted.is_empty()).then_some(mean), interval)
             }),
             Quantity::Median(m) => quantile_of(m, 0.5),
@@ -82,9 +77,9 @@ impl Quantity {
     /// What is wrong with its numbers, if anything.
     pub(super) fn fault(self) -> Option<String> {
         match self {
-            Quantity::Quantile(_, p) if !(p > 0.0 && p < 1.0) => Some(format!(
-                "quantity: a quantile's share must be above 0 and below 1, got {p}"
-            )),
+            Quantity::Quantile(_, p) if !(p > 0.0 && p < 1.0) => {
+                Some(format!("quantity: a quantile's share must be above 0 and below 1, got {p}"))
+            }
             _ => None,
         }
     }
@@ -115,9 +110,7 @@ fn of_values(
         count: None,
         value,
         interval,
-        spread: quantile(&sorted, 0.025)
-            .zip(quantile(&sorted, 0.975))
-            .map(|(low, high)| Interval { low, high }),
+        spread: quantile(&sorted, 0.025).zip(quantile(&sorted, 0.975)).map(|(low, high)| Interval { low, high }),
     }
 }
 
@@ -132,18 +125,12 @@ mod tests {
             row(0, Some((3.0, -4.0))),
             row(1, Some((-30.0, 40.0))),
             row(2, None),
-            RunRow {
-                error: Some("x".into()),
-                ..row(3, None)
-            },
+            RunRow { error: Some("x".into()), ..row(3, None) },
         ];
         let declared = Quantity::Share(RunEvent::Declared).of(&rows);
         assert_eq!((declared.count, declared.n), (Some(2), 4));
         let success = Quantity::Share(RunEvent::Success).of(&rows);
-        assert_eq!(
-            (success.count, success.interval),
-            (Some(1), Some(wilson(1, 4)))
-        );
+        assert_eq!((success.count, success.interval), (Some(1), Some(wilson(1, 4))));
         let along = Quantity::Share(RunEvent::MostlyAlong).of(&rows);
         assert_eq!((along.count, along.n), (Some(0), 2));
         let median = |m| Quantity::Median(m).of(&rows).value;
@@ -171,10 +158,7 @@ mod tests {
         assert!(interval(Measure::ErrorM).low > 0.0);
         // A gain may be a loss: the interval about 0 is equally wide on both sides.
         let gain = interval(Measure::NearGainMS);
-        assert!(
-            (gain.low + gain.high).abs() < 1e-12 && gain.low < 0.0,
-            "{gain:?}"
-        );
+        assert!((gain.low + gain.high).abs() < 1e-12 && gain.low < 0.0, "{gain:?}");
     }
 
     #[test]

@@ -108,9 +108,7 @@ impl Paper {
 #[derive(Debug, thiserror::Error)]
 pub enum ReproduceError {
     /// There is no such row.
-    #[error(
-        "there is no row `{name}`; there are: {known}. A row file of your own may be named, too"
-    )]
+    #[error("there is no row `{name}`; there are: {known}. A row file of your own may be named, too")]
     Unknown {
         /// The name asked for.
         name: String,
@@ -184,9 +182,7 @@ pub struct Reference {
 /// # Errors
 /// If one is wrong (tests prevent this).
 pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
-    ROWS.iter()
-        .map(|(name, text)| embedded(name, text))
-        .collect()
+    ROWS.iter().map(|(name, text)| embedded(name, text)).collect()
 }
 
 /// The rows asked for by name or by file, each once; all rows if none is named. Only the named arms are kept, if any.
@@ -208,14 +204,9 @@ pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, Repr
     if arms.is_empty() {
         return Ok(found);
     }
-    let known: Vec<String> = (found.iter())
-        .flat_map(|f| f.row.arms.iter().map(|a| format!("`{}`", a.name)))
-        .collect();
+    let known: Vec<String> = (found.iter()).flat_map(|f| f.row.arms.iter().map(|a| format!("`{}`", a.name))).collect();
     if let Some(odd) = arms.iter().find(|a| !known.contains(&format!("`{a}`"))) {
-        return Err(ReproduceError::Arm {
-            name: odd.clone(),
-            known: known.join(", "),
-        });
+        return Err(ReproduceError::Arm { name: odd.clone(), known: known.join(", ") });
     }
     for reference in &mut found {
         reference.keep(arms);
@@ -243,22 +234,13 @@ fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
     }
     if !path.is_file() {
         let known: Vec<&str> = ROWS.iter().map(|(id, _)| *id).collect();
-        return Err(ReproduceError::Unknown {
-            name,
-            known: known.join(", "),
-        });
+        return Err(ReproduceError::Unknown { name, known: known.join(", ") });
     }
-    let text = files::read_text(path, LONGEST).map_err(|e| ReproduceError::Row {
-        name: name.clone(),
-        problem: format!("cannot be read: {e}"),
-    })?;
+    let text = files::read_text(path, LONGEST)
+        .map_err(|e| ReproduceError::Row { name: name.clone(), problem: format!("cannot be read: {e}") })?;
     let row = read(&name, &text)?;
     let beside = path.parent().unwrap_or(Path::new("")).join(&row.scenario);
-    let loaded = if beside.is_file() {
-        load(&beside)?
-    } else {
-        scenario(&name, &row)?
-    };
+    let loaded = if beside.is_file() { load(&beside)? } else { scenario(&name, &row)? };
     loaded.check()?;
     Ok(vec![Reference::new(&name, row, loaded)?])
 }
@@ -285,10 +267,7 @@ impl Reference {
         if arms.is_empty() {
             arms.push((row.id.clone(), loaded.clone()));
         }
-        check(&row.draw, &arms).map_err(|problem| ReproduceError::Row {
-            name: name.to_string(),
-            problem,
-        })?;
+        check(&row.draw, &arms).map_err(|problem| ReproduceError::Row { name: name.to_string(), problem })?;
         Ok(Self { row, loaded, arms })
     }
 
@@ -318,27 +297,16 @@ fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
         problem: format!("there is no scenario `{}`", row.scenario),
     })?;
     let (path, name) = (PathBuf::from(template.name), template.name.to_string());
-    Ok(Loaded::of_text(
-        path,
-        name,
-        PathBuf::new(),
-        template.text.to_string(),
-    )?)
+    Ok(Loaded::of_text(path, name, PathBuf::new(), template.text.to_string())?)
 }
 
 fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
-    let wrong = |problem: String| ReproduceError::Row {
-        name: name.to_string(),
-        problem,
-    };
+    let wrong = |problem: String| ReproduceError::Row { name: name.to_string(), problem };
     let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
     let row: Row = reader.from_str(text).map_err(|e| wrong(e.to_string()))?;
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     if row.id.is_empty() || !row.id.chars().all(plain) {
-        return Err(wrong(format!(
-            "id: must be of a-z, 0-9 and _, got `{}`",
-            row.id
-        )));
+        return Err(wrong(format!("id: must be of a-z, 0-9 and _, got `{}`", row.id)));
     }
     if row.figures.is_empty() {
         return Err(wrong("figures: must name at least one".to_string()));
@@ -346,9 +314,7 @@ fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
     for f in &row.figures {
         let known = |arm: &String| row.arms.iter().any(|a| a.name == *arm);
         let problem = match &f.arm {
-            None if !row.arms.is_empty() => {
-                Some("arm: must name one of the row's arms".to_string())
-            }
+            None if !row.arms.is_empty() => Some("arm: must name one of the row's arms".to_string()),
             Some(arm) if !known(arm) => Some(format!("arm: the row has no arm `{arm}`")),
             _ => f.quantity.fault(),
         };

@@ -74,10 +74,7 @@ pub fn reproduce(
     let pool = ThreadPoolBuilder::new()
         .num_threads(plan.jobs)
         .build()
-        .map_err(|e| ReproduceError::Threads {
-            jobs: plan.jobs,
-            problem: e.to_string(),
-        })?;
+        .map_err(|e| ReproduceError::Threads { jobs: plan.jobs, problem: e.to_string() })?;
     let n_arms = reference.arms.len() as u64;
     while let Some(planned) = next(&row.runs, reference, plan) {
         let from = row.runs.len() as u64 / n_arms;
@@ -93,8 +90,7 @@ pub fn reproduce(
                         scenarios.push(made.expect("ends and values of every draw were checked"));
                     }
                     let mut runs: Vec<Planned<'_>> = Vec::new();
-                    for (k, ((arm, _), loaded)) in (0..).zip(reference.arms.iter().zip(&scenarios))
-                    {
+                    for (k, ((arm, _), loaded)) in (0..).zip(reference.arms.iter().zip(&scenarios)) {
                         let name = RunName {
                             run: index * n_arms + k,
                             arm: arm.clone(),
@@ -105,11 +101,7 @@ pub fn reproduce(
                         runs.push((name, loaded));
                     }
                     let going = || !stop.load(Ordering::Relaxed);
-                    let heed = Heed {
-                        begin: &going,
-                        go_on: &going,
-                        took: &|_| {},
-                    };
+                    let heed = Heed { begin: &going, go_on: &going, took: &|_| {} };
                     let mut rows = Vec::new();
                     in_lanes(&runs, kept, heed, &mut |row| {
                         heard(&row, planned * n_arms);

@@ -39,14 +39,8 @@ impl TimeLeft {
     #[must_use]
     pub fn new(planned: impl Iterator<Item = u64>, jobs: usize) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
-        let of_row = |planned| Spent {
-            planned,
-            ..Spent::default()
-        };
-        Self {
-            rows: Mutex::new(planned.map(of_row).collect()),
-            threads: if jobs == 0 { cores() } else { jobs },
-        }
+        let of_row = |planned| Spent { planned, ..Spent::default() };
+        Self { rows: Mutex::new(planned.map(of_row).collect()), threads: if jobs == 0 { cores() } else { jobs } }
     }
 
     /// Runs at the same time.
@@ -82,11 +76,7 @@ mod tests {
     #[test]
     fn what_is_left_follows_from_the_runs_of_each_row() {
         let left = TimeLeft::new([4, 10].into_iter(), 2);
-        let run = |spin_up_wall_s, mission_wall_s| RunRow {
-            spin_up_wall_s,
-            mission_wall_s,
-            ..RunRow::default()
-        };
+        let run = |spin_up_wall_s, mission_wall_s| RunRow { spin_up_wall_s, mission_wall_s, ..RunRow::default() };
         left.heard(0, &run(1.0, 3.0), 4);
         assert_eq!(left.words(), None);
         // Three of 4 s and nine of 20 s, two at a time.

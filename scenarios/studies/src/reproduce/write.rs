@@ -12,23 +12,14 @@ use std::path::{Path, PathBuf};
 
 const TEXT: &str = "writing to a String succeeds";
 
-const HEAD: [&str; 6] = [
-    "figure",
-    "ours",
-    "95 % interval",
-    "n",
-    "paper",
-    "the paper's is",
-];
+const HEAD: [&str; 6] = ["figure", "ours", "95 % interval", "n", "paper", "the paper's is"];
 
 /// A row of the table; all its values have one unit.
 fn cells(c: &Compared) -> [String; 6] {
     let paper = c.figure.paper.map(Paper::value);
     let ends = |i: Option<Interval>| i.map_or([None; 2], |i| [Some(i.low), Some(i.high)]);
     let intervals = [ends(c.ours.interval), ends(c.papers_interval)];
-    let values = [c.ours.value, paper]
-        .into_iter()
-        .chain(intervals.into_iter().flatten());
+    let values = [c.ours.value, paper].into_iter().chain(intervals.into_iter().flatten());
     let unit = c.figure.quantity.unit().scale(values.flatten());
     let ours = match (c.ours.value, c.ours.count) {
         (Some(v), Some(k)) => format!("{k}/{} = {}", c.ours.n, unit.show(v)),
@@ -50,14 +41,7 @@ fn cells(c: &Compared) -> [String; 6] {
         write!(paper, " [{}]", unit.show_interval(i)).expect(TEXT);
     }
     let standing = c.standing.words().to_string();
-    [
-        c.figure.name.clone(),
-        ours,
-        interval,
-        c.ours.n.to_string(),
-        paper,
-        standing,
-    ]
+    [c.figure.name.clone(), ours, interval, c.ours.n.to_string(), paper, standing]
 }
 
 fn runs_line(r: &Reproduced) -> String {
@@ -171,13 +155,7 @@ fn markdown(all: &[Reproduced]) -> String {
             runs_line(r)
         )
         .expect(TEXT);
-        writeln!(
-            out,
-            "| {} |\n|{}",
-            HEAD.join(" | "),
-            " --- |".repeat(HEAD.len())
-        )
-        .expect(TEXT);
+        writeln!(out, "| {} |\n|{}", HEAD.join(" | "), " --- |".repeat(HEAD.len())).expect(TEXT);
         for c in &r.figures {
             let safe = cells(c).map(|s| s.replace('|', "\\|"));
             writeln!(out, "| {} |", safe.join(" | ")).expect(TEXT);
@@ -194,13 +172,7 @@ fn markdown(all: &[Reproduced]) -> String {
             for line in &table.rows {
                 writeln!(out, "| {} |", line.join(" | ")).expect(TEXT);
             }
-            writeln!(
-                out,
-                "\n{}\n\n![]({}.svg)\n",
-                reliable::notes(&maps),
-                r.row.id
-            )
-            .expect(TEXT);
+            writeln!(out, "\n{}\n\n![]({}.svg)\n", reliable::notes(&maps), r.row.id).expect(TEXT);
         }
         if let Some(error) = first_error(r) {
             writeln!(out, "- First failure: {error}.").expect(TEXT);
@@ -235,10 +207,7 @@ fn figures_csv(all: &[Reproduced]) -> String {
             ]
         })
     });
-    csv_text(
-        "row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing",
-        figures,
-    )
+    csv_text("row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing", figures)
 }
 
 #[cfg(test)]
@@ -262,18 +231,10 @@ mod tests {
             n: 20,
             count: None,
             value: Some(0.8),
-            interval: Some(Interval {
-                low: 0.4,
-                high: 1.1,
-            }),
+            interval: Some(Interval { low: 0.4, high: 1.1 }),
             spread: None,
         };
-        let compared = Compared {
-            figure,
-            ours,
-            papers_interval: None,
-            standing: Standing::None,
-        };
+        let compared = Compared { figure, ours, papers_interval: None, standing: Standing::None };
         let row = cells(&compared);
         assert_eq!(row[1..5], ["0.80 m", "0.40 to 1.10 m", "20", "0.50 m"]);
     }

@@ -122,21 +122,8 @@ mod tests {
     fn every_range_of_visibility_gets_its_share_of_every_content() {
         let scenes: Vec<Drawn> = (0..240).map(|n| draw(1, n)).collect();
         for k in 0..BINS.len() {
-            let of = |c: Content| {
-                (scenes.iter())
-                    .filter(|s| s.content == c && bin(s.visibility_m) == k)
-                    .count()
-            };
-            assert_eq!(
-                [
-                    Content::Source,
-                    Content::Dye,
-                    Content::Body,
-                    Content::Nothing
-                ]
-                .map(of),
-                [30, 10, 10, 10]
-            );
+            let of = |c: Content| (scenes.iter()).filter(|s| s.content == c && bin(s.visibility_m) == k).count();
+            assert_eq!([Content::Source, Content::Dye, Content::Body, Content::Nothing].map(of), [30, 10, 10, 10]);
         }
     }
 

@@ -9,16 +9,12 @@ use output::charts::palette::{GREY, INK};
 use output::charts::panel::Panel;
 
 /// Colours of the methods (Okabe & Ito 2008), in their order.
-const COLOURS: [&str; 6] = [
-    "#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73",
-];
+const COLOURS: [&str; 6] = ["#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73"];
 
 type Pick = fn(&Figures) -> &Ratio;
 
 fn of(all: &[Figures], way: usize, range: Option<(f64, f64)>) -> &Figures {
-    (all.iter())
-        .find(|f| f.method == METHODS[way] && f.visibility_m == range)
-        .expect("every way has every range")
+    (all.iter()).find(|f| f.method == METHODS[way] && f.visibility_m == range).expect("every way has every range")
 }
 
 fn legend(c: &mut Canvas, left: f64, top: f64) {
@@ -59,12 +55,7 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
             c.text(at, 11.0, Anchor::Middle, &range_words(Some(range)));
         }
         if k >= 2 {
-            c.text(
-                [p.left + 200.0, p.bottom() + 36.0],
-                12.0,
-                Anchor::Middle,
-                "visibility",
-            );
+            c.text([p.left + 200.0, p.bottom() + 36.0], 12.0, Anchor::Middle, "visibility");
         }
         for (way, colour) in COLOURS.into_iter().enumerate() {
             let mut line = Vec::new();
@@ -75,11 +66,7 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
                 line.push([x, p.py(v)]);
                 c.circle([x, p.py(v)], 3.2, &Style::fill(colour));
                 if let Some(i) = ratio.interval {
-                    c.line(
-                        [x, p.py(i.low)],
-                        [x, p.py(i.high)],
-                        &Style::line(colour, 1.3),
-                    );
+                    c.line([x, p.py(i.low)], [x, p.py(i.high)], &Style::line(colour, 1.3));
                 }
             }
             c.polyline(line, &Style::line(colour, 1.0).faint(0.5));
@@ -105,11 +92,7 @@ pub(super) fn curves(all: &[Figures]) -> Canvas {
         let title = format!("visibility {}", range_words(Some(range)));
         c.bold([p.left, p.top - 8.0], 12.5, Anchor::Start, &title);
         p.grid(&mut c, 60.0);
-        c.line(
-            p.at([0.0, 0.0]),
-            p.at([1.0, 1.0]),
-            &Style::line(GREY, 0.8).dashed("4 4"),
-        );
+        c.line(p.at([0.0, 0.0]), p.at([1.0, 1.0]), &Style::line(GREY, 0.8).dashed("4 4"));
         p.x_ticks(&mut c, true, 11.0);
         p.y_ticks(&mut c, 60.0, 11.0);
         for (way, colour) in COLOURS.into_iter().enumerate() {
@@ -125,19 +108,10 @@ pub(super) fn curves(all: &[Figures]) -> Canvas {
         let middle = [p.left + 125.0, p.bottom() + 36.0];
         c.text(middle, 11.5, Anchor::Middle, "verified without a source");
         if b == 0 {
-            c.upright(
-                [p.left - 40.0, p.top + 125.0],
-                11.5,
-                "verified with a source",
-            );
+            c.upright([p.left - 40.0, p.top + 125.0], 11.5, "verified with a source");
         }
     }
     c.line([60.0, 412.0], [1200.0, 412.0], &Style::line(INK, 0.3));
-    c.text(
-        [60.0, 430.0],
-        11.0,
-        Anchor::Start,
-        "ring: score 1, the verifier's own limit",
-    );
+    c.text([60.0, 430.0], 11.0, Anchor::Start, "ring: score 1, the verifier's own limit");
     c
 }

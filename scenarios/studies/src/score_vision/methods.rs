@@ -74,10 +74,7 @@ impl Method {
             let parts = segment(picture, &colours);
             [Target::Plume, Target::Source].map(|t| parts.mask(t, self != Method::AllPasses))
         };
-        let spec = VerifierSpec {
-            colours,
-            ..spec.clone()
-        };
+        let spec = VerifierSpec { colours, ..spec.clone() };
         let sighting = Verifier::new(&spec).weigh(picture, &dye, &body);
         (dye, body, sighting)
     }
@@ -99,10 +96,7 @@ fn plain(picture: &RgbImage) -> [GrayImage; 2] {
         })
     };
     let dye = |p: [u8; 3]| red(p) > most_red + REDDER;
-    [
-        mask(&dye),
-        mask(&|p| !dye(p) && bright(p) < DARKER * most_bright),
-    ]
+    [mask(&dye), mask(&|p| !dye(p) && bright(p) < DARKER * most_bright)]
 }
 
 #[cfg(test)]

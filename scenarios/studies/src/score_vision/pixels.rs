@@ -76,9 +76,7 @@ fn ratio(counts: &[Counts], name: &str, of: impl Fn(&Counts) -> (u64, u64)) -> R
     let mut rng = Stream::new(1, name, "bootstrap");
     let n = parts.len();
     let mut drawn: Vec<f64> = (0..RESAMPLES * usize::from(n > 1))
-        .filter_map(|_| {
-            pooled(&mut (0..n).map(|_| parts[((rng.uniform() * n as f64) as usize).min(n - 1)]))
-        })
+        .filter_map(|_| pooled(&mut (0..n).map(|_| parts[((rng.uniform() * n as f64) as usize).min(n - 1)])))
         .collect();
     drawn.sort_by(f64::total_cmp);
     let at = |p: f64| quantile(&drawn, p);
@@ -98,23 +96,12 @@ mod tests {
     fn counts_by_hand() {
         let row = |bits: [u8; 4]| GrayImage::from_fn(4, 1, |x, _| Luma([255 * bits[x as usize]]));
         let got = Counts::of(&row([1, 1, 0, 0]), &row([1, 0, 1, 0]));
-        assert_eq!(
-            got,
-            Counts {
-                hit: 1,
-                false_alarm: 1,
-                missed: 1
-            }
-        );
+        assert_eq!(got, Counts { hit: 1, false_alarm: 1, missed: 1 });
     }
 
     #[test]
     fn shares_pool_pixels_and_leave_out_pictures_without_any() {
-        let c = |hit, false_alarm, missed| Counts {
-            hit,
-            false_alarm,
-            missed,
-        };
+        let c = |hit, false_alarm, missed| Counts { hit, false_alarm, missed };
         let all = [c(30, 10, 0), c(0, 0, 60), c(0, 0, 0)];
         let (p, r) = (precision(&all, "p"), recall(&all, "r"));
         assert_eq!((p.pictures, p.value), (1, Some(0.75)));

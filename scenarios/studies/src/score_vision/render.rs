@@ -71,10 +71,7 @@ pub fn shoot(seed: u64, d: &Drawn, size: SizePx) -> Result<Shot, ScoreError> {
         Obstacles::default()
     };
     let dyed = matches!(d.content, Content::Source | Content::Dye);
-    let plume = dyed
-        .then(|| plume(seed, d, &terrain))
-        .transpose()
-        .map_err(wrong)?;
+    let plume = dyed.then(|| plume(seed, d, &terrain)).transpose().map_err(wrong)?;
     let optics = Optics::new(&optics(d)).map_err(|e| wrong(e.to_string()))?;
     let scene = Scene {
         terrain: &terrain,
@@ -82,24 +79,16 @@ pub fn shoot(seed: u64, d: &Drawn, size: SizePx) -> Result<Shot, ScoreError> {
         dye: plume.as_ref().map_or(&Clean as &dyn Concentration, |p| p),
         optics: &optics,
     };
-    let camera = CameraModel::new(&CameraSpec {
-        width: size.0,
-        height: size.1,
-        ..CameraSpec::default()
-    });
+    let camera = CameraModel::new(&CameraSpec { width: size.0, height: size.1, ..CameraSpec::default() });
     let noise = world::seeds::key(seed, &format!("scene-{}", d.n), "camera");
     let made = render(&camera, &pose(d), &scene, noise);
     let mask = |of: &dyn Fn(usize) -> bool| {
-        GrayImage::from_fn(size.0, size.1, |x, y| {
-            Luma([255 * u8::from(of((y * size.0 + x) as usize))])
-        })
+        GrayImage::from_fn(size.0, size.1, |x, y| Luma([255 * u8::from(of((y * size.0 + x) as usize))]))
     };
     let is_source = d.content == Content::Source;
     Ok(Shot {
         dye: mask(&|k| made.seen[k].plume >= DYED),
-        source: mask(&|k| {
-            is_source && made.seen[k].obstacle.is_some() && made.seen[k].clear >= CLEAR
-        }),
+        source: mask(&|k| is_source && made.seen[k].obstacle.is_some() && made.seen[k].clear >= CLEAR),
         picture: made.image,
     })
 }
@@ -115,21 +104,13 @@ fn body(d: &Drawn) -> ObstacleSpec {
         base: Base::default(),
         heading_deg: HeadingDeg::new(d.body_heading_deg),
         // "Dark and close to the blue color" (section 5).
-        surface: Surface {
-            albedo: (albedo(1.0), albedo(1.0), albedo(1.3)),
-            ..Surface::default()
-        },
+        surface: Surface { albedo: (albedo(1.0), albedo(1.0), albedo(1.3)), ..Surface::default() },
     }
 }
 
 /// The plume of a source at the origin in a stream to the east.
 fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
-    let area = Area {
-        centre: Vector2::new(8.0, 0.0),
-        length_m: 36.0,
-        width_m: 18.0,
-        axis: Heading::from_deg(90.0),
-    };
+    let area = Area { centre: Vector2::new(8.0, 0.0), length_m: 36.0, width_m: 18.0, axis: Heading::from_deg(90.0) };
     let stream = OpenChannelSpec {
         mean_m_s: Positive::new(d.current_m_s),
         heading_deg: HeadingDeg::new(90.0),
@@ -137,10 +118,7 @@ fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
         viscosity_m2_s: Positive::new(1e-6),
         eddies: Some(EddiesSpec::default()),
     };
-    let water = WaterSpec {
-        currents: vec![CurrentSpec::new(stream)],
-        ..WaterSpec::default()
-    };
+    let water = WaterSpec { currents: vec![CurrentSpec::new(stream)], ..WaterSpec::default() };
     let seed = world::seeds::key(seed, &format!("scene-{}", d.n), "plume");
     let mut water = (water.build(&area, terrain, seed)).map_err(|e| e.to_string())?;
     let source = SourceSpec {
@@ -157,12 +135,8 @@ fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
             ..ReleaseSpec::default()
         },
     };
-    let settings = PlumeSettings {
-        grid: GridShape::fitting(&area),
-        refresh_s: 1e6,
-    };
-    let mut plume =
-        Plume::new(&[source], &area, terrain, seed, settings).map_err(|e| e.to_string())?;
+    let settings = PlumeSettings { grid: GridShape::fitting(&area), refresh_s: 1e6 };
+    let mut plume = Plume::new(&[source], &area, terrain, seed, settings).map_err(|e| e.to_string())?;
     let steps = (REACH_M / (0.5 * d.current_m_s) / STEP_S).ceil() as u64;
     for k in 0..steps {
         let (t0, t1) = (k as f64 * STEP_S, (k + 1) as f64 * STEP_S);
@@ -174,10 +148,7 @@ fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
 
 fn optics(d: &Drawn) -> OpticsSpec {
     OpticsSpec {
-        clarity: ClaritySpec {
-            visibility_m: Positive::new(d.visibility_m),
-            ..ClaritySpec::default()
-        },
+        clarity: ClaritySpec { visibility_m: Positive::new(d.visibility_m), ..ClaritySpec::default() },
         light: LightSpec {
             sun_elevation_deg: NonNegative::new(d.sun_elevation_deg),
             sun_heading_deg: HeadingDeg::new(d.sun_heading_deg),
@@ -191,23 +162,13 @@ fn optics(d: &Drawn) -> OpticsSpec {
 /// The camera's pose: at a distance from its target and looking at it, except for `off_deg`.
 fn pose(d: &Drawn) -> world::frames::Pose {
     let at = match d.content {
-        Content::Source | Content::Body | Content::Nothing => {
-            Vector3::new(0.0, 0.0, -DEPTH_M + 0.3)
-        }
+        Content::Source | Content::Body | Content::Nothing => Vector3::new(0.0, 0.0, -DEPTH_M + 0.3),
         Content::Dye => Vector3::new(d.down_flow_m, 0.0, -DEPTH_M + NOZZLE_M),
     };
     let (s, c) = math::sin_cos(d.bearing_deg.to_radians());
-    let from = Vector3::new(
-        at.x + d.range_m * c,
-        at.y + d.range_m * s,
-        -DEPTH_M + d.height_m,
-    );
+    let from = Vector3::new(at.x + d.range_m * c, at.y + d.range_m * s, -DEPTH_M + d.height_m);
     let down = math::atan2(from.z - at.z, d.range_m);
-    looking(
-        from,
-        math::atan2(-s, -c) + d.off_deg[0].to_radians(),
-        down - d.off_deg[1].to_radians(),
-    )
+    looking(from, math::atan2(-s, -c) + d.off_deg[0].to_radians(), down - d.off_deg[1].to_radians())
 }
 
 #[cfg(test)]

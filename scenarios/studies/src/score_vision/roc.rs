@@ -47,22 +47,11 @@ impl Roc {
     /// From some pictures; `name` separates the random numbers of different curves.
     #[must_use]
     pub fn new(scored: &[Scored], name: &str) -> Self {
-        let of = |source: bool| -> Vec<f64> {
-            scored
-                .iter()
-                .filter(|s| s.source == source)
-                .map(|s| s.score)
-                .collect()
-        };
+        let of = |source: bool| -> Vec<f64> { scored.iter().filter(|s| s.source == source).map(|s| s.score).collect() };
         let (mut with, mut without) = (of(true), of(false));
         with.sort_by(f64::total_cmp);
         without.sort_by(f64::total_cmp);
-        let counted = |scores: &[f64]| {
-            (
-                scores.len() as u64,
-                scores.iter().filter(|s| **s >= 1.0).count() as u64,
-            )
-        };
+        let counted = |scores: &[f64]| (scores.len() as u64, scores.iter().filter(|s| **s >= 1.0).count() as u64);
         let (w, o) = (counted(&with), counted(&without));
         Self {
             with: w,
@@ -93,21 +82,14 @@ fn interval(with: &[f64], without: &[f64], name: &str) -> Option<Interval> {
     let mut rng = Stream::new(1, name, "bootstrap");
     let mut again = |scores: &[f64]| {
         let n = scores.len();
-        let mut drawn: Vec<f64> = (0..n)
-            .map(|_| scores[((rng.uniform() * n as f64) as usize).min(n - 1)])
-            .collect();
+        let mut drawn: Vec<f64> = (0..n).map(|_| scores[((rng.uniform() * n as f64) as usize).min(n - 1)]).collect();
         drawn.sort_by(f64::total_cmp);
         drawn
     };
-    let mut areas: Vec<f64> = (0..RESAMPLES)
-        .filter_map(|_| area(&again(with), &again(without)))
-        .collect();
+    let mut areas: Vec<f64> = (0..RESAMPLES).filter_map(|_| area(&again(with), &again(without))).collect();
     areas.sort_by(f64::total_cmp);
     let [low, high] = [0.025, 0.975].map(|p| quantile(&areas, p));
-    Some(Interval {
-        low: low?,
-        high: high?,
-    })
+    Some(Interval { low: low?, high: high? })
 }
 
 fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {
@@ -118,10 +100,7 @@ fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {
         let above = scores.len() - scores.partition_point(|s| *s < limit);
         above as f64 / scores.len().max(1) as f64
     };
-    let points = limits
-        .iter()
-        .rev()
-        .map(|l| [share(without, *l), share(with, *l)]);
+    let points = limits.iter().rev().map(|l| [share(without, *l), share(with, *l)]);
     std::iter::once([0.0; 2]).chain(points).collect()
 }
 
@@ -130,12 +109,8 @@ mod tests {
     use super::*;
 
     fn scored(with: &[f64], without: &[f64]) -> Vec<Scored> {
-        let of = |scores: &[f64], source| -> Vec<Scored> {
-            scores
-                .iter()
-                .map(|s| Scored { score: *s, source })
-                .collect()
-        };
+        let of =
+            |scores: &[f64], source| -> Vec<Scored> { scores.iter().map(|s| Scored { score: *s, source }).collect() };
         [of(with, true), of(without, false)].concat()
     }
 

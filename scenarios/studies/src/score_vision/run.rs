@@ -69,10 +69,7 @@ pub fn score(
     done: impl Fn(&Drawn, &Shot) + Sync,
 ) -> Result<Vec<SceneRow>, ScoreError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
-    let pool = pool.map_err(|e| ScoreError::Threads {
-        jobs,
-        problem: e.to_string(),
-    })?;
+    let pool = pool.map_err(|e| ScoreError::Threads { jobs, problem: e.to_string() })?;
     let one = |n: u64| {
         if stop.load(Ordering::Relaxed) {
             return Err(ScoreError::Interrupted);
@@ -82,8 +79,7 @@ pub fn score(
         done(&scene, &shot);
         Ok(rows(&scene, &shot, spec))
     };
-    let all: Result<Vec<Vec<SceneRow>>, ScoreError> =
-        pool.install(|| (0..scenes).into_par_iter().map(one).collect());
+    let all: Result<Vec<Vec<SceneRow>>, ScoreError> = pool.install(|| (0..scenes).into_par_iter().map(one).collect());
     Ok(all?.concat())
 }
 
@@ -109,18 +105,7 @@ mod tests {
     #[test]
     fn rows_do_not_depend_on_the_number_of_jobs() {
         let go = AtomicBool::new(false);
-        let of = |jobs| {
-            score(
-                3,
-                4,
-                SizePx(24, 18),
-                &VerifierSpec::default(),
-                jobs,
-                &go,
-                |_, _| {},
-            )
-            .unwrap()
-        };
+        let of = |jobs| score(3, 4, SizePx(24, 18), &VerifierSpec::default(), jobs, &go, |_, _| {}).unwrap();
         let one = of(1);
         assert_eq!(one.len(), 4 * METHODS.len());
         assert_eq!(one, of(2));

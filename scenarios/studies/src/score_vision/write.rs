@@ -46,9 +46,8 @@ fn figures(rows: &[SceneRow]) -> Vec<Figures> {
         let of_method: Vec<&SceneRow> = rows.iter().filter(|r| r.method == method).collect();
         all.push(one(method, None, &of_method));
         for (k, range) in BINS.into_iter().enumerate() {
-            let within: Vec<&SceneRow> = (of_method.iter().copied())
-                .filter(|r| bin(r.scene.visibility_m) == k)
-                .collect();
+            let within: Vec<&SceneRow> =
+                (of_method.iter().copied()).filter(|r| bin(r.scene.visibility_m) == k).collect();
             all.push(one(method, Some(range), &within));
         }
     }
@@ -59,12 +58,8 @@ fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> 
     let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
     let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
     let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
-    let scored: Vec<Scored> = (rows.iter())
-        .map(|r| Scored {
-            score: r.score,
-            source: r.scene.content == super::Content::Source,
-        })
-        .collect();
+    let scored: Vec<Scored> =
+        (rows.iter()).map(|r| Scored { score: r.score, source: r.scene.content == super::Content::Source }).collect();
     Figures {
         method,
         visibility_m,
@@ -85,9 +80,8 @@ pub fn table(rows: &[SceneRow]) -> String {
     );
     for f in figures(rows) {
         let v = &f.verification;
-        let share = |(n, k): (u64, u64), i: &Interval| {
-            format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high)
-        };
+        let share =
+            |(n, k): (u64, u64), i: &Interval| format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high);
         let _ = writeln!(
             out,
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
@@ -114,12 +108,7 @@ pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
 
 fn percent(r: &Ratio) -> String {
     match (r.value, &r.interval) {
-        (Some(v), Some(i)) => format!(
-            "{:.0} % ({:.0}–{:.0})",
-            100.0 * v,
-            100.0 * i.low,
-            100.0 * i.high
-        ),
+        (Some(v), Some(i)) => format!("{:.0} % ({:.0}–{:.0})", 100.0 * v, 100.0 * i.low, 100.0 * i.high),
         (Some(v), None) => format!("{:.0} %", 100.0 * v),
         _ => "–".to_string(),
     }
@@ -144,11 +133,7 @@ pub fn write(out: &Folder, plan: &ScenePlan, rows: &[SceneRow]) -> Result<(), Re
         plan: &'a ScenePlan,
         figures: &'a [Figures],
     }
-    let json = serde_json::to_string_pretty(&Scores {
-        plan,
-        figures: &all,
-    })
-    .expect("plain numbers");
+    let json = serde_json::to_string_pretty(&Scores { plan, figures: &all }).expect("plain numbers");
     kept.write("scores.json", json.as_bytes());
     for (name, canvas) in [("pixels", shares(&all)), ("roc", curves(&all))] {
         kept.figure(name, &canvas.svg(name));
@@ -185,22 +170,17 @@ fn scores_csv(all: &[Figures]) -> String {
             ("source_recall", &f.source_recall),
         ]
         .map(|(name, r)| line(name, r.pictures as u64, None, r.value, r.interval));
-        let of_verdicts = [
-            ("verified_with_source", v.with, v.true_share),
-            ("verified_without_source", v.without, v.false_share),
-        ]
-        .map(|(name, (n, k), i)| {
-            let share = (n > 0).then(|| k as f64 / n as f64);
-            line(name, n, Some(k), share, Some(i))
-        });
+        let of_verdicts =
+            [("verified_with_source", v.with, v.true_share), ("verified_without_source", v.without, v.false_share)]
+                .map(|(name, (n, k), i)| {
+                    let share = (n > 0).then(|| k as f64 / n as f64);
+                    line(name, n, Some(k), share, Some(i))
+                });
         let both = v.with.0 + v.without.0;
         let area = line("area_under_curve", both, None, v.area, v.area_interval);
         of_pixels.into_iter().chain(of_verdicts).chain([area])
     };
-    csv_text(
-        "method,visibility_low_m,visibility_high_m,figure,n,count,value,low,high",
-        all.iter().flat_map(of_method),
-    )
+    csv_text("method,visibility_low_m,visibility_high_m,figure,n,count,value,low,high", all.iter().flat_map(of_method))
 }
 
 fn scenes_csv(rows: &[SceneRow]) -> String {
@@ -246,11 +226,7 @@ mod tests {
             .map(|(n, method)| {
                 let scene = draw(1, n);
                 let there = scene.content == super::super::Content::Source;
-                let counts = |hit| Counts {
-                    hit,
-                    false_alarm: 5,
-                    missed: 5,
-                };
+                let counts = |hit| Counts { hit, false_alarm: 5, missed: 5 };
                 SceneRow {
                     dye: counts(15),
                     source: if there { counts(5) } else { Counts::default() },
@@ -274,39 +250,21 @@ mod tests {
     #[test]
     fn all_files_are_written() {
         let folder = tempfile::tempdir().unwrap();
-        let plan = ScenePlan {
-            seed: 1,
-            scenes: 24,
-            size_px: [320, 240],
-            verifier: VerifierSpec::default(),
-        };
+        let plan = ScenePlan { seed: 1, scenes: 24, size_px: [320, 240], verifier: VerifierSpec::default() };
         let out = output::files::begin_folder(folder.path(), "score-vision").unwrap();
         write(&out, &plan, &rows()).unwrap();
-        for name in [
-            "scores.md",
-            "scores.csv",
-            "scores.json",
-            "scenes.csv",
-            "pixels.svg",
-            "pixels.png",
-            "roc.svg",
-            "roc.png",
-        ] {
+        for name in
+            ["scores.md", "scores.csv", "scores.json", "scenes.csv", "pixels.svg", "pixels.png", "roc.svg", "roc.png"]
+        {
             assert!(folder.path().join(name).is_file(), "{name}");
         }
         let csv = std::fs::read_to_string(folder.path().join("scores.csv")).unwrap();
-        assert!(
-            csv.contains("given back,6,12,verified_with_source,3,3,1,"),
-            "{csv}"
-        );
+        assert!(csv.contains("given back,6,12,verified_with_source,3,3,1,"), "{csv}");
         for name in ["scores.csv", "scenes.csv"] {
             let csv = std::fs::read_to_string(folder.path().join(name)).unwrap();
             let fields = |line: &str| line.split(',').count();
             let head = csv.lines().next().map(fields);
-            assert!(
-                csv.lines().all(|l| Some(fields(l)) == head),
-                "{name}: {csv}"
-            );
+            assert!(csv.lines().all(|l| Some(fields(l)) == head), "{name}: {csv}");
         }
     }
 }

@@ -73,11 +73,7 @@ mod tests {
     fn what_was_found_is_tinted_and_nothing_else() {
         let (dye, water) = ([220, 40, 40], [100, 200, 200]);
         let picture = RgbImage::from_fn(9, 7, |x, _| Rgb(if x < 5 { dye } else { water }));
-        let one = ColourSpec {
-            plume_passes: 1,
-            source_passes: 0,
-            ..ColourSpec::default()
-        };
+        let one = ColourSpec { plume_passes: 1, source_passes: 0, ..ColourSpec::default() };
         let s = segment(&picture, &one);
         let out = overlay(&picture, &s, None);
         assert_eq!(out.get_pixel(4, 3).0, PLUME);
@@ -88,12 +84,7 @@ mod tests {
     #[test]
     fn a_frame_stays_in_the_picture() {
         let mut one = RgbImage::new(1, 1);
-        let blob = Blob {
-            pixels: 1,
-            centre_px: [0.0; 2],
-            low_px: [0; 2],
-            high_px: [0; 2],
-        };
+        let blob = Blob { pixels: 1, centre_px: [0.0; 2], low_px: [0; 2], high_px: [0; 2] };
         frame(&mut one, &blob);
         assert_eq!(one.get_pixel(0, 0).0, PATCH);
     }

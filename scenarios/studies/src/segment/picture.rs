@@ -56,12 +56,10 @@ impl PictureError {
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            PictureError::NotAPicture { .. } => Some(
-                "PNG, JPEG, BMP, PNM, TIFF and WebP are read, by their content, whatever the file's name",
-            ),
-            PictureError::Broken { .. } => {
-                Some("copy or export it again: only whole files are judged")
+            PictureError::NotAPicture { .. } => {
+                Some("PNG, JPEG, BMP, PNM, TIFF and WebP are read, by their content, whatever the file's name")
             }
+            PictureError::Broken { .. } => Some("copy or export it again: only whole files are judged"),
             PictureError::TooLarge { .. } => Some("scale it down or cut it first"),
             PictureError::Read { .. } => None,
         }
@@ -76,14 +74,8 @@ impl PictureError {
 /// # Errors
 /// If the file cannot be read, is no picture, is not whole, or is too large.
 pub fn read_picture(path: &Path) -> Result<RgbImage, PictureError> {
-    let unreadable = |source| PictureError::Read {
-        path: path.to_owned(),
-        source,
-    };
-    let too_large = |what: String| PictureError::TooLarge {
-        path: path.to_owned(),
-        what,
-    };
+    let unreadable = |source| PictureError::Read { path: path.to_owned(), source };
+    let too_large = |what: String| PictureError::TooLarge { path: path.to_owned(), what };
     let mut bytes = Vec::new();
     let file = files::open(path).map_err(unreadable)?;
     (file.take(MOST_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
@@ -91,15 +83,11 @@ pub fn read_picture(path: &Path) -> Result<RgbImage, PictureError> {
         return Err(too_large(format!("more than {} MB", MOST_BYTES >> 20)));
     }
     let Ok(format) = image::guess_format(&bytes) else {
-        return Err(PictureError::NotAPicture {
-            path: path.to_owned(),
-        });
+        return Err(PictureError::NotAPicture { path: path.to_owned() });
     };
     let wrong = |error: ImageError| match error {
         ImageError::Limits(_) => too_large("more memory than allowed".to_string()),
-        ImageError::Unsupported(_) if name(format).is_none() => PictureError::NotAPicture {
-            path: path.to_owned(),
-        },
+        ImageError::Unsupported(_) if name(format).is_none() => PictureError::NotAPicture { path: path.to_owned() },
         other => broken(path, format, other.to_string()),
     };
     let reader = |limits: Limits| {
@@ -124,11 +112,7 @@ pub fn read_picture(path: &Path) -> Result<RgbImage, PictureError> {
 }
 
 fn broken(path: &Path, format: ImageFormat, problem: String) -> PictureError {
-    PictureError::Broken {
-        path: path.to_owned(),
-        format: name(format).unwrap_or("picture"),
-        problem,
-    }
+    PictureError::Broken { path: path.to_owned(), format: name(format).unwrap_or("picture"), problem }
 }
 
 fn name(format: ImageFormat) -> Option<&'static str> {
@@ -181,40 +165,22 @@ mod tests {
         let all = [ImageFormat::Png, ImageFormat::Tiff];
         for format in all.into_iter().chain([ImageFormat::Bmp, ImageFormat::Pnm]) {
             let grey = GrayImage::from_pixel(1, 1, Luma([77]));
-            assert_eq!(
-                round_trip(grey, format).get_pixel(0, 0).0,
-                [77; 3],
-                "{format:?}"
-            );
+            assert_eq!(round_trip(grey, format).get_pixel(0, 0).0, [77; 3], "{format:?}");
         }
-        let rgba = |p: [u8; 4]| {
-            round_trip(
-                image::RgbaImage::from_pixel(1, 1, Rgba(p)),
-                ImageFormat::Png,
-            )
-        };
+        let rgba = |p: [u8; 4]| round_trip(image::RgbaImage::from_pixel(1, 1, Rgba(p)), ImageFormat::Png);
         assert_eq!(rgba([10, 20, 30, 255]).get_pixel(0, 0).0, [10, 20, 30]);
         assert_eq!(rgba([10, 20, 30, 0]).get_pixel(0, 0).0, [255; 3]);
         assert_eq!(rgba([0, 100, 255, 128]).get_pixel(0, 0).0, [127, 177, 255]);
-        let deep: ImageBuffer<Rgb<u16>, Vec<u16>> =
-            ImageBuffer::from_pixel(2, 1, Rgb([0, 257 * 100, 65_535]));
-        assert_eq!(
-            round_trip(deep, ImageFormat::Png).get_pixel(1, 0).0,
-            [0, 100, 255]
-        );
+        let deep: ImageBuffer<Rgb<u16>, Vec<u16>> = ImageBuffer::from_pixel(2, 1, Rgb([0, 257 * 100, 65_535]));
+        assert_eq!(round_trip(deep, ImageFormat::Png).get_pixel(1, 0).0, [0, 100, 255]);
         let grey: ImageBuffer<LumaA<u16>, Vec<u16>> = ImageBuffer::from_pixel(1, 1, LumaA([0, 0]));
-        assert_eq!(
-            round_trip(grey, ImageFormat::Png).get_pixel(0, 0).0,
-            [255; 3]
-        );
+        assert_eq!(round_trip(grey, ImageFormat::Png).get_pixel(0, 0).0, [255; 3]);
     }
 
     /// Every beginning of a file is refused or, if only bytes after the picture are missing, gives the picture.
     #[test]
     fn no_beginning_of_a_file_gives_another_picture() {
-        let whole = RgbImage::from_fn(23, 17, |x, y| {
-            Rgb([(11 * x) as u8, (15 * y) as u8, ((x * y) % 251) as u8])
-        });
+        let whole = RgbImage::from_fn(23, 17, |x, y| Rgb([(11 * x) as u8, (15 * y) as u8, ((x * y) % 251) as u8]));
         let folder = tempfile::tempdir().unwrap();
         for format in [
             ImageFormat::Png,
@@ -256,11 +222,7 @@ mod tests {
         std::fs::write(&text, b"GIF89a\x01\x00\x01\x00\x00\x00\x00;").unwrap();
         assert!(said(&text).contains("not a picture"), "{}", said(&text));
         std::fs::write(&text, b"P6 100000 100000 255\n").unwrap();
-        assert!(
-            said(&text).contains("too large: 100000 x 100000"),
-            "{}",
-            said(&text)
-        );
+        assert!(said(&text).contains("too large: 100000 x 100000"), "{}", said(&text));
         std::fs::write(&text, b"P6 10000 10000 255\n").unwrap();
         assert!(said(&text).contains("too large"), "{}", said(&text));
     }

@@ -24,9 +24,7 @@ const SCALE: f64 = 2.0;
 pub(super) fn sheet(s: &Segmented) -> Result<RgbImage, String> {
     let tiles = tiles(s);
     let (w, h) = s.picture.dimensions();
-    let tall = (TILE * f64::from(h) / f64::from(w))
-        .clamp(20.0, TALLEST * TILE)
-        .round();
+    let tall = (TILE * f64::from(h) / f64::from(w)).clamp(20.0, TALLEST * TILE).round();
     let place = |n: usize| {
         let (column, row) = (n % COLUMNS, n / COLUMNS);
         let x = GAP + column as f64 * (TILE + GAP);
@@ -36,27 +34,14 @@ pub(super) fn sheet(s: &Segmented) -> Result<RgbImage, String> {
     let rows = tiles.len().div_ceil(COLUMNS) as f64;
     let width = GAP + COLUMNS as f64 * (TILE + GAP);
     let mut c = Canvas::new(width, 34.0 + rows * (tall + CAPTION + GAP) + GAP);
-    c.bold(
-        [GAP, 25.0],
-        14.0,
-        Anchor::Start,
-        &format!("{}, {w} × {h}: {}", s.name, s.sighting.words()),
-    );
+    c.bold([GAP, 25.0], 14.0, Anchor::Start, &format!("{}, {w} × {h}: {}", s.name, s.sighting.words()));
     for (n, (caption, _)) in tiles.iter().enumerate() {
         let [x, y] = place(n);
         c.text([x, y - 6.0], 11.5, Anchor::Start, caption);
-        c.rect(
-            x - 1.0,
-            y - 1.0,
-            TILE + 2.0,
-            tall + 2.0,
-            &Style::line(GREY, 0.6),
-        );
+        c.rect(x - 1.0, y - 1.0, TILE + 2.0, tall + 2.0, &Style::line(GREY, 0.6));
     }
     let drawn = png(&c.svg("sheet"))?;
-    let mut out = image::load_from_memory_with_format(&drawn, ImageFormat::Png)
-        .map_err(|e| e.to_string())?
-        .into_rgb8();
+    let mut out = image::load_from_memory_with_format(&drawn, ImageFormat::Png).map_err(|e| e.to_string())?.into_rgb8();
     let room = [TILE, tall].map(|v| (v * SCALE) as u32);
     for (n, (_, tile)) in tiles.iter().enumerate() {
         let small = fitted(tile, room);
@@ -103,11 +88,7 @@ fn fitted(picture: &RgbImage, room: [u32; 2]) -> RgbImage {
     let scale = (f64::from(room[0]) / f64::from(w)).min(f64::from(room[1]) / f64::from(h));
     let size = |v: u32, most: u32| ((f64::from(v) * scale).round() as u32).clamp(1, most);
     let (w, h) = (size(w, room[0]), size(h, room[1]));
-    if scale < 1.0 {
-        imageops::thumbnail(picture, w, h)
-    } else {
-        imageops::resize(picture, w, h, FilterType::Nearest)
-    }
+    if scale < 1.0 { imageops::thumbnail(picture, w, h) } else { imageops::resize(picture, w, h, FilterType::Nearest) }
 }
 
 #[cfg(test)]
@@ -119,11 +100,7 @@ mod tests {
         for (w, h) in [(1, 1), (1, 4000), (4000, 1), (640, 480), (33, 900)] {
             let small = fitted(&RgbImage::new(w, h), [480, 360]);
             assert!(small.width() <= 480 && small.height() <= 360);
-            assert!(
-                small.width() == 480 || small.height() == 360,
-                "{w} x {h}: {:?}",
-                small.dimensions()
-            );
+            assert!(small.width() == 480 || small.height() == 360, "{w} x {h}: {:?}", small.dimensions());
         }
     }
 }

@@ -41,13 +41,7 @@ impl Segmented {
     #[must_use]
     pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
         let (parts, sighting) = Verifier::new(&spec).look(&picture);
-        Self {
-            name,
-            picture,
-            spec,
-            parts,
-            sighting,
-        }
+        Self { name, picture, spec, parts, sighting }
     }
 
     pub(super) fn overlay(&self) -> RgbImage {

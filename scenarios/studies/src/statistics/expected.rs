@@ -23,11 +23,7 @@ pub(super) struct Expected {
 impl Expected {
     pub(super) fn of(channel: &Channel) -> Self {
         let scale = channel.u_star_m_s * channel.depth_m;
-        Self {
-            k_y: TRANSVERSE * scale,
-            k_z: VERTICAL * scale,
-            mean_m_s: channel.mean_m_s,
-        }
+        Self { k_y: TRANSVERSE * scale, k_z: VERTICAL * scale, mean_m_s: channel.mean_m_s }
     }
 
     /// Mean speed, m/s.
@@ -60,11 +56,7 @@ mod tests {
     /// The flume of Webster et al. 2012 with u_* = 2.8 mm/s: 4.1, 5.8, 7.1, 8.2 cm and 2.0e-3, 9.9e-4, 4.9e-4.
     #[test]
     fn textbook_figures_of_the_flume() {
-        let e = Expected {
-            k_y: 0.15 * 0.0028 * 0.2,
-            k_z: 0.067 * 0.0028 * 0.2,
-            mean_m_s: 0.05,
-        };
+        let e = Expected { k_y: 0.15 * 0.0028 * 0.2, k_z: 0.067 * 0.0028 * 0.2, mean_m_s: 0.05 };
         for (x, cm) in [(0.5, 4.1), (1.0, 5.8), (1.5, 7.1), (2.0, 8.2)] {
             assert!((100.0 * e.sigma_y(x) - cm).abs() < 0.06, "{x}");
         }

@@ -28,8 +28,7 @@ impl PlumeFigure {
     /// Whether the ratio lies outside 0.5 to 2.
     #[must_use]
     pub fn flagged(&self) -> bool {
-        self.ratio()
-            .is_some_and(|r| !(1.0 / FACTOR..=FACTOR).contains(&r))
+        self.ratio().is_some_and(|r| !(1.0 / FACTOR..=FACTOR).contains(&r))
     }
 }
 

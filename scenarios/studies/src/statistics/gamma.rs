@@ -27,9 +27,7 @@ pub(super) fn fit(sample: &mut [f64]) -> Option<(f64, f64)> {
     sample.sort_unstable_by(f64::total_cmp);
     let distance = sample.iter().enumerate().map(|(i, v)| {
         let p = fitted.cdf(*v);
-        (p - i as f64 / n)
-            .abs()
-            .max((p - (i as f64 + 1.0) / n).abs())
+        (p - i as f64 / n).abs().max((p - (i as f64 + 1.0) / n).abs())
     });
     Some((shape, distance.fold(0.0, f64::max)))
 }

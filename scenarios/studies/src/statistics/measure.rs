@@ -44,9 +44,7 @@ pub enum StatisticsError {
     #[error("{0} has no source: there is no plume to measure; add one under `sources`")]
     NoSource(String),
     /// The water at the source stands still.
-    #[error(
-        "the water at the source of {0} stands still: there is no down-stream to measure along"
-    )]
+    #[error("the water at the source of {0} stands still: there is no down-stream to measure along")]
     Still(String),
     /// The plume did not reach the first distance.
     #[error(
@@ -102,11 +100,7 @@ pub fn statistics(
     };
     let time = &scenario.time;
     let spin_up = time.spin_up_s.get();
-    let watched_s = seconds.unwrap_or(if water.channel().is_some() {
-        CHANNEL_S
-    } else {
-        time.limit_s.get()
-    });
+    let watched_s = seconds.unwrap_or(if water.channel().is_some() { CHANNEL_S } else { time.limit_s.get() });
     let whole_s = spin_up + watched_s;
     if spin_up > 0.0 {
         plume.pace(0.0, spin_up, time.spin_up_period_s.get());
@@ -138,12 +132,7 @@ pub fn statistics(
         }
     }
     let figures = watch.figures(loaded, &water, &plume, watched_s)?;
-    Ok(Statistics {
-        name: loaded.name.clone(),
-        seed: seed.number(),
-        watched_s,
-        figures,
-    })
+    Ok(Statistics { name: loaded.name.clone(), seed: seed.number(), watched_s, figures })
 }
 
 fn built(loaded: &Loaded, seed: Seed) -> Result<(Water, Plume), AssembleError> {
@@ -152,18 +141,9 @@ fn built(loaded: &Loaded, seed: Seed) -> Result<(Water, Plume), AssembleError> {
 }
 
 impl Watch {
-    fn new(
-        loaded: &Loaded,
-        water: &Water,
-        source: Vector3<f64>,
-        t_s: f64,
-    ) -> Result<Self, StatisticsError> {
+    fn new(loaded: &Loaded, water: &Water, source: Vector3<f64>, t_s: f64) -> Result<Self, StatisticsError> {
         let area = loaded.scenario.area.build();
-        let bed_z = loaded
-            .scenario
-            .terrain
-            .build(&area)
-            .bed_z(source.x, source.y);
+        let bed_z = loaded.scenario.terrain.build(&area).bed_z(source.x, source.y);
         let mean = match water.channel() {
             Some(channel) => channel.along * channel.mean_m_s,
             None => {
@@ -183,16 +163,12 @@ impl Watch {
         let depth = -bed_z;
         // In a channel, at multiples of the depth, as far as it reaches; elsewhere, at parts of the way to the edge.
         let distances: Vec<f64> = match water.channel() {
-            Some(_) if reach > 2.5 * depth => [2.5, 5.0, 7.5, 10.0]
-                .map(|k| k * depth)
-                .into_iter()
-                .filter(|d| *d < reach)
-                .collect(),
+            Some(_) if reach > 2.5 * depth => {
+                [2.5, 5.0, 7.5, 10.0].map(|k| k * depth).into_iter().filter(|d| *d < reach).collect()
+            }
             _ => [0.125, 0.25, 0.5, 0.75].map(|k| k * reach).to_vec(),
         };
-        let heights: Vec<f64> = std::iter::once(source.z - bed_z)
-            .chain(HEIGHTS.map(|s| s * depth))
-            .collect();
+        let heights: Vec<f64> = std::iter::once(source.z - bed_z).chain(HEIGHTS.map(|s| s * depth)).collect();
         Ok(Self {
             source,
             bed_z,
@@ -268,23 +244,14 @@ impl Watch {
     ) -> Result<Vec<PlumeFigure>, StatisticsError> {
         let threshold = THRESHOLD * self.odour[0][0].mean();
         if threshold <= 0.0 {
-            return Err(StatisticsError::Clean {
-                name: loaded.name.clone(),
-                distance_m: self.distances[0],
-                watched_s,
-            });
+            return Err(StatisticsError::Clean { name: loaded.name.clone(), distance_m: self.distances[0], watched_s });
         }
         let mut figures = Vec::new();
         let channel = water.channel();
         let expected = channel.map(Expected::of);
         self.widths(expected.as_ref(), &mut figures);
         let nozzle = plume.sources()[0].release.nozzle.as_ref();
-        self.centreline(
-            expected.as_ref(),
-            nozzle.map(|n| n.volume_m3_s()),
-            plume,
-            &mut figures,
-        );
+        self.centreline(expected.as_ref(), nozzle.map(|n| n.volume_m3_s()), plume, &mut figures);
         self.spikes(threshold, &mut figures);
         if let Some(channel) = channel {
             self.water(channel, &mut figures);
@@ -325,12 +292,7 @@ mod tests {
         for name in ["gaps below", "gamma shape", "integral time of the speed"] {
             assert!(named(name).0.expected.is_some(), "{name}");
         }
-        for name in [
-            "width sigma_y",
-            "centreline C/C0",
-            "mean speed",
-            "resolved u'",
-        ] {
+        for name in ["width sigma_y", "centreline C/C0", "mean speed", "resolved u'"] {
             let (figure, _) = named(name);
             assert!(!figure.flagged(), "{figure:?}");
         }
@@ -344,16 +306,8 @@ mod tests {
             widths.nth(n).unwrap().ours
         };
         assert!(width(0) > 0.0 && width(2) > width(0), "{:?}", s.figures);
-        assert!(
-            s.figures
-                .iter()
-                .all(|f| f.expected.is_none() || f.unit.is_empty())
-        );
-        assert!(
-            s.figures
-                .iter()
-                .any(|f| f.name.starts_with("intermittency"))
-        );
+        assert!(s.figures.iter().all(|f| f.expected.is_none() || f.unit.is_empty()));
+        assert!(s.figures.iter().any(|f| f.name.starts_with("intermittency")));
     }
 
     #[test]
@@ -361,9 +315,6 @@ mod tests {
         let mut loaded = load(Path::new("uniform_channel")).unwrap();
         loaded.scenario.sources.clear();
         let said = statistics(&loaded, 1, Some(1.0), |_| true).unwrap_err();
-        assert!(
-            said.to_string().contains("uniform_channel has no source"),
-            "{said}"
-        );
+        assert!(said.to_string().contains("uniform_channel has no source"), "{said}");
     }
 }

@@ -19,20 +19,8 @@ use plumes::flow::channel::Channel;
 /// Gaps shorter than this count as short, s.
 const SHORT_S: f64 = 0.5;
 
-fn figure(
-    name: String,
-    unit: &'static str,
-    ours: f64,
-    expected: Option<f64>,
-    source: &'static str,
-) -> PlumeFigure {
-    PlumeFigure {
-        name,
-        unit,
-        ours,
-        expected,
-        source,
-    }
+fn figure(name: String, unit: &'static str, ours: f64, expected: Option<f64>, source: &'static str) -> PlumeFigure {
+    PlumeFigure { name, unit, ours, expected, source }
 }
 
 impl Watch {
@@ -56,14 +44,9 @@ impl Watch {
         }
         let n = variances.len();
         if let (Some(e), true) = (expected, n > 2) {
-            let per_m =
-                (variances[n - 1] - variances[1]) / (self.distances[n - 1] - self.distances[1]);
+            let per_m = (variances[n - 1] - variances[1]) / (self.distances[n - 1] - self.distances[1]);
             to.push(figure(
-                format!(
-                    "K_y by the growth from {:.2} to {:.2} m",
-                    self.distances[1],
-                    self.distances[n - 1]
-                ),
+                format!("K_y by the growth from {:.2} to {:.2} m", self.distances[1], self.distances[n - 1]),
                 "m2/s",
                 0.5 * per_m * e.mean_m_s(),
                 Some(e.k_y),
@@ -116,10 +99,7 @@ impl Watch {
             if !gaps.is_empty() {
                 let short = gaps.iter().filter(|g| **g < SHORT_S).count();
                 to.push(figure(
-                    format!(
-                        "gaps below 0.5 s at {x:.2} m, {:.3} m above the bed",
-                        self.heights[1]
-                    ),
+                    format!("gaps below 0.5 s at {x:.2} m, {:.3} m above the bed", self.heights[1]),
                     "",
                     short as f64 / gaps.len() as f64,
                     Some(0.95),
@@ -128,10 +108,7 @@ impl Watch {
                 let mut gaps = gaps;
                 gaps.sort_unstable_by(f64::total_cmp);
                 to.push(figure(
-                    format!(
-                        "median gap at {x:.2} m, {:.3} m above the bed",
-                        self.heights[1]
-                    ),
+                    format!("median gap at {x:.2} m, {:.3} m above the bed", self.heights[1]),
                     "s",
                     gaps[gaps.len() / 2],
                     None,

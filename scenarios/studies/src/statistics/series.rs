@@ -78,10 +78,7 @@ mod tests {
 
     #[test]
     fn gaps_are_those_between_two_signals() {
-        let s = Series {
-            values: vec![0.0, 2.0, 0.0, 0.0, 3.0, 3.0, 0.0, 1.5, 0.0],
-            step_s: 0.5,
-        };
+        let s = Series { values: vec![0.0, 2.0, 0.0, 0.0, 3.0, 3.0, 0.0, 1.5, 0.0], step_s: 0.5 };
         assert_eq!(s.gaps(1.0), [1.0, 0.5]);
         assert!((s.above(1.0) - 4.0 / 9.0).abs() < 1e-15);
         assert_eq!(s.felt(1.0), [2.0, 3.0, 3.0, 1.5]);
@@ -104,10 +101,7 @@ mod tests {
         let s = Series { values, step_s };
         let got = s.integral_time_s().unwrap();
         assert!((got / tau - 1.0).abs() < 0.15, "{got}");
-        let flat = Series {
-            values: vec![1.0; 50],
-            step_s,
-        };
+        let flat = Series { values: vec![1.0; 50], step_s };
         assert_eq!(flat.integral_time_s(), None);
     }
 }

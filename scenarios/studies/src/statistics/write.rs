@@ -9,31 +9,19 @@ use std::path::{Path, PathBuf};
 #[must_use]
 pub fn table(statistics: &Statistics) -> String {
     let s = statistics;
-    let mut out = format!(
-        "{}: plume statistics, seed {}, {} s after the spin-up\n\n",
-        s.name, s.seed, s.watched_s
-    );
+    let mut out = format!("{}: plume statistics, seed {}, {} s after the spin-up\n\n", s.name, s.seed, s.watched_s);
     let wide = s.figures.iter().map(|f| f.name.len()).max().unwrap_or(6);
-    let mut row =
-        |name: &str, unit: &str, ours: &str, expected: &str, ratio: &str, source: &str| {
-            let line =
-                format!("{name:wide$}  {unit:5} {ours:>9} {expected:>9} {ratio:>7}  {source}");
-            out.push_str(line.trim_end());
-            out.push('\n');
-        };
+    let mut row = |name: &str, unit: &str, ours: &str, expected: &str, ratio: &str, source: &str| {
+        let line = format!("{name:wide$}  {unit:5} {ours:>9} {expected:>9} {ratio:>7}  {source}");
+        out.push_str(line.trim_end());
+        out.push('\n');
+    };
     row("figure", "unit", "ours", "expected", "ratio", "source");
     for f in &s.figures {
         let mark = if f.flagged() { "!" } else { " " };
         let ratio = f.ratio().map_or(String::new(), |r| format!("{r:.2}{mark}"));
         let expected = f.expected.map_or(String::new(), number);
-        row(
-            &f.name,
-            f.unit,
-            &number(f.ours),
-            &expected,
-            &ratio,
-            f.source,
-        );
+        row(&f.name, f.unit, &number(f.ours), &expected, &ratio, f.source);
     }
     let flagged = s.figures.iter().filter(|f| f.flagged()).count();
     let _ = writeln!(
@@ -45,11 +33,7 @@ pub fn table(statistics: &Statistics) -> String {
 }
 
 fn number(v: f64) -> String {
-    if v != 0.0 && !(0.001..10_000.0).contains(&v.abs()) {
-        format!("{v:.2e}")
-    } else {
-        format!("{v:.4}")
-    }
+    if v != 0.0 && !(0.001..10_000.0).contains(&v.abs()) { format!("{v:.2e}") } else { format!("{v:.4}") }
 }
 
 /// Writes `statistics.csv` into a folder.
@@ -102,15 +86,9 @@ mod tests {
     #[test]
     fn what_is_off_is_marked() {
         let text = table(&statistics());
-        assert!(
-            text.contains("width       m        0.0500    0.0400   1.25   somewhere"),
-            "{text}"
-        );
+        assert!(text.contains("width       m        0.0500    0.0400   1.25   somewhere"), "{text}");
         assert!(text.contains("0.25!"), "{text}");
-        assert!(
-            text.contains("ours alone  m       2.50e-5                    somewhere"),
-            "{text}"
-        );
+        assert!(text.contains("ours alone  m       2.50e-5                    somewhere"), "{text}");
         assert!(text.contains("1 of 2 figures"), "{text}");
     }
 
@@ -120,9 +98,6 @@ mod tests {
         let path = write(folder.path(), &statistics()).unwrap();
         let text = std::fs::read_to_string(path).unwrap();
         assert_eq!(text.lines().count(), 4);
-        assert_eq!(
-            text.lines().nth(2).unwrap(),
-            "far off,m,0.05,0.2,0.25,true,somewhere"
-        );
+        assert_eq!(text.lines().nth(2).unwrap(), "far off,m,0.05,0.2,0.25,true,somewhere");
     }
 }

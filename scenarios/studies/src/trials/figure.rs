@@ -17,10 +17,7 @@ const RUDDER: &str = "#b3541e";
 pub fn figure(vehicle: &str, trials: &[Trial]) -> String {
     let rows = trials.len().div_ceil(COLUMNS);
     let columns = trials.len().min(COLUMNS);
-    let mut c = Canvas::new(
-        STRIDE[0] * columns as f64 + 20.0,
-        STRIDE[1] * rows as f64 + 40.0,
-    );
+    let mut c = Canvas::new(STRIDE[0] * columns as f64 + 20.0, STRIDE[1] * rows as f64 + 40.0);
     c.bold([20.0, 28.0], 16.0, Anchor::Start, vehicle);
     for (k, trial) in trials.iter().enumerate() {
         let left = 75.0 + STRIDE[0] * (k % COLUMNS) as f64;
@@ -31,12 +28,7 @@ pub fn figure(vehicle: &str, trials: &[Trial]) -> String {
 }
 
 fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
-    let Curve {
-        labels,
-        points,
-        plan,
-        rudder,
-    } = &trial.curve;
+    let Curve { labels, points, plan, rudder } = &trial.curve;
     let both = || points.iter().chain(rudder);
     let range = |k: usize| range_of(both().map(|p| p[k]), 0.08).unwrap_or([-1.0, 1.0]);
     let (mut x, mut y) = (range(0), range(1));
@@ -48,26 +40,14 @@ fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
             *range = [middle - per_px * side / 2.0, middle + per_px * side / 2.0];
         }
     }
-    let panel = Panel {
-        left,
-        top,
-        width: SIDES[0],
-        height: SIDES[1],
-        x,
-        y,
-    };
+    let panel = Panel { left, top, width: SIDES[0], height: SIDES[1], x, y };
     panel.grid(c, 40.0);
     panel.frame(c, 1.0);
     panel.x_ticks(c, true, 11.0);
     panel.y_ticks(c, 40.0, 11.0);
     c.bold([left, top - 10.0], 13.0, Anchor::Start, labels[0]);
     let middle = left + SIDES[0] / 2.0;
-    c.text(
-        [middle, panel.bottom() + 34.0],
-        11.0,
-        Anchor::Middle,
-        labels[1],
-    );
+    c.text([middle, panel.bottom() + 34.0], 11.0, Anchor::Middle, labels[1]);
     c.upright([left - 48.0, top + SIDES[1] / 2.0], 11.0, labels[2]);
     panel.clip(c);
     c.polyline(panel.all(rudder), &Style::line(RUDDER, 1.2));
@@ -82,15 +62,8 @@ fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
         }
     }
     for (k, found) in trial.found.iter().take(4).enumerate() {
-        let value = found
-            .value
-            .map_or("-".to_string(), |v| format!("{v:.2} {}", found.unit));
+        let value = found.value.map_or("-".to_string(), |v| format!("{v:.2} {}", found.unit));
         let y = panel.bottom() + 50.0 + 14.0 * k as f64;
-        c.text(
-            [left, y],
-            10.5,
-            Anchor::Start,
-            &format!("{}: {value}", found.what),
-        );
+        c.text([left, y], 10.5, Anchor::Start, &format!("{}: {value}", found.what));
     }
 }

@@ -51,27 +51,16 @@ pub struct Flown {
 /// # Errors
 /// What is wrong, with its line.
 pub fn table(text: &str, drives: &[&str]) -> Result<Vec<(f64, Vec<f64>)>, String> {
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|e| e.to_string())?.clone();
     let column = |name: &str| {
-        (header.iter().position(|h| h == name)).ok_or_else(|| {
-            format!(
-                "line 1: no column \"{name}\"; needed are t_s, {}",
-                drives.join(", ")
-            )
-        })
+        (header.iter().position(|h| h == name))
+            .ok_or_else(|| format!("line 1: no column \"{name}\"; needed are t_s, {}", drives.join(", ")))
     };
-    let columns: Vec<usize> = std::iter::once("t_s")
-        .chain(drives.iter().copied())
-        .map(column)
-        .collect::<Result<_, _>>()?;
+    let columns: Vec<usize> =
+        std::iter::once("t_s").chain(drives.iter().copied()).map(column).collect::<Result<_, _>>()?;
     if let Some(odd) = header.iter().find(|h| *h != "t_s" && !drives.contains(h)) {
-        return Err(format!(
-            "line 1: the vehicle has no drive \"{odd}\"; it has {}",
-            drives.join(", ")
-        ));
+        return Err(format!("line 1: the vehicle has no drive \"{odd}\"; it has {}", drives.join(", ")));
     }
     let mut rows: Vec<(f64, Vec<f64>)> = Vec::new();
     for record in reader.records() {
@@ -100,10 +89,7 @@ pub fn fly(vehicle: &Described, flight: &Flight) -> Vec<Flown> {
     let mut vehicle = vehicle.clone();
     let [roll, pitch_up] = flight.tilt_rad;
     let R_WB = UnitQuaternion::from_euler_angles(roll, -pitch_up, std::f64::consts::FRAC_PI_2);
-    let mut truth = Truth::at_rest(Pose {
-        p_WB: Vector3::new(0.0, 0.0, -flight.depth_m),
-        R_WB,
-    });
+    let mut truth = Truth::at_rest(Pose { p_WB: Vector3::new(0.0, 0.0, -flight.depth_m), R_WB });
     truth.v_WB_B = flight.velocity_m_s + R_WB.inverse() * flight.water_m_s;
     let water = WaterSample {
         velocity: flight.water_m_s,
@@ -118,15 +104,10 @@ pub fn fly(vehicle: &Described, flight: &Flight) -> Vec<Flown> {
     for k in 0..=steps {
         let t_s = k as f64 * flight.step_s;
         if k % stride == 0 || k == steps {
-            rows.push(Flown {
-                t_s,
-                truth,
-                drives: vehicle.states().to_vec(),
-            });
+            rows.push(Flown { t_s, truth, drives: vehicle.states().to_vec() });
         }
         // Half a step of slack: times of the table are multiples of the step but for rounding.
-        let row =
-            (flight.table).partition_point(|(from_s, _)| *from_s <= t_s + 1e-6 * flight.step_s);
+        let row = (flight.table).partition_point(|(from_s, _)| *from_s <= t_s + 1e-6 * flight.step_s);
         let set = match row {
             0 => idle,
             row => DriveCommand::new(&flight.table[row - 1].1),
@@ -150,10 +131,7 @@ mod tests {
             ("t_s,left,right,up\n0,1,2,3\n", "no drive \"up\""),
             ("t_s,left,right\n0,1,x\n", "line 2, right: not a number"),
             ("t_s,left,right\n0,1,NaN\n", "line 2, right: not a number"),
-            (
-                "t_s,left,right\n1,1,1\n1,1,1\n",
-                "line 3, t_s: times must rise",
-            ),
+            ("t_s,left,right\n1,1,1\n1,1,1\n", "line 3, t_s: times must rise"),
             ("t_s,left,right\n", "no row"),
             ("t_s,left,right\n0,1\n", "line: 2"),
         ] {

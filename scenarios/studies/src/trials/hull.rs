@@ -35,31 +35,18 @@ pub fn drawn(looks: &Looks) -> String {
             (points, colour.as_str())
         })
         .collect();
-    let points = || {
-        outlines
-            .iter()
-            .flat_map(|(points, _)| points)
-            .chain(looks.drives.iter().map(|d| &d.0))
-    };
+    let points = || outlines.iter().flat_map(|(points, _)| points).chain(looks.drives.iter().map(|d| &d.0));
     let across = |p: &Vector3<f64>| p.y.abs().max(p.z.abs()) * SIDES[0] / SIDES[1];
-    let reach = points()
-        .map(|p| p.x.abs().max(across(p)))
-        .fold(0.1, f64::max);
+    let reach = points().map(|p| p.x.abs().max(across(p))).fold(0.1, f64::max);
     // From the side one looks to port: x to the right, z up. From above: x to the right, y up.
-    for (k, (title, axes)) in [("from starboard", [0, 2]), ("from above", [0, 1])]
-        .into_iter()
-        .enumerate()
-    {
+    for (k, (title, axes)) in [("from starboard", [0, 2]), ("from above", [0, 1])].into_iter().enumerate() {
         let panel = Panel {
             left: 60.0 + (SIDES[0] + 60.0) * k as f64,
             top: 70.0,
             width: SIDES[0],
             height: SIDES[1],
             x: [-1.2 * reach, 1.2 * reach],
-            y: [
-                -1.2 * reach * SIDES[1] / SIDES[0],
-                1.2 * reach * SIDES[1] / SIDES[0],
-            ],
+            y: [-1.2 * reach * SIDES[1] / SIDES[0], 1.2 * reach * SIDES[1] / SIDES[0]],
         };
         view(&mut c, &panel, title, axes, &outlines, looks);
     }
@@ -98,10 +85,7 @@ fn view(
     order.sort_by(|a, b| depth(&a.0).total_cmp(&depth(&b.0)));
     for (points, colour) in order {
         let around = hull_of(points.iter().map(flat).collect());
-        c.polygon(
-            around,
-            &Style::fill(colour).edged("#444444", 0.8).faint(0.85),
-        );
+        c.polygon(around, &Style::fill(colour).edged("#444444", 0.8).faint(0.85));
     }
     for (at, way, n) in &looks.drives {
         let start = flat(at);
@@ -112,24 +96,12 @@ fn view(
         } else {
             c.circle(start, 4.0, &Style::line("#b3541e", 2.0));
         }
-        c.rimmed(
-            [end[0] + 5.0, end[1] - 5.0],
-            11.0,
-            Anchor::Start,
-            &format!("{n}"),
-        );
+        c.rimmed([end[0] + 5.0, end[1] - 5.0], 11.0, Anchor::Start, &format!("{n}"));
     }
-    for (centre, name, colour) in [
-        (&looks.centres[0], "G", "#111111"),
-        (&looks.centres[1], "B", "#1f5fa8"),
-    ] {
+    for (centre, name, colour) in [(&looks.centres[0], "G", "#111111"), (&looks.centres[1], "B", "#1f5fa8")] {
         let at = flat(centre);
         c.circle(at, 3.5, &Style::fill(colour).edged("#ffffff", 1.0));
-        let y = if name == "B" {
-            at[1] - 6.0
-        } else {
-            at[1] + 14.0
-        };
+        let y = if name == "B" { at[1] - 6.0 } else { at[1] + 14.0 };
         c.rimmed([at[0] - 12.0, y], 12.0, Anchor::Start, name);
     }
     c.unclip();
@@ -145,21 +117,18 @@ fn corners(shape: &Shape) -> Vec<Vector3<f64>> {
     };
     let ball = |r: f64, z: f64| {
         let turns = (0..12).map(move |k| {
-            UnitQuaternion::from_axis_angle(
-                &Vector3::x_axis(),
-                f64::from(k) * std::f64::consts::PI / 12.0,
-            )
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), f64::from(k) * std::f64::consts::PI / 12.0)
         });
         turns.flat_map(move |turn| ring(r, 0.0).map(move |p| turn * p + Vector3::z() * z))
     };
     match shape {
         Shape::Sphere { radius_m } => ball(*radius_m, 0.0).collect(),
-        Shape::Capsule { radius_m, length_m } => ball(*radius_m, -length_m / 2.0)
-            .chain(ball(*radius_m, length_m / 2.0))
-            .collect(),
-        Shape::Cylinder { radius_m, length_m } => ring(*radius_m, -length_m / 2.0)
-            .chain(ring(*radius_m, length_m / 2.0))
-            .collect(),
+        Shape::Capsule { radius_m, length_m } => {
+            ball(*radius_m, -length_m / 2.0).chain(ball(*radius_m, length_m / 2.0)).collect()
+        }
+        Shape::Cylinder { radius_m, length_m } => {
+            ring(*radius_m, -length_m / 2.0).chain(ring(*radius_m, length_m / 2.0)).collect()
+        }
         Shape::Box { size_m } => (0..8)
             .map(|k| {
                 let side = |bit: u32| if k & bit == 0 { -0.5 } else { 0.5 };
@@ -173,15 +142,11 @@ fn corners(shape: &Shape) -> Vec<Vector3<f64>> {
 /// Convex hull of points of the sheet, in order (Andrew's monotone chain).
 fn hull_of(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let turn = |a: &[f64; 2], b: &[f64; 2], p: &[f64; 2]| {
-        (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-    };
+    let turn = |a: &[f64; 2], b: &[f64; 2], p: &[f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
     let half = |points: &mut dyn Iterator<Item = &[f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
         for p in points {
-            while chain.len() > 1
-                && turn(&chain[chain.len() - 2], &chain[chain.len() - 1], p) <= 0.0
-            {
+            while chain.len() > 1 && turn(&chain[chain.len() - 2], &chain[chain.len() - 1], p) <= 0.0 {
                 chain.pop();
             }
             chain.push(*p);

@@ -19,10 +19,7 @@ pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
         let mut sailing = Sailing::new(craft, able, Vector3::new(course.x, course.y, 0.0));
         let goal = Goal {
             id: 1,
-            manoeuvre: Manoeuvre::Hold {
-                point: Vector2::zeros(),
-                heading: Some(Heading::from_deg(0.0)),
-            },
+            manoeuvre: Manoeuvre::Hold { point: Vector2::zeros(), heading: Some(Heading::from_deg(0.0)) },
             vertical: Vertical::Depth(depth_of(able)),
             speed_m_s: able.top_speed_m_s,
         };
@@ -43,19 +40,10 @@ pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
         name: "station keeping",
         found: vec![
             measured("current, from ahead, abeam and astern", speed, "m/s"),
-            measured(
-                "distance, root mean square after 30 s",
-                (squares / f64::from(n)).sqrt(),
-                "m",
-            ),
+            measured("distance, root mean square after 30 s", (squares / f64::from(n)).sqrt(), "m"),
             measured("greatest distance after 30 s", worst, "m"),
         ],
-        curve: Curve {
-            labels: ["station keeping", "east, m", "north, m"],
-            points,
-            plan: true,
-            rudder: Vec::new(),
-        },
+        curve: Curve { labels: ["station keeping", "east, m", "north, m"], points, plan: true, rudder: Vec::new() },
         rows: Vec::new(),
     }
 }
@@ -97,12 +85,7 @@ pub(super) fn sawtooth(craft: &Craft, able: &Capabilities) -> Trial {
             measured("pitch downwards", mean(down, |l| l.2), "degrees"),
             measured("pitch upwards", mean(up, |l| l.2), "degrees"),
         ],
-        curve: Curve {
-            labels: ["sawtooth", "north, m", "height, m"],
-            points,
-            plan: false,
-            rudder: Vec::new(),
-        },
+        curve: Curve { labels: ["sawtooth", "north, m", "height, m"], points, plan: false, rudder: Vec::new() },
         rows: Vec::new(),
     }
 }

@@ -38,9 +38,7 @@ impl Rudder {
             _ => 0.0,
         };
         let drives = || plant.drives.iter().enumerate();
-        let strongest = drives()
-            .map(|(_, d)| turns(&d.does).abs())
-            .fold(0.0, f64::max);
+        let strongest = drives().map(|(_, d)| turns(&d.does).abs()).fold(0.0, f64::max);
         let fins: Vec<(usize, f64)> = drives()
             .map(|(k, d)| (k, turns(&d.does) / strongest.max(f64::MIN_POSITIVE)))
             .filter(|(_, share)| share.abs() > LEAST)
@@ -49,26 +47,19 @@ impl Rudder {
         Some(Self {
             limit_rad: fins.iter().map(limit).reduce(f64::min)?,
             fins,
-            thrusters: drives()
-                .filter(|(_, d)| matches!(d.does, Does::Pushes(..)))
-                .map(|(k, _)| k)
-                .collect(),
+            thrusters: drives().filter(|(_, d)| matches!(d.does, Does::Pushes(..))).map(|(k, _)| k).collect(),
         })
     }
 
     /// Set-points with the rudder at an angle and the propellers as in `thrust`; the rest stays as the autopilot has it.
     pub(super) fn held(&self, set: Actuation, angle_rad: f64, thrust: &Actuation) -> Actuation {
         match (set, thrust) {
-            (Actuation::Fins(set), Actuation::Fins(thrust)) => Actuation::Fins(ActuatorCommand {
-                rudder_rad: angle_rad,
-                rpm: thrust.rpm,
-                ..set
-            }),
+            (Actuation::Fins(set), Actuation::Fins(thrust)) => {
+                Actuation::Fins(ActuatorCommand { rudder_rad: angle_rad, rpm: thrust.rpm, ..set })
+            }
             (Actuation::Drives(set), Actuation::Drives(thrust)) => {
                 let more = angle_rad - self.mean(set.all());
-                let turned = |set: DriveCommand, (k, share): &(usize, f64)| {
-                    set.with(*k, set.all()[*k] + share * more)
-                };
+                let turned = |set: DriveCommand, (k, share): &(usize, f64)| set.with(*k, set.all()[*k] + share * more);
                 let turned = self.fins.iter().fold(set, turned);
                 let pushing = |set: DriveCommand, k: &usize| set.with(*k, thrust.all()[*k]);
                 Actuation::Drives(self.thrusters.iter().fold(turned, pushing))

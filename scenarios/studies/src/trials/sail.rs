@@ -58,23 +58,14 @@ impl Sailing {
         let mut truth = Truth::at_rest(start);
         truth.v_WB_B = start.R_WB.inverse() * current;
         // Trials are to show the vehicle, not the speed limit of a mission's guidance.
-        let spec = GuidanceSpec {
-            water_speed_limit_m_s: world::ranges::Positive::new(20.0),
-            ..GuidanceSpec::default()
-        };
+        let spec =
+            GuidanceSpec { water_speed_limit_m_s: world::ranges::Positive::new(20.0), ..GuidanceSpec::default() };
         Self {
             craft: craft.clone(),
             pilot: Pilot::new(&AutopilotSpec::default(), &craft.control(), 0.0),
-            guidance: Guidance::new(&spec)
-                .carried(craft.is_carried())
-                .hovering(able.hovers),
+            guidance: Guidance::new(&spec).carried(craft.is_carried()).hovering(able.hovers),
             water: Current(current),
-            area: Area {
-                centre: Vector2::zeros(),
-                length_m: 1e5,
-                width_m: 1e5,
-                axis: Heading::from_deg(0.0),
-            },
+            area: Area { centre: Vector2::zeros(), length_m: 1e5, width_m: 1e5, axis: Heading::from_deg(0.0) },
             truth,
             set: craft.idle(),
             steps: 0,
@@ -102,10 +93,7 @@ impl Sailing {
                 rates_rad_s: self.truth.w_WB_B,
             },
             v_ground_body: self.truth.v_WB_B,
-            flow: Some(FlowEstimate {
-                velocity: self.water.0.xy(),
-                age_s: 0.0,
-            }),
+            flow: Some(FlowEstimate { velocity: self.water.0.xy(), age_s: 0.0 }),
             fix_jump: Vector2::zeros(),
         }
     }
@@ -129,13 +117,7 @@ impl Sailing {
     }
 
     /// One step with the rudder at an angle and the propellers as in `thrust`; `command` is for the rest.
-    pub(super) fn by_rudder(
-        &mut self,
-        rudder: &Rudder,
-        angle_rad: f64,
-        thrust: &Actuation,
-        command: &Command,
-    ) {
+    pub(super) fn by_rudder(&mut self, rudder: &Rudder, angle_rad: f64, thrust: &Actuation, command: &Command) {
         let estimate = self.estimate();
         let set = self.pilot.step(command, &estimate, STEP_S);
         self.move_by(rudder.held(set, angle_rad, thrust));

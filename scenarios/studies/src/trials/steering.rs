@@ -11,18 +11,14 @@
 
 use super::rudder::Rudder;
 use super::sail::STEP_S;
-use super::trial::{
-    Curve, Measured, SteeringRow, THINNED, Trial, approach, command, cruise, depth_of, measured,
-};
+use super::trial::{Curve, Measured, SteeringRow, THINNED, Trial, approach, command, cruise, depth_of, measured};
 use robots::handoff::Capabilities;
 use robots::vehicles::Craft;
 
 /// The turning circle, to 540 degrees or for `most_s`.
 pub(super) fn circle(craft: &Craft, able: &Capabilities, rudder: &Rudder, most_s: f64) -> Trial {
     let full = rudder.limit_rad.to_degrees();
-    let rows = steered(craft, able, rudder, most_s, |row| {
-        (row.heading_deg < 540.0).then_some(full)
-    });
+    let rows = steered(craft, able, rudder, most_s, |row| (row.heading_deg < 540.0).then_some(full));
     let mut found = circled(&rows).to_vec();
     found.push(measured("rudder", full, "degrees"));
     Trial {
@@ -46,10 +42,7 @@ fn circled(rows: &[SteeringRow]) -> [Measured; 6] {
     // The last half circle is steady: its way is half the circumference.
     let steady = at(360.0).zip(at(540.0)).map(|(from, to)| {
         let way = |w: &[SteeringRow]| {
-            let [dx, dy] = [
-                w[1].ahead_m - w[0].ahead_m,
-                w[1].starboard_m - w[0].starboard_m,
-            ];
+            let [dx, dy] = [w[1].ahead_m - w[0].ahead_m, w[1].starboard_m - w[0].starboard_m];
             (dx * dx + dy * dy).sqrt()
         };
         let turned = (rows[to].heading_deg - rows[from].heading_deg).to_radians();
@@ -67,18 +60,8 @@ fn circled(rows: &[SteeringRow]) -> [Measured; 6] {
 }
 
 /// The zigzag of an angle for rudder and heading, until the fifth order or for `most_s`.
-pub(super) fn zigzag(
-    craft: &Craft,
-    able: &Capabilities,
-    rudder: &Rudder,
-    angle_deg: f64,
-    most_s: f64,
-) -> Trial {
-    let name = if angle_deg < 15.0 {
-        "zigzag 10/10"
-    } else {
-        "zigzag 20/20"
-    };
+pub(super) fn zigzag(craft: &Craft, able: &Capabilities, rudder: &Rudder, angle_deg: f64, most_s: f64) -> Trial {
+    let name = if angle_deg < 15.0 { "zigzag 10/10" } else { "zigzag 20/20" };
     let helm_deg = angle_deg.min(rudder.limit_rad.to_degrees());
     let mut orders = Zigzag::new(angle_deg);
     let rows = steered(craft, able, rudder, most_s, |row| {
@@ -119,10 +102,7 @@ impl Zigzag {
     const MOST: usize = 5;
 
     fn new(angle_deg: f64) -> Self {
-        Self {
-            angle_deg,
-            times_s: Vec::new(),
-        }
+        Self { angle_deg, times_s: Vec::new() }
     }
 
     /// Side of the order that is followed from a time on, 1 to starboard; `None` once all have been given.

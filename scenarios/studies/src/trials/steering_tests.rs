@@ -39,11 +39,7 @@ fn the_zigzag_of_nomotos_model_overshoots_as_it_must() {
             let Some(side) = orders.side(t_s, heading) else {
                 break;
             };
-            rows.push(SteeringRow {
-                t_s,
-                heading_deg: heading,
-                ..SteeringRow::default()
-            });
+            rows.push(SteeringRow { t_s, heading_deg: heading, ..SteeringRow::default() });
             // Exact over a step of constant rudder.
             let steady: f64 = gain * side * angle;
             let decay = math::exp(-dt_s / lag_s);
@@ -66,15 +62,9 @@ fn the_zigzag_of_nomotos_model_overshoots_as_it_must() {
         let check = lag_s * math::ln(1.0 + r / (gain * angle));
         let over = lag_s * r - gain * angle * check;
         let (found, when) = orders.overshoot(&rows, 1).expect("it came back");
-        assert!(
-            (orders.times_s[1] - low).abs() < 2.0 * dt_s,
-            "{angle}: {orders:?}"
-        );
+        assert!((orders.times_s[1] - low).abs() < 2.0 * dt_s, "{angle}: {orders:?}");
         assert!((found - over).abs() < 0.02, "{angle}: {found} of {over}");
-        assert!(
-            (when - check).abs() < 3.0 * dt_s,
-            "{angle}: {when} of {check}"
-        );
+        assert!((when - check).abs() < 3.0 * dt_s, "{angle}: {when} of {check}");
         // The second swing comes with more way on: it goes farther.
         assert!(orders.overshoot(&rows, 2).expect("it came back").0 > found);
     }
@@ -102,12 +92,7 @@ fn a_circle_has_its_radius_as_advance_and_its_diameter_as_tactical_diameter() {
         assert!((value - wanted).abs() < 0.03, "{measured:?}");
     }
     // One that never comes round has no such numbers.
-    assert!(
-        circled(&rows[..800])
-            .iter()
-            .take(4)
-            .all(|m| m.value.is_none())
-    );
+    assert!(circled(&rows[..800]).iter().take(4).all(|m| m.value.is_none()));
 }
 
 #[test]
@@ -123,16 +108,10 @@ fn hulls_with_a_rudder_overshoot_and_those_without_have_no_such_trial() {
         let full = circle(&craft, &able, &rudder, 2000.0);
         let diameter = value(&full, "tactical diameter");
         // IMO's limits for ships: tactical diameter 5 lengths and advance 4.5; these hulls have small fins.
-        assert!(
-            diameter > length_m && diameter < 20.0 * length_m,
-            "{spec:?}: {diameter}"
-        );
+        assert!(diameter > length_m && diameter < 20.0 * length_m, "{spec:?}: {diameter}");
         // In a steady turn at constant speed, way and turn agree with the diameter of the last circle.
         let steady = value(&full, "steady diameter");
-        assert!(
-            (steady / diameter - 1.0).abs() < 0.1,
-            "{spec:?}: {steady}, {diameter}"
-        );
+        assert!((steady / diameter - 1.0).abs() < 0.1, "{spec:?}: {steady}, {diameter}");
         for angle in [10.0, 20.0] {
             let zigzag = zigzag(&craft, &able, &rudder, angle, 2000.0);
             let over = value(&zigzag, "first overshoot angle");
@@ -145,16 +124,10 @@ fn hulls_with_a_rudder_overshoot_and_those_without_have_no_such_trial() {
             };
             let helm = value(&zigzag, "rudder");
             for side in most(|r| r.rudder_deg) {
-                assert!(
-                    (side.abs() - helm).abs() < 0.5,
-                    "{spec:?}: {side} of {helm}"
-                );
+                assert!((side.abs() - helm).abs() < 0.5, "{spec:?}: {side} of {helm}");
             }
             let [port, starboard] = most(|r| r.heading_deg);
-            assert!(
-                port < -angle && starboard > angle,
-                "{spec:?}: {port}, {starboard}"
-            );
+            assert!(port < -angle && starboard > angle, "{spec:?}: {port}, {starboard}");
         }
     }
     for spec in [
@@ -165,11 +138,7 @@ fn hulls_with_a_rudder_overshoot_and_those_without_have_no_such_trial() {
         assert!(!has_rudder(&craft(&spec)), "{spec:?}");
     }
     let without = trials(&craft(&VehicleSpec::Shipped("surface_craft".into())));
-    assert!(
-        without
-            .iter()
-            .all(|t| t.rows.is_empty() && !t.name.starts_with("zigzag"))
-    );
+    assert!(without.iter().all(|t| t.rows.is_empty() && !t.name.starts_with("zigzag")));
 }
 
 /// A hull that is alike on both sides turns alike to both; less rudder makes a wider circle.
@@ -179,9 +148,7 @@ fn a_circle_is_wider_with_less_rudder_and_the_same_to_port() {
     let able = craft.capabilities(11.0);
     let rudder = Rudder::fitted(&craft).expect("it has one");
     let diameter = |angle_deg: f64| {
-        let rows = steered(&craft, &able, &rudder, 200.0, |row| {
-            (row.heading_deg.abs() < 190.0).then_some(angle_deg)
-        });
+        let rows = steered(&craft, &able, &rudder, 200.0, |row| (row.heading_deg.abs() < 190.0).then_some(angle_deg));
         let half = rows.iter().find(|r| r.heading_deg.abs() >= 180.0);
         half.expect("it turned").starboard_m
     };
@@ -199,10 +166,7 @@ fn a_turn_costs_speed() {
     let rudder = Rudder::fitted(&craft).expect("it has one");
     let full = circle(&craft, &able, &rudder, 240.0);
     let [first, last] = [full.rows.first(), full.rows.last()].map(|r| r.expect("rows").speed_m_s);
-    assert!(
-        last < 0.999 * first && last > 0.3 * first,
-        "{first}, {last}"
-    );
+    assert!(last < 0.999 * first && last > 0.3 * first, "{first}, {last}");
     let zigzag = trial(&trials(&craft), "zigzag 10/10").clone();
     assert_eq!(zigzag.curve.rudder.len(), zigzag.curve.points.len());
 }

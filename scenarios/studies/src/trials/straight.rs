@@ -12,12 +12,7 @@ use world::units::Heading;
 /// Full ahead from rest, 120 s.
 pub(super) fn speed(craft: &Craft, able: &Capabilities) -> Trial {
     let mut sailing = Sailing::new(craft, able, Vector3::zeros());
-    let ahead = command(
-        able,
-        Heading::from_deg(0.0),
-        2.0 * able.top_speed_m_s,
-        depth_of(able),
-    );
+    let ahead = command(able, Heading::from_deg(0.0), 2.0 * able.top_speed_m_s, depth_of(able));
     let mut points = Vec::new();
     let mut all = Vec::new();
     for k in 0..(120.0 / STEP_S) as u64 {
@@ -35,19 +30,10 @@ pub(super) fn speed(craft: &Craft, able: &Capabilities) -> Trial {
         name: "speed",
         found: vec![
             measured("steady speed at full ahead", top, "m/s"),
-            measured(
-                "time to 63 % of it",
-                risen.map(|k| (k + 1) as f64 * STEP_S),
-                "s",
-            ),
+            measured("time to 63 % of it", risen.map(|k| (k + 1) as f64 * STEP_S), "s"),
             measured("pitch at full ahead", pitch.to_degrees(), "degrees"),
         ],
-        curve: Curve {
-            labels: ["full ahead", "time, s", "speed, m/s"],
-            points,
-            plan: false,
-            rudder: Vec::new(),
-        },
+        curve: Curve { labels: ["full ahead", "time, s", "speed, m/s"], points, plan: false, rudder: Vec::new() },
         rows: Vec::new(),
     }
 }
@@ -84,12 +70,7 @@ pub(super) fn dive(craft: &Craft, able: &Capabilities) -> Trial {
             measured("overshoot", reached.map(|_| (deepest - BY_M).max(0.0)), "m"),
             measured("error after 150 s", sum / f64::from(n), "m"),
         ],
-        curve: Curve {
-            labels: ["dive of 5 m", "time, s", "height, m"],
-            points,
-            plan: false,
-            rudder: Vec::new(),
-        },
+        curve: Curve { labels: ["dive of 5 m", "time, s", "height, m"], points, plan: false, rudder: Vec::new() },
         rows: Vec::new(),
     }
 }
@@ -121,12 +102,7 @@ pub(super) fn stop(craft: &Craft, able: &Capabilities) -> Trial {
             measured("time to a tenth of it", slow.map(|s| s.0), "s"),
             measured("way until then", slow.map(|s| s.1), "m"),
         ],
-        curve: Curve {
-            labels: ["stop", "time, s", "speed, m/s"],
-            points,
-            plan: false,
-            rudder: Vec::new(),
-        },
+        curve: Curve { labels: ["stop", "time, s", "speed, m/s"], points, plan: false, rudder: Vec::new() },
         rows: Vec::new(),
     }
 }

@@ -48,16 +48,8 @@ pub struct Trial {
     pub rows: Vec<SteeringRow>,
 }
 
-pub(super) fn measured(
-    what: &'static str,
-    value: impl Into<Option<f64>>,
-    unit: &'static str,
-) -> Measured {
-    Measured {
-        what,
-        value: value.into(),
-        unit,
-    }
+pub(super) fn measured(what: &'static str, value: impl Into<Option<f64>>, unit: &'static str) -> Measured {
+    Measured { what, value: value.into(), unit }
 }
 
 /// A vehicle at one moment of a trial by rudder; all since the first order to the rudder.
@@ -88,25 +80,12 @@ pub(super) fn patience_s(able: &Capabilities) -> f64 {
 }
 
 /// A command of heading and speed for the vehicle's kind.
-pub(super) fn command(
-    able: &Capabilities,
-    heading: Heading,
-    speed_m_s: f64,
-    depth_m: f64,
-) -> Command {
+pub(super) fn command(able: &Capabilities, heading: Heading, speed_m_s: f64, depth_m: f64) -> Command {
     let vertical = Vertical::Depth(depth_m);
     if able.hovers {
-        Command::Move(MoveSetpoint {
-            heading,
-            over_ground_m_s: heading.unit() * speed_m_s,
-            vertical,
-        })
+        Command::Move(MoveSetpoint { heading, over_ground_m_s: heading.unit() * speed_m_s, vertical })
     } else {
-        Command::Steer(Setpoint {
-            heading,
-            water_speed_m_s: speed_m_s,
-            vertical,
-        })
+        Command::Steer(Setpoint { heading, water_speed_m_s: speed_m_s, vertical })
     }
 }
 

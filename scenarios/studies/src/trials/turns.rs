@@ -3,9 +3,7 @@
 //! *Source*, *Parameters*, *Deviations*: see `manoeuvres.rs`.
 
 use super::sail::STEP_S;
-use super::trial::{
-    Curve, THINNED, Trial, approach, command, cruise, cruising, depth_of, measured, patience_s,
-};
+use super::trial::{Curve, THINNED, Trial, approach, command, cruise, cruising, depth_of, measured, patience_s};
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Vertical};
 use robots::vehicles::Craft;
 use world::units::Heading;
@@ -86,9 +84,7 @@ pub(super) fn headings(craft: &Craft, able: &Capabilities) -> Trial {
     for k in 0..(180.0 / STEP_S) as u64 {
         let heading = Heading::from_deg(if side > 0.0 { 20.0 } else { 340.0 });
         sailing.obeying(&command(able, heading, cruise(able), depth_of(able)));
-        let off = Heading::from_deg(0.0)
-            .turn_to(sailing.truth.pose.heading())
-            .to_degrees();
+        let off = Heading::from_deg(0.0).turn_to(sailing.truth.pose.heading()).to_degrees();
         let t_s = sailing.t_s() - begun_s;
         if k % THINNED == 0 {
             points.push([t_s, off]);
@@ -114,11 +110,7 @@ pub(super) fn headings(craft: &Craft, able: &Capabilities) -> Trial {
         name: "headings by the autopilot",
         found: vec![
             measured("first heading reached after", passed.first().copied(), "s"),
-            measured(
-                "overshoot",
-                worst.iter().copied().reduce(f64::max),
-                "degrees",
-            ),
+            measured("overshoot", worst.iter().copied().reduce(f64::max), "degrees"),
             measured("period", period, "s"),
         ],
         curve: Curve {

@@ -34,12 +34,7 @@ impl Blocked {
                 to.words(list);
             }
         }
-        let Solved {
-            steps,
-            divergence,
-            open_cells: _,
-            cells: _,
-        } = solved;
+        let Solved { steps, divergence, open_cells: _, cells: _ } = solved;
         to.word(*steps as u64);
         to.word(*divergence);
     }

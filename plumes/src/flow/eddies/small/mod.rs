@@ -51,9 +51,8 @@ pub(crate) const MOST_OCTAVES: usize = 8;
 /// What the table of all octaves needs, once in a process.
 pub(super) fn cost() -> Cost {
     let nodes = table::COUNT as f64;
-    let part = Part::new("finest_m", format!("{nodes:.1e} nodes of small eddies"))
-        .holds(nodes * 40.0)
-        .takes(nodes * 1e-6);
+    let part =
+        Part::new("finest_m", format!("{nodes:.1e} nodes of small eddies")).holds(nodes * 40.0).takes(nodes * 1e-6);
     Cost::of(part)
 }
 
@@ -78,13 +77,7 @@ impl SmallSpec {
     ///
     /// # Errors
     /// If it is not below the grid's shortest wave, or too far below it.
-    pub(super) fn build(
-        &self,
-        field: &str,
-        channel: &Channel,
-        k_c: f64,
-        seed: Seed,
-    ) -> Result<Small, PlumeError> {
+    pub(super) fn build(&self, field: &str, channel: &Channel, k_c: f64, seed: Seed) -> Result<Small, PlumeError> {
         let longest_m = std::f64::consts::TAU / k_c;
         let finest_m = self.finest_m.get();
         let count = math::ln(longest_m / finest_m) / std::f64::consts::LN_2;
@@ -125,9 +118,7 @@ impl Small {
     /// The patterns at a time, two for each octave: the even one and the odd one.
     pub(crate) fn lives(&self, t_s: f64) -> Vec<Life> {
         let of = |(n, octave): (usize, &Octave)| {
-            octave.lives(t_s, |life| {
-                Stream::new(self.seed, "eddies", &format!("octave {n} pattern {life}"))
-            })
+            octave.lives(t_s, |life| Stream::new(self.seed, "eddies", &format!("octave {n} pattern {life}")))
         };
         self.octaves.iter().enumerate().flat_map(of).collect()
     }
@@ -137,11 +128,7 @@ impl Small {
     pub(crate) fn weights(&self, size_m: f32, grown: bool) -> Weights {
         let mut weights = [0.0; MOST_OCTAVES];
         for (weight, octave) in weights.iter_mut().zip(&self.octaves) {
-            *weight = if grown {
-                octave.marked(size_m)
-            } else {
-                octave.kept(size_m)
-            };
+            *weight = if grown { octave.marked(size_m) } else { octave.kept(size_m) };
         }
         weights
     }
@@ -183,11 +170,7 @@ impl Small {
                 // SAFETY: as the caller promises.
                 let v = unsafe { octave.velocity::<P>(table, life, &level, *label) };
                 let drawn_out = shear * life.age_s * v[2];
-                let by = [
-                    v[0] + drawn_out * self.along.x,
-                    v[1] + drawn_out * self.along.y,
-                    v[2],
-                ];
+                let by = [v[0] + drawn_out * self.along.x, v[1] + drawn_out * self.along.y, v[2]];
                 for d in 0..3 {
                     sum[d] += weight * by[d];
                 }

@@ -85,11 +85,7 @@ impl Octave {
         };
         // A pattern lives from its number to two periods later.
         let (old, new) = (of(young - 1.0, c), of(young, s));
-        if new.number.is_multiple_of(2) {
-            [new, old]
-        } else {
-            [old, new]
-        }
+        if new.number.is_multiple_of(2) { [new, old] } else { [old, new] }
     }
 
     /// Part of the octave that is left in the mean over a kernel.
@@ -148,10 +144,7 @@ impl Octave {
 pub(super) fn level(z: f32, depth_m: f32) -> Level {
     let at = (1.0 + z / depth_m).clamp(0.0, 1.0) * LEVELS as f32;
     let cell = (at as usize).min(LEVELS - 1);
-    Level {
-        cell,
-        part: at - cell as f32,
-    }
+    Level { cell, part: at - cell as f32 }
 }
 
 impl Level {
@@ -171,15 +164,10 @@ pub(super) fn variance(channel: &Channel, height_m: f64, k: f64) -> f64 {
     let eta = (nu * nu * nu / epsilon).sqrt().sqrt();
     let energy = |k: f64| {
         let x = k * eta;
-        1.5 * math::powf(epsilon, 2.0 / 3.0)
-            * math::powf(k, -5.0 / 3.0)
-            * math::exp(-2.25 * math::powf(x, 4.0 / 3.0))
+        1.5 * math::powf(epsilon, 2.0 / 3.0) * math::powf(k, -5.0 / 3.0) * math::exp(-2.25 * math::powf(x, 4.0 / 3.0))
     };
     let step = math::ln(2.0) / N as f64;
-    let all: f64 = (0..N)
-        .map(|n| k * math::exp((n as f64 + 0.5) * step))
-        .map(|k| k * energy(k) * step)
-        .sum();
+    let all: f64 = (0..N).map(|n| k * math::exp((n as f64 + 0.5) * step)).map(|k| k * energy(k) * step).sum();
     2.0 / 3.0 * all
 }
 

@@ -61,8 +61,7 @@ impl Table {
                     let k = [mx, my, mz].map(|m| TAU * m as f64);
                     // E(k) is spread over a sphere, and a velocity is k times its potential.
                     let std = math::powf(m2.sqrt(), (-5.0 / 3.0 - 4.0) / 2.0);
-                    let a: [[f64; 2]; 3] =
-                        std::array::from_fn(|_| [std * rng.normal(), std * rng.normal()]);
+                    let a: [[f64; 2]; 3] = std::array::from_fn(|_| [std * rng.normal(), std * rng.normal()]);
                     let at = (wrapped(mx) * NODES + wrapped(my)) * NODES + wrapped(mz);
                     for c in 0..3 {
                         let (p, q) = ((c + 1) % 3, (c + 2) % 3);
@@ -83,9 +82,7 @@ impl Table {
         let scale = 1.0 / (square / (3 * COUNT) as f64).sqrt();
         let of = |v: &Four| v[0].map(|v| (scale * v) as f32);
         let node = |(v, a): (&Four, &Four)| Node([of(v), of(a)]);
-        Self {
-            nodes: velocity.iter().zip(&potential).map(node).collect(),
-        }
+        Self { nodes: velocity.iter().zip(&potential).map(node).collect() }
     }
 
     /// Velocity and potential at a place in sides of the box.
@@ -139,11 +136,7 @@ struct Cell {
 impl Cell {
     #[inline(always)]
     fn of(q: [f32; 3]) -> Self {
-        let mut new = Self {
-            near: [0; 3],
-            far: [0; 3],
-            part: [0.0; 3],
-        };
+        let mut new = Self { near: [0; 3], far: [0; 3], part: [0.0; 3] };
         for (d, q) in q.into_iter().enumerate() {
             let c = q * NODES as f32;
             // The whole number below, without a call.
@@ -204,9 +197,7 @@ mod tests {
                 high[d] += h;
                 let ((v0, a0), (v1, a1)) = (at(table, low), at(table, high));
                 let per = |a: [f32; 3], b: [f32; 3]| {
-                    std::array::from_fn::<f64, 3, _>(|c| {
-                        f64::from(b[c] - a[c]) / f64::from(2.0 * h)
-                    })
+                    std::array::from_fn::<f64, 3, _>(|c| f64::from(b[c] - a[c]) / f64::from(2.0 * h))
                 };
                 (per(v0, v1), per(a0, a1))
             };
@@ -221,10 +212,6 @@ mod tests {
             gathers += (s[0].0[0] + s[1].0[1] + s[2].0[2]).powi(2);
         }
         assert!((wrong / 6000.0).sqrt() < 0.2, "{}", (wrong / 6000.0).sqrt());
-        assert!(
-            (gathers / slopes).sqrt() < 0.05,
-            "{}",
-            (gathers / slopes).sqrt()
-        );
+        assert!((gathers / slopes).sqrt() < 0.05, "{}", (gathers / slopes).sqrt());
     }
 }

@@ -15,17 +15,12 @@ use world::seeds::Stream;
 pub(crate) fn water(length_m: f64, finest_m: f64, seed: u64) -> Water {
     let spec = OpenChannelSpec {
         eddies: Some(EddiesSpec {
-            small: Some(SmallSpec {
-                finest_m: Positive::new(finest_m),
-            }),
+            small: Some(SmallSpec { finest_m: Positive::new(finest_m) }),
             ..EddiesSpec::default()
         }),
         ..channel_spec(0.05, 0.0)
     };
-    let spec = WaterSpec {
-        currents: vec![CurrentSpec::new(spec)],
-        ..WaterSpec::default()
-    };
+    let spec = WaterSpec { currents: vec![CurrentSpec::new(spec)], ..WaterSpec::default() };
     spec.build(&flume(length_m), &BED, seed).unwrap()
 }
 
@@ -51,27 +46,17 @@ fn nothing_gathers_in_them() {
     let mut rng = Stream::new(1, "test", "places");
     // In mid-depth, where the shear hardly changes, and just above the bed, where it is left out here: there the
     // strength changes fast.
-    for (height, shear, within) in [
-        (0.1, super::octave::shear(&channel)[128], 0.1),
-        (0.004, 0.0, 0.35),
-    ] {
+    for (height, shear, within) in [(0.1, super::octave::shear(&channel)[128], 0.1), (0.004, 0.0, 0.35)] {
         let (mut gathers, mut slopes) = (0.0_f64, 0.0_f64);
         for _ in 0..3000 {
             let t = 20.0 * rng.uniform();
-            let p = [
-                rng.uniform() as f32,
-                rng.uniform() as f32,
-                (height - 0.2) as f32,
-            ];
+            let p = [rng.uniform() as f32, rng.uniform() as f32, (height - 0.2) as f32];
             let h = 4e-4_f32;
             let slope = |d: usize| {
                 let (mut low, mut high) = (p, p);
                 low[d] -= h;
                 high[d] += h;
-                let (a, b) = (
-                    velocity(&small, t, shear, low),
-                    velocity(&small, t, shear, high),
-                );
+                let (a, b) = (velocity(&small, t, shear, low), velocity(&small, t, shear, high));
                 [0, 1, 2].map(|c: usize| f64::from(b[c] - a[c]) / f64::from(2.0 * h))
             };
             let s = [slope(0), slope(1), slope(2)];
@@ -106,10 +91,7 @@ fn as_strong_as_the_cascade() {
             * math::powf(k, -5.0 / 3.0)
             * math::exp(-2.25 * math::powf(k * eta, 4.0 / 3.0))
     };
-    let (low, high) = (
-        std::f64::consts::TAU / 0.05,
-        std::f64::consts::TAU / 0.00625,
-    );
+    let (low, high) = (std::f64::consts::TAU / 0.05, std::f64::consts::TAU / 0.00625);
     for r in [0.002_f64, 0.005, 0.01, 0.02] {
         let want: f64 = (0..4000)
             .map(|n| low + (high - low) * (f64::from(n) + 0.5) / 4000.0)
@@ -164,26 +146,14 @@ fn kernels_feel_only_what_is_larger() {
 #[test]
 fn finest_scales_out_of_range_are_refused() {
     let refused = |finest_m: f64| {
-        let spec = SmallSpec {
-            finest_m: Positive::new(finest_m),
-        };
-        let channel = channel_spec(0.05, 0.0)
-            .build("water.currents[0]", 0.2)
-            .unwrap();
-        let built = spec.build(
-            "eddies.small",
-            &channel,
-            std::f64::consts::TAU / 0.05,
-            1.into(),
-        );
+        let spec = SmallSpec { finest_m: Positive::new(finest_m) };
+        let channel = channel_spec(0.05, 0.0).build("water.currents[0]", 0.2).unwrap();
+        let built = spec.build("eddies.small", &channel, std::f64::consts::TAU / 0.05, 1.into());
         built.map(|s| s.patterns()).map_err(|e| e.to_string())
     };
     assert_eq!(refused(0.0125), Ok(4));
     assert_eq!(refused(0.01), Ok(6));
     let said = refused(0.03).expect_err("coarser than the grid");
-    assert!(
-        said.starts_with("eddies.small.finest_m: must be from 1.95e-4 to 2.50e-2"),
-        "{said}"
-    );
+    assert!(said.starts_with("eddies.small.finest_m: must be from 1.95e-4 to 2.50e-2"), "{said}");
     assert!(refused(1e-4).is_err());
 }

@@ -15,10 +15,7 @@ pub(super) fn expression(given: &str) -> Result<OwnedKeyExpr, LiveError> {
         let why = plain(&e);
         // Before that zenoh repeats the key.
         let why = why.split_once("`: ").map_or(&*why, |(_, why)| why);
-        LiveError::Key {
-            key: given.to_owned(),
-            why: why.to_owned(),
-        }
+        LiveError::Key { key: given.to_owned(), why: why.to_owned() }
     })
 }
 
@@ -35,10 +32,7 @@ pub(super) fn unknown(given: &str, key: &keyexpr, topics: &[Topic]) -> Option<St
     let word = given.rsplit('/').next().unwrap_or(given);
     let near = nearest(word, &names).and_then(|near| topics.iter().find(|t| t.name == near));
     let near = near.map(|topic| format!("; did you mean `{}`?", starred(topic.key)));
-    Some(format!(
-        "no topic has the key `{given}`: `rheotaxis topics` lists all{}",
-        near.unwrap_or_default()
-    ))
+    Some(format!("no topic has the key `{given}`: `rheotaxis topics` lists all{}", near.unwrap_or_default()))
 }
 
 /// A key with `*` in the place of names like `<id>`, as `rheotaxis topics` prints them.

@@ -254,11 +254,7 @@ fn failed(error: zenoh::Error) -> LiveError {
     LiveError::Open { why: plain(&error) }
 }
 
-fn subscribe(
-    session: &Session,
-    wanted: &OwnedKeyExpr,
-    events: &SyncSender<Event>,
-) -> zenoh::Result<()> {
+fn subscribe(session: &Session, wanted: &OwnedKeyExpr, events: &SyncSender<Event>) -> zenoh::Result<()> {
     // Clocks have a subscriber of their own, because they say that a run has ended.
     let hear = |clocks: bool| {
         let events = events.clone();
@@ -272,9 +268,7 @@ fn subscribe(
     others.background().wait()?;
     let clocks = session.declare_subscriber("rheotaxis/*/clock");
     clocks.callback(hear(true)).background().wait()?;
-    let tokens = session
-        .liveliness()
-        .declare_subscriber("rheotaxis/*/@live/sim");
+    let tokens = session.liveliness().declare_subscriber("rheotaxis/*/@live/sim");
     let events = events.clone();
     let token = move |sample: Sample| {
         let _gone = events.send(Event::Token(sample));

@@ -11,16 +11,10 @@ use zenoh::config::EndPoint;
 const RETRY_MS: [u64; 2] = [100, 250];
 
 /// The configuration, and where that is, in words.
-pub(super) fn reached(
-    options: &ListenOptions,
-    from_env: Option<PathBuf>,
-) -> Result<(Config, String), LiveError> {
+pub(super) fn reached(options: &ListenOptions, from_env: Option<PathBuf>) -> Result<(Config, String), LiveError> {
     let file = options.config_file.clone().or(from_env);
     let (mut config, mut place) = match &file {
-        Some(path) => (
-            from_file(path)?,
-            format!("the endpoints of {}", path.display()),
-        ),
+        Some(path) => (from_file(path)?, format!("the endpoints of {}", path.display())),
         None => default_ports()?,
     };
     if let Some(endpoint) = &options.connect {
@@ -43,10 +37,7 @@ fn default_ports() -> Result<(Config, String), LiveError> {
         ("mode", json!("peer")),
         ("listen/endpoints", json!([])),
         ("connect/endpoints", json!(endpoints)),
-        (
-            "connect/retry",
-            json!({"period_init_ms": first, "period_max_ms": most}),
-        ),
+        ("connect/retry", json!({"period_init_ms": first, "period_max_ms": most})),
         ("scouting/delay", json!(0)),
         ("scouting/multicast/enabled", json!(false)),
         // Otherwise it would pass the address of each run on to the others.
@@ -62,12 +53,9 @@ fn check(endpoint: &str) -> Result<(), LiveError> {
     let whole = endpoint.parse::<EndPoint>().is_ok_and(|parsed| {
         let (protocol, address) = (parsed.protocol(), parsed.address());
         let port = address.as_str().rsplit_once(':').map(|(_, port)| port);
-        !["tcp", "tls"].contains(&protocol.as_str())
-            || port.is_some_and(|port| port.parse::<u16>().is_ok())
+        !["tcp", "tls"].contains(&protocol.as_str()) || port.is_some_and(|port| port.parse::<u16>().is_ok())
     });
-    whole.then_some(()).ok_or_else(|| LiveError::Endpoint {
-        endpoint: endpoint.to_owned(),
-    })
+    whole.then_some(()).ok_or_else(|| LiveError::Endpoint { endpoint: endpoint.to_owned() })
 }
 
 #[cfg(test)]
@@ -76,12 +64,7 @@ mod tests {
 
     #[test]
     fn an_endpoint_has_a_protocol_and_a_port() {
-        for good in [
-            "tcp/127.0.0.1:7447",
-            "tcp/[::1]:7447",
-            "tls/ship.example:1",
-            "unixsock-stream/run.sock",
-        ] {
+        for good in ["tcp/127.0.0.1:7447", "tcp/[::1]:7447", "tls/ship.example:1", "unixsock-stream/run.sock"] {
             assert_eq!(check(good), Ok(()), "{good}");
         }
         for bad in ["", "127.0.0.1:7447", "tcp/127.0.0.1", "tcp/host:70000"] {
@@ -96,11 +79,8 @@ mod tests {
         let text = "{ mode: 'client', connect: { endpoints: ['tcp/127.0.0.1:1'] } }";
         std::fs::write(&file, text).unwrap();
         let endpoints = |connect: Option<&str>, config_file: Option<PathBuf>| {
-            let options = ListenOptions {
-                connect: connect.map(str::to_owned),
-                config_file,
-                ..ListenOptions::default()
-            };
+            let options =
+                ListenOptions { connect: connect.map(str::to_owned), config_file, ..ListenOptions::default() };
             let (config, place) = reached(&options, None).unwrap();
             (config.get_json("connect/endpoints").unwrap(), place)
         };

@@ -32,9 +32,7 @@ fn message(encoding: &Encoding, bytes: &[u8], header: Option<&[u8]>) -> Map<Stri
         None => json(bytes).map_or_else(size, shortened),
     };
     let parts = summary.into_iter().chain([("message", message)]);
-    parts
-        .map(|(name, value)| (name.to_owned(), value))
-        .collect()
+    parts.map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 /// Count and range of packed numbers, column by column if the header names columns.
@@ -48,12 +46,7 @@ fn packed(bytes: &[u8], header: Option<&Value>) -> Value {
         let name = name.as_str().unwrap_or_default().to_owned();
         (name, range(numbers.iter().skip(k).step_by(fields.len())))
     };
-    fields
-        .iter()
-        .enumerate()
-        .map(column)
-        .collect::<Map<_, _>>()
-        .into()
+    fields.iter().enumerate().map(column).collect::<Map<_, _>>().into()
 }
 
 /// How many numbers there are; the least, greatest and mean of the finite ones, if any.
@@ -129,10 +122,7 @@ mod tests {
         let two = json!({"x": {"count": 2, "min": 2.0, "max": 2.0, "mean": 2.0}});
         assert_eq!(*odd, two);
         let broken = message(&PACKED, &[1, 2, 3], Some(b"{"));
-        assert_eq!(
-            Value::from(broken),
-            json!({"message": null, "packed": {"count": 0}})
-        );
+        assert_eq!(Value::from(broken), json!({"message": null, "packed": {"count": 0}}));
     }
 
     #[test]
@@ -145,9 +135,6 @@ mod tests {
         let forged = message(&Encoding::ZENOH_BYTES, b"no JSON", None);
         assert_eq!(Value::from(forged), json!({"message": {"bytes": 7}}));
         let picture = message(&Encoding::IMAGE_JPEG, b"no JPEG", None);
-        assert_eq!(
-            Value::from(picture),
-            json!({"message": null, "jpeg": {"bytes": 7}})
-        );
+        assert_eq!(Value::from(picture), json!({"message": null, "jpeg": {"bytes": 7}}));
     }
 }

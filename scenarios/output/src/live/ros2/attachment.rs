@@ -22,12 +22,7 @@ mod tests {
     #[test]
     fn the_attachment_has_33_bytes_in_their_order() {
         let gid: [u8; 16] = std::array::from_fn(|i| 0xa0 + i as u8);
-        let hex: String = (attachment(2, 0x0102_0304_0506_0708, &gid).iter())
-            .map(|b| format!("{b:02x}"))
-            .collect();
-        assert_eq!(
-            hex,
-            "0200000000000000080706050403020110a0a1a2a3a4a5a6a7a8a9aaabacadaeaf"
-        );
+        let hex: String = (attachment(2, 0x0102_0304_0506_0708, &gid).iter()).map(|b| format!("{b:02x}")).collect();
+        assert_eq!(hex, "0200000000000000080706050403020110a0a1a2a3a4a5a6a7a8a9aaabacadaeaf");
     }
 }

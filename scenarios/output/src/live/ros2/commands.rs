@@ -64,12 +64,7 @@ impl RosCommands {
             })
             .wait()?;
         let id = session.zid().to_string();
-        let node = NodeKey {
-            domain,
-            session: &id,
-            number: 0,
-            name: NAME,
-        };
+        let node = NodeKey { domain, session: &id, number: 0, name: NAME };
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
         let token = node.end(End::Subscriber, number, &name, kind, Qos::Reliable);
         Ok(Self {
@@ -89,11 +84,7 @@ impl RosCommands {
     }
 
     /// The answer to a question: the next command, within the question's deadline.
-    pub(in crate::live) fn answer(
-        &mut self,
-        question: &Question,
-        going: &dyn Fn() -> bool,
-    ) -> Heard {
+    pub(in crate::live) fn answer(&mut self, question: &Question, going: &dyn Fn() -> bool) -> Heard {
         const NAP: Duration = Duration::from_millis(20);
         let mut left = Duration::try_from_secs_f64(question.deadline_s).unwrap_or(Duration::MAX);
         let mut newest = (self.inbox.newest.lock()).unwrap_or_else(PoisonError::into_inner);
@@ -119,34 +110,23 @@ impl RosCommands {
 
 /// Reads a message in little-endian CDR.
 fn twist(bytes: &[u8]) -> std::result::Result<Twist, String> {
-    let ([0, 1, _, _], body) = bytes
-        .split_first_chunk::<4>()
-        .ok_or("a command without content")?
-    else {
+    let ([0, 1, _, _], body) = bytes.split_first_chunk::<4>().ok_or("a command without content")? else {
         return Err("a command must be little-endian CDR".to_string());
     };
     let read = cdr_encoding::from_bytes::<Twist, LittleEndian>(body);
-    read.map(|(twist, _)| twist)
-        .map_err(|e| format!("no TwistStamped: {e}"))
+    read.map(|(twist, _)| twist).map_err(|e| format!("no TwistStamped: {e}"))
 }
 
 /// The velocities of a command that is in a frame; one that names none is.
-fn sound(
-    ((_, frame), linear, angular): Twist,
-    own: &str,
-) -> std::result::Result<[[f64; 3]; 2], String> {
+fn sound(((_, frame), linear, angular): Twist, own: &str) -> std::result::Result<[[f64; 3]; 2], String> {
     if !frame.is_empty() && frame != own {
         let frame: String = frame.chars().take(100).collect();
-        return Err(format!(
-            "a command must be in the frame `{own}`, or name none, got `{frame}`"
-        ));
+        return Err(format!("a command must be in the frame `{own}`, or name none, got `{frame}`"));
     }
     for (name, vector) in [("linear", linear), ("angular", angular)] {
         for (axis, value) in ["x", "y", "z"].into_iter().zip(vector) {
             if !value.is_finite() {
-                return Err(format!(
-                    "twist.{name}.{axis} of a command must be a finite number, got {value}"
-                ));
+                return Err(format!("twist.{name}.{axis} of a command must be a finite number, got {value}"));
             }
         }
     }
@@ -163,10 +143,7 @@ fn order(question: &Question, [ahead, left, up]: [f64; 3], yaw_rad_s: f64, dt_s:
     let manoeuvre = if seen.able.sideways {
         let forward = e.attitude.heading.unit();
         let port = Vector2::new(-forward.y, forward.x);
-        Manoeuvre::Slide {
-            heading,
-            over_ground_m_s: forward * ahead + port * left,
-        }
+        Manoeuvre::Slide { heading, over_ground_m_s: forward * ahead + port * left }
     } else {
         Manoeuvre::Steer { heading }
     };
@@ -199,12 +176,7 @@ mod tests {
 
     #[test]
     fn what_is_none_is_refused() {
-        for wrong in [
-            &b""[..],
-            b"\0\x01\0",
-            b"\0\0\0\0\0\0\0\0",
-            b"\0\x01\0\0\x01\0\0\0",
-        ] {
+        for wrong in [&b""[..], b"\0\x01\0", b"\0\0\0\0\0\0\0\0", b"\0\x01\0\0\x01\0\0\0"] {
             assert!(twist(wrong).is_err(), "{wrong:?}");
         }
     }

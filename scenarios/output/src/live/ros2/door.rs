@@ -6,9 +6,7 @@ use super::state::{Message, Spoken};
 use super::topics::{self, RosTopic};
 use super::{AREA, MAP, Ros2};
 use crate::live::slots::Numbered;
-use crate::ros::{
-    clock, compressed_image, marker_array, nanoseconds, plume_cloud, text, transforms,
-};
+use crate::ros::{clock, compressed_image, marker_array, nanoseconds, plume_cloud, text, transforms};
 use crate::scene::Scene;
 use crate::scene::frames::{fixed, transform};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame};
@@ -26,19 +24,14 @@ pub(in crate::live) struct Door<'a> {
 impl<'a> Door<'a> {
     /// Joins the graph and says what is known before the run.
     pub(in crate::live) fn open(session: &'a Session, ros2: &Ros2) -> Result<Self> {
-        let mut door = Self {
-            node: Node::join(session, ros2.domain)?,
-            scene: Arc::clone(&ros2.scene),
-            spoken: Spoken::default(),
-        };
+        let mut door =
+            Self { node: Node::join(session, ros2.domain)?, scene: Arc::clone(&ros2.scene), spoken: Spoken::default() };
         let scene = Arc::clone(&ros2.scene);
         let machines = scene.machines.iter();
         let mut still = vec![scene.area_frame(MAP, AREA)];
         still.extend(machines.flat_map(|m| fixed(m, &names(m))));
-        let fixed = [
-            (&topics::TF_STATIC, transforms(&still)),
-            (&topics::SCENE, marker_array(0, MAP, &scene.markers())),
-        ];
+        let fixed =
+            [(&topics::TF_STATIC, transforms(&still)), (&topics::SCENE, marker_array(0, MAP, &scene.markers()))];
         for (topic, cdr) in fixed {
             door.node.say(topic, topic.name, cdr)?;
         }
@@ -72,10 +65,7 @@ impl<'a> Door<'a> {
         };
         let (t, p) = (nanoseconds(taken.t_s), &taken.picture);
         let (body, camera) = (machine.frame("base_link"), machine.frame("camera_optical"));
-        let pose = Pose {
-            p_WB: p.p_BC,
-            R_WB: p.R_BC,
-        };
+        let pose = Pose { p_WB: p.p_BC, R_WB: p.R_BC };
         let mount = transforms(&[transform(t, &body, camera.clone(), &pose)]);
         self.world(&topics::TF, mount);
         self.say(Message {
@@ -86,11 +76,7 @@ impl<'a> Door<'a> {
     }
 
     fn world(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
-        self.say(Message {
-            topic,
-            name: topic.name.to_owned(),
-            cdr,
-        });
+        self.say(Message { topic, name: topic.name.to_owned(), cdr });
     }
 
     /// What cannot be said is lost, like what did not fit into a queue; the run continues.

@@ -35,14 +35,7 @@ impl NodeKey<'_> {
     }
 
     /// The token by which others see one end of a topic, with its number in the session.
-    pub(super) fn end(
-        &self,
-        end: End,
-        number: u32,
-        topic: &str,
-        kind: MessageKind,
-        qos: Qos,
-    ) -> String {
+    pub(super) fn end(&self, end: End, number: u32, topic: &str, kind: MessageKind, qos: Qos) -> String {
         let name = match end {
             End::Publisher => "MP",
             End::Subscriber => "MS",
@@ -53,12 +46,7 @@ impl NodeKey<'_> {
     }
 
     fn entity(&self, number: u32, kind: &str) -> String {
-        let Self {
-            domain,
-            session,
-            number: node,
-            name,
-        } = self;
+        let Self { domain, session, number: node, name } = self;
         // Enclave and namespace are those of the root.
         format!("@ros2_lv/{domain}/{session}/{node}/{number}/{kind}/%/%/{name}")
     }
@@ -80,12 +68,8 @@ pub(super) fn gid(token: &str) -> [u8; 16] {
 mod tests {
     use super::*;
 
-    const NODE: NodeKey<'static> = NodeKey {
-        domain: 3,
-        session: "aac3178e146ba6f1fc6e6a4085e77f21",
-        number: 0,
-        name: "rheotaxis",
-    };
+    const NODE: NodeKey<'static> =
+        NodeKey { domain: 3, session: "aac3178e146ba6f1fc6e6a4085e77f21", number: 0, name: "rheotaxis" };
 
     #[test]
     fn topics_have_their_type_and_hash() {
@@ -98,18 +82,9 @@ mod tests {
 
     #[test]
     fn tokens_are_those_of_rmw_zenoh() {
+        assert_eq!(NODE.token(), "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/0/NN/%/%/rheotaxis");
         assert_eq!(
-            NODE.token(),
-            "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/0/NN/%/%/rheotaxis"
-        );
-        assert_eq!(
-            NODE.end(
-                End::Publisher,
-                7,
-                "/auv0/odom",
-                MessageKind::Odometry,
-                Qos::Reliable
-            ),
+            NODE.end(End::Publisher, 7, "/auv0/odom", MessageKind::Odometry, Qos::Reliable),
             "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/7/MP/%/%/rheotaxis/%auv0%odom/\
              nav_msgs::msg::dds_::Odometry_/\
              RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0/::,10:,:,:,,"
@@ -122,13 +97,7 @@ mod tests {
         let hex = |id: [u8; 16]| id.map(|b| format!("{b:02x}")).concat();
         assert_eq!(hex(gid("")), "7f498d4624c30160d8984701d306aa99");
         assert_eq!(hex(gid(&NODE.token())), "df69bdb3a8e8c59cf74cbaf87a526c8c");
-        let publisher = NODE.end(
-            End::Publisher,
-            7,
-            "/auv0/odom",
-            MessageKind::Odometry,
-            Qos::Reliable,
-        );
+        let publisher = NODE.end(End::Publisher, 7, "/auv0/odom", MessageKind::Odometry, Qos::Reliable);
         assert_eq!(hex(gid(&publisher)), "e8c4f6484b75209f1f23d5d7f8acc4bb");
     }
 }

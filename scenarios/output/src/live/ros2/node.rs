@@ -48,14 +48,7 @@ impl<'a> Node<'a> {
         let id = session.zid().to_string();
         let token = key(domain, &id).token();
         let alive = session.liveliness().declare_token(token).wait()?;
-        Ok(Self {
-            session,
-            domain,
-            id,
-            next: 1,
-            said: BTreeMap::new(),
-            _alive: alive,
-        })
+        Ok(Self { session, domain, id, next: 1, said: BTreeMap::new(), _alive: alive })
     }
 
     /// Says something on a topic of a name. If it does not fit into a subscriber's queue at once, that one loses it.
@@ -90,9 +83,7 @@ impl<'a> Node<'a> {
                 publisher
                     .cache(CacheConfig::default().max_samples(1))
                     .publisher_detection()
-                    .sample_miss_detection(
-                        MissDetectionConfig::default().sporadic_heartbeat(HEARTBEAT),
-                    )
+                    .sample_miss_detection(MissDetectionConfig::default().sporadic_heartbeat(HEARTBEAT))
                     .wait()?,
             ),
             _ => By::Once(publisher.wait()?),
@@ -107,19 +98,11 @@ impl<'a> Node<'a> {
 }
 
 fn key(domain: u32, session: &str) -> NodeKey<'_> {
-    NodeKey {
-        domain,
-        session,
-        number: 0,
-        name: NAME,
-    }
+    NodeKey { domain, session, number: 0, name: NAME }
 }
 
 /// Wall-clock time since 1970, ns.
-#[expect(
-    clippy::disallowed_methods,
-    reason = "tools of ROS measure delays with it; this thread cannot reach the run"
-)]
+#[expect(clippy::disallowed_methods, reason = "tools of ROS measure delays with it; this thread cannot reach the run")]
 fn wall_ns() -> i64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     since.map_or(0, |t| i64::try_from(t.as_nanos()).unwrap_or(i64::MAX))

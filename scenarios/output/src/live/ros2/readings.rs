@@ -2,9 +2,7 @@
 
 use super::state::Of;
 use super::topics;
-use crate::ros::{
-    Imu, Range, echo_cloud, fluid_pressure, nanoseconds, twist_stamped, vector3_stamped,
-};
+use crate::ros::{Imu, Range, echo_cloud, fluid_pressure, nanoseconds, twist_stamped, vector3_stamped};
 use crate::scene::frames::BODY;
 use rheotaxis::frame::{At, Heard};
 use robots::handoff::{Attitude, RangeScan};
@@ -24,12 +22,7 @@ pub(super) fn put(of: &mut Of, heard: &Heard) {
             pitch_rad: value.pitch_rad,
             rates_rad_s: value.rates_rad_s,
         };
-        let imu = Imu {
-            t_ns: nanoseconds(*t_s),
-            frame: &body,
-            attitude: attitude.R_WB(),
-            rates: value.rates_rad_s,
-        };
+        let imu = Imu { t_ns: nanoseconds(*t_s), frame: &body, attitude: attitude.R_WB(), rates: value.rates_rad_s };
         of.put(&topics::IMU, imu.cdr());
     }
     if let Some(At { t_s, value }) = &heard.depth {

@@ -3,8 +3,8 @@
 use super::topics::{self, RosTopic};
 use super::{MAP, readings};
 use crate::ros::{
-    Odometry, Transform, float64, joint_state, joints, nanoseconds, path, pose_stamped, text,
-    transforms, vector3_stamped,
+    Odometry, Transform, float64, joint_state, joints, nanoseconds, path, pose_stamped, text, transforms,
+    vector3_stamped,
 };
 use crate::scene::frames::{BODY, Names, slid, transform};
 use crate::scene::{Machine, Scene};
@@ -16,10 +16,7 @@ use world::frames::Pose;
 
 /// Names of a machine's frames.
 pub(super) fn names(machine: &Machine) -> Names<'_> {
-    Names {
-        world: MAP,
-        own: &machine.name,
-    }
+    Names { world: MAP, own: &machine.name }
 }
 
 /// A message for a topic of a name.
@@ -57,9 +54,7 @@ impl<'a> Of<'a> {
     /// The same with the name of one of its probes.
     fn put_named(&mut self, topic: &'static RosTopic, probe: &str, cdr: Vec<u8>) {
         let own = self.machine.name.as_str();
-        let name = (topic.name.replace("<robot>", own))
-            .replace("<gantry>", own)
-            .replace("<probe>", probe);
+        let name = (topic.name.replace("<robot>", own)).replace("<gantry>", own).replace("<probe>", probe);
         self.out.push(Message { topic, name, cdr });
     }
 }
@@ -95,39 +90,15 @@ impl Spoken {
         let (t_ns, e, truth) = (of.t_ns, &r.estimate, &r.truth);
         // The estimate is older than the truth: it holds for the time of the readings in it.
         let believed_ns = nanoseconds(e.t_s);
-        let believed = Pose {
-            p_WB: e.p_WB(),
-            R_WB: e.attitude.R_WB(),
-        };
+        let believed = Pose { p_WB: e.p_WB(), R_WB: e.attitude.R_WB() };
         let rates = e.attitude.rates_rad_s;
         for (topic, t_ns, link, pose, linear, angular) in [
-            (
-                &topics::ODOM,
-                believed_ns,
-                BODY,
-                &believed,
-                e.v_ground_body,
-                rates,
-            ),
-            (
-                &topics::TRUTH,
-                t_ns,
-                "ground_truth",
-                &truth.pose,
-                truth.v_WB_B,
-                truth.w_WB_B,
-            ),
+            (&topics::ODOM, believed_ns, BODY, &believed, e.v_ground_body, rates),
+            (&topics::TRUTH, t_ns, "ground_truth", &truth.pose, truth.v_WB_B, truth.w_WB_B),
         ] {
             let child = of.machine.frame(link);
-            let odometry = Odometry {
-                t_ns,
-                frame: MAP,
-                child: &child,
-                position: pose.p_WB,
-                attitude: pose.R_WB,
-                linear,
-                angular,
-            };
+            let odometry =
+                Odometry { t_ns, frame: MAP, child: &child, position: pose.p_WB, attitude: pose.R_WB, linear, angular };
             of.put(topic, odometry.cdr());
             tf.push(transform(t_ns, MAP, child, pose));
         }

@@ -20,9 +20,7 @@ pub(super) fn of(run: &RunReport<'_>) -> Option<Value> {
     let gantries = || run.gantries.iter().filter(|g| !g.rows.is_empty());
     let n = tracks::moments(robots().count() + gantries().count());
     let mut known = Behaviours::default();
-    let mut all: Vec<Value> = robots()
-        .map(|t| tracks::robot(t, &plan, n, &mut known))
-        .collect();
+    let mut all: Vec<Value> = robots().map(|t| tracks::robot(t, &plan, n, &mut known)).collect();
     all.extend(gantries().map(|g| tracks::gantry(g, &plan, n, &mut known)));
     let plume = wisps::of(run.plume_film, &plan);
     if all.is_empty() && (plume.is_null() || run.plume_film.moments.len() < 2) {
@@ -38,9 +36,7 @@ pub(super) fn of(run: &RunReport<'_>) -> Option<Value> {
         let [u, v] = place([s.position.x, s.position.y]);
         json!({"name": s.id, "u": u, "v": v, "z": s.position.z})
     });
-    let area: Vec<_> = (run.area.corners().iter())
-        .map(|p| place([p.x, p.y]))
-        .collect();
+    let area: Vec<_> = (run.area.corners().iter()).map(|p| place([p.x, p.y])).collect();
     Some(json!({
         "version": 1,
         "plan": {"u": plan.u, "v": plan.v, "names": plan.names, "per_m": plan.per_m, "quantum": plan.quantum()},

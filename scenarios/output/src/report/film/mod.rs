@@ -43,10 +43,7 @@ pub fn film_section(title: &str, film: &str) -> String {
 /// The script that brings all animations of a page to life.
 #[must_use]
 pub fn film_script() -> String {
-    format!(
-        "<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n",
-        SCRIPTS.concat()
-    )
+    format!("<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n", SCRIPTS.concat())
 }
 
 /// Escapes what would end a script of a page, or a line of one.

@@ -67,9 +67,7 @@ impl Plan {
         run.sources.iter().for_each(|s| add(s.position.xy()));
         for t in &run.track.robots {
             let places = t.rows.iter().map(|r| Vector2::new(r.p[0], r.p[1]));
-            places
-                .chain(t.declared().map(Vector2::from))
-                .for_each(&mut add);
+            places.chain(t.declared().map(Vector2::from)).for_each(&mut add);
         }
         for g in run.gantries {
             g.rows.iter().for_each(|r| add(Vector2::from(r.head)));
@@ -89,10 +87,7 @@ impl Plan {
             let length = plan.u[1] - plan.u[0];
             if across[1] - across[0] < 1.2 * length {
                 let room = 0.03 * length;
-                plan.v = [
-                    plan.v[0].min(across[0] - room),
-                    plan.v[1].max(across[1] + room),
-                ];
+                plan.v = [plan.v[0].min(across[0] - room), plan.v[1].max(across[1] + room)];
             }
         }
         for range in [&mut plan.u, &mut plan.v] {
@@ -137,10 +132,7 @@ impl Cut {
         let along = [along.dot(&plan.along), plan.along.perp(&along)];
         let local = |[u, v]: [f64; 2]| {
             let d = [u - from[0], v - from[1]];
-            [
-                d[0] * along[0] + d[1] * along[1],
-                along[0] * d[1] - along[1] * d[0],
-            ]
+            [d[0] * along[0] + d[1] * along[1], along[0] * d[1] - along[1] * d[0]]
         };
         let mut reach: Vec<[f64; 2]> = Vec::new();
         let mut add = |p: [f64; 2]| reach.push(local(plan.at(p)));
@@ -151,9 +143,7 @@ impl Cut {
             g.rows.iter().for_each(|r| add(r.head));
             g.tips.iter().for_each(|p| add([p[0], p[1]]));
         }
-        run.sources
-            .iter()
-            .for_each(|s| add([s.position.x, s.position.y]));
+        run.sources.iter().for_each(|s| add([s.position.x, s.position.y]));
         if plan.per_m == 1.0 {
             run.area.corners().iter().for_each(|p| add([p.x, p.y]));
         }
@@ -164,20 +154,11 @@ impl Cut {
             let at = s[0] + (s[1] - s[0]) * k as f64 / (PROFILE - 1) as f64;
             let beds = (0..=ACROSS).map(|i| {
                 let d = across[0] + (across[1] - across[0]) * f64::from(i) / f64::from(ACROSS);
-                let p = plan.world([
-                    from[0] + at * along[0] - d * along[1],
-                    from[1] + at * along[1] + d * along[0],
-                ]);
+                let p = plan.world([from[0] + at * along[0] - d * along[1], from[1] + at * along[1] + d * along[0]]);
                 run.terrain.bed_z(p.x, p.y)
             });
             range_of(beds.filter(|z| z.is_finite()), 0.0).unwrap_or([0.0, 0.0])
         };
-        Self {
-            from,
-            along,
-            s,
-            name,
-            bed: (0..PROFILE).map(column).collect(),
-        }
+        Self { from, along, s, name, bed: (0..PROFILE).map(column).collect() }
     }
 }

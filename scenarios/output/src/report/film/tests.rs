@@ -2,9 +2,7 @@
 
 use super::{film, film_script, film_section, in_page};
 use crate::report::tests::told;
-use crate::results::{
-    BeliefTrack, Echoes, GantryInfo, GantryTrack, PlumeFilm, ProbeTables, RunReport, Track,
-};
+use crate::results::{BeliefTrack, Echoes, GantryInfo, GantryTrack, PlumeFilm, ProbeTables, RunReport, Track};
 use crate::sample::{area, frames, plume, source, terrain};
 use crate::sample_gantry::gantry;
 use nalgebra::Vector3;
@@ -38,11 +36,7 @@ fn data(track: &Track, gantries: &[GantryTrack], plume_film: &PlumeFilm) -> Opti
 
 /// Sum of the steps up to each moment, in the unit of a quantum.
 fn summed(steps: &Value, quantum: f64) -> Vec<f64> {
-    let steps = steps
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|v| v.as_i64().unwrap());
+    let steps = steps.as_array().unwrap().iter().map(|v| v.as_i64().unwrap());
     let sum = |sum: &mut i64, step| {
         *sum += step;
         Some(*sum as f64 * quantum)
@@ -58,30 +52,16 @@ fn a_robot_is_where_its_track_is() {
     let data = data(&track, &[], &film).unwrap();
     let q = data["plan"]["quantum"].as_f64().unwrap();
     let robot = &data["tracks"][0];
-    let (t, u, v) = (
-        summed(&robot["t"], 0.01),
-        summed(&robot["u"], q),
-        summed(&robot["v"], q),
-    );
+    let (t, u, v) = (summed(&robot["t"], 0.01), summed(&robot["u"], q), summed(&robot["v"], q));
     assert!((300..=1500).contains(&t.len()), "{}", t.len());
     for (k, t_s) in t.iter().enumerate() {
         let rows = &track.robots[0].rows;
-        let row = rows
-            .iter()
-            .min_by(|a, b| (a.t_s - t_s).abs().total_cmp(&(b.t_s - t_s).abs()));
+        let row = rows.iter().min_by(|a, b| (a.t_s - t_s).abs().total_cmp(&(b.t_s - t_s).abs()));
         let p = row.unwrap().p;
-        assert!(
-            (p[0] - u[k]).abs() <= q && (p[1] - v[k]).abs() <= q,
-            "{t_s}"
-        );
+        assert!((p[0] - u[k]).abs() <= q && (p[1] - v[k]).abs() <= q, "{t_s}");
     }
     let does = robot["does"].as_array().unwrap();
-    let moments: u64 = does
-        .iter()
-        .skip(1)
-        .step_by(2)
-        .map(|n| n.as_u64().unwrap())
-        .sum();
+    let moments: u64 = does.iter().skip(1).step_by(2).map(|n| n.as_u64().unwrap()).sum();
     assert_eq!(moments, t.len() as u64);
     assert_eq!(robot["declared"][0]["t"], 28_000);
     // A point is lost once, when it is new, not in each frame.
@@ -135,11 +115,7 @@ fn a_gantry_is_shown_in_centimetres_down_stream_of_the_source() {
             let east = at.x + 1.0 - 0.005 * f64::from(k);
             let mut g = gantry(east, at.y + 0.1, GantryBehaviour::StepUp);
             g.tips_W = vec![g.head_W + Vector3::new(0.0, 0.05, 0.0)];
-            Frame {
-                t_s: 0.1 * f64::from(k),
-                gantries: vec![g],
-                ..Frame::default()
-            }
+            Frame { t_s: 0.1 * f64::from(k), gantries: vec![g], ..Frame::default() }
         })
         .collect();
     let mut tables = ProbeTables::in_memory(vec![GantryInfo {
@@ -153,12 +129,7 @@ fn a_gantry_is_shown_in_centimetres_down_stream_of_the_source() {
     let gantry = &data["tracks"][0];
     let (u, v) = (summed(&gantry["u"], q), summed(&gantry["v"], q));
     // It faces west, so that down-stream is east and left is north.
-    assert!(
-        (u[0] - 100.0).abs() < 0.1 && (v[0] - 10.0).abs() < 0.1,
-        "{} {}",
-        u[0],
-        v[0]
-    );
+    assert!((u[0] - 100.0).abs() < 0.1 && (v[0] - 10.0).abs() < 0.1, "{} {}", u[0], v[0]);
     assert!((u[99] - 50.5).abs() < 0.1, "{}", u[99]);
     let tip = gantry["tips"][0][1].as_f64().unwrap() * q;
     assert!((tip - 5.0).abs() < 0.1, "{tip}");
@@ -174,17 +145,11 @@ fn a_run_in_which_nothing_moved_has_no_animation() {
 fn nothing_in_the_data_ends_the_script() {
     let name = "</script><!-- & \u{2028}\u{2029}";
     let safe = in_page(&serde_json::to_string(name).unwrap());
-    assert!(
-        !safe.contains(['<', '>', '&', '\u{2028}', '\u{2029}']),
-        "{safe}"
-    );
+    assert!(!safe.contains(['<', '>', '&', '\u{2028}', '\u{2029}']), "{safe}");
     assert_eq!(serde_json::from_str::<String>(&safe).unwrap(), name);
     let section = film_section("a <b>", &safe);
     assert!(section.contains("a &lt;b&gt;") && section.matches("</script>").count() == 1);
     let script = film_script();
     assert_eq!(script.matches("</script>").count(), 1);
-    assert!(
-        !script.contains("http"),
-        "the script needs nothing from elsewhere"
-    );
+    assert!(!script.contains("http"), "the script needs nothing from elsewhere");
 }

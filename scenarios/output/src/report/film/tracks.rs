@@ -42,9 +42,7 @@ fn groups<T>(rows: &[T], n: usize) -> impl Iterator<Item = (&T, &[T])> {
 
 fn whole(x: f64, quantum: f64) -> Option<i64> {
     // `None` for what is not a number; JSON has none.
-    (x / quantum)
-        .is_finite()
-        .then(|| (x / quantum).round() as i64)
+    (x / quantum).is_finite().then(|| (x / quantum).round() as i64)
 }
 
 fn highest(values: impl Iterator<Item = f64>) -> Option<f64> {
@@ -142,37 +140,26 @@ pub(super) fn gantry(g: &GantryTrack, plan: &Plan, n: usize, known: &mut Behavio
     let mut limits: Vec<Vec<Option<i64>>> = vec![Vec::new(); probes];
     for (r, group) in groups(&g.rows, n) {
         let p = plan.at(r.head);
-        let [Some(t), Some(x), Some(y)] =
-            [(r.t_s, 0.01), (p[0], q), (p[1], q)].map(|(x, q)| whole(x, q))
-        else {
+        let [Some(t), Some(x), Some(y)] = [(r.t_s, 0.01), (p[0], q), (p[1], q)].map(|(x, q)| whole(x, q)) else {
             continue;
         };
         at.push(t);
         u.push(x);
         v.push(y);
         for (k, (volts, limits)) in volts.iter_mut().zip(&mut limits).enumerate() {
-            let read = group
-                .iter()
-                .filter_map(|r| r.volts.and_then(|v| v.get(k).copied()));
+            let read = group.iter().filter_map(|r| r.volts.and_then(|v| v.get(k).copied()));
             volts.push(highest(read).and_then(|x| whole(x, 1e-3)));
             // Zero before the searcher knows its background.
             let limit = r.threshold_v.get(k).filter(|v| **v != 0.0);
             limits.push(limit.and_then(|v| whole(*v, 1e-3)));
         }
-        let (name, colour) = (
-            palette::gantry_words(r.behaviour),
-            palette::gantry_behaviour(r.behaviour),
-        );
+        let (name, colour) = (palette::gantry_words(r.behaviour), palette::gantry_behaviour(r.behaviour));
         does.push(known.number(name, colour));
     }
     let head = g.rows.last().map_or([0.0; 2], |r| plan.at(r.head));
     let tips = g.tips.iter().filter_map(|p| {
         let t = plan.at([p[0], p[1]]);
-        Some([
-            whole(t[0] - head[0], q)?,
-            whole(t[1] - head[1], q)?,
-            whole(p[2], 1e-4)?,
-        ])
+        Some([whole(t[0] - head[0], q)?, whole(t[1] - head[1], q)?, whole(p[2], 1e-4)?])
     });
     let declared = g.declared.zip(g.stopped).and_then(|(p, (t_s, _))| {
         let p = plan.at(p);

@@ -38,8 +38,7 @@ pub(super) fn of(film: &PlumeFilm, plan: &Plan) -> Value {
     let all = || moments.iter().flat_map(|m| &m.1).map(|(_, w)| w);
     let logs = |of: fn(&Wisp) -> f64| range_of(all().map(|w| math::ln(of(w))), 0.0);
     let heights = range_of(all().map(|w| w.p[2]), 0.0);
-    let (Some(z), Some(size), Some(dense)) = (heights, logs(|w| w.size_m), logs(|w| w.dense_kg_m3))
-    else {
+    let (Some(z), Some(size), Some(dense)) = (heights, logs(|w| w.size_m), logs(|w| w.dense_kg_m3)) else {
         return Value::Null;
     };
     let dense = [dense[0].max(dense[1] - DECADES), dense[1]];

@@ -22,12 +22,7 @@ pub(super) fn digest(
     digest: &mut Digest,
     number: &mut Option<(Behaviour, f64)>,
 ) {
-    let (p, R, v, w) = (
-        &truth.pose.p_WB,
-        &truth.pose.R_WB.coords,
-        &truth.v_WB_B,
-        &truth.w_WB_B,
-    );
+    let (p, R, v, w) = (&truth.pose.p_WB, &truth.pose.R_WB.coords, &truth.v_WB_B, &truth.w_WB_B);
     let believed = &estimate.position;
     digest.f64s(&[
         p.x,
@@ -67,9 +62,7 @@ pub(super) fn digest(
 
 /// Whether a thruster is at its limit; `None` without thrusters to share out among, and with an empty battery.
 fn saturated(pilot: &Pilot, battery: Option<&Battery>) -> Option<bool> {
-    pilot
-        .saturated()
-        .filter(|_| !battery.is_some_and(Battery::is_empty))
+    pilot.saturated().filter(|_| !battery.is_some_and(Battery::is_empty))
 }
 
 /// Keeps its score.
@@ -111,20 +104,12 @@ pub(super) fn watch(
     let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
     let contact = physics.contacts(hull.body);
     let vehicle = contact.touching && contact.only_bodies;
-    let strained = pilot
-        .saturated()
-        .map(|_| saturated(pilot, *battery) == Some(true));
+    let strained = pilot.saturated().map(|_| saturated(pilot, *battery) == Some(true));
     let dithers = (lookout.switches).alternate(decision.behaviour, clock.t_s(), &p);
     let mut see = |what, wrong| lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
     see(Abnormality::LeftArea, Some(outside_m > OUTSIDE_M));
-    see(
-        Abnormality::NoBottomLock,
-        deaf(readings.dvl.map(|r| r.valid)),
-    );
-    see(
-        Abnormality::NoAltitude,
-        deaf(readings.altimeter.map(|r| r.valid)),
-    );
+    see(Abnormality::NoBottomLock, deaf(readings.dvl.map(|r| r.valid)));
+    see(Abnormality::NoAltitude, deaf(readings.altimeter.map(|r| r.valid)));
     see(Abnormality::NoFlow, deaf(readings.adcp.map(|r| r.valid)));
     see(Abnormality::Touched, Some(contact.touching && !vehicle));
     see(Abnormality::TouchedVehicle, Some(vehicle));
@@ -134,12 +119,7 @@ pub(super) fn watch(
 }
 
 /// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
-pub(super) fn log(
-    (id, truth, estimate, readings, ..): &Reported,
-    clock: &Clock,
-    log: &mut Log,
-    outbox: &mut Outbox,
-) {
+pub(super) fn log((id, truth, estimate, readings, ..): &Reported, clock: &Clock, log: &mut Log, outbox: &mut Outbox) {
     let (t_s, name) = (clock.t_s(), &id.name);
     let picture = readings.picture.as_ref();
     (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));

@@ -29,13 +29,7 @@ pub(super) type Reported<'a> = (
     Option<&'a Battery>,
 );
 
-type Kept<'a> = (
-    &'a Now,
-    Reported<'a>,
-    Option<(&'a Belief, &'a mut Mapping)>,
-    &'a mut Lookout,
-    &'a mut Log,
-);
+type Kept<'a> = (&'a Now, Reported<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut Lookout, &'a mut Log);
 
 /// Adds robots to the digest and the score, and watches for what is abnormal.
 pub(crate) fn report(
@@ -71,14 +65,7 @@ fn each(
         let clock = &now.0;
         digest(&robot, map, &mut hashed, &mut number);
         score(&robot, clock, &mut scored);
-        watch(
-            &robot,
-            clock,
-            &ocean,
-            &physics,
-            &mut lookout,
-            &mut scored.abnormal,
-        );
+        watch(&robot, clock, &ocean, &physics, &mut lookout, &mut scored.abnormal);
         if let Some(outbox) = &mut outbox {
             log(&robot, clock, &mut kept, outbox);
         }

@@ -3,9 +3,7 @@
 use super::fail::{Fail, What};
 use super::tree::{Item, Kind};
 use super::value::Value;
-use serde::de::{
-    DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
-};
+use serde::de::{DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
 
 /// The name of a field or choice. A failure about it is one about the value that it belongs to.
 struct Name<'n, 'a, 'b> {
@@ -38,10 +36,7 @@ pub(super) struct Fields<'a, 'b> {
 impl MapAccess<'static> for Fields<'_, '_> {
     type Error = Fail;
 
-    fn next_key_seed<K: DeserializeSeed<'static>>(
-        &mut self,
-        seed: K,
-    ) -> Result<Option<K::Value>, Fail> {
+    fn next_key_seed<K: DeserializeSeed<'static>>(&mut self, seed: K) -> Result<Option<K::Value>, Fail> {
         self.value = self.items.next();
         let Some(item) = &self.value else {
             return Ok(None);
@@ -52,13 +47,8 @@ impl MapAccess<'static> for Fields<'_, '_> {
     }
 
     fn next_value_seed<V: DeserializeSeed<'static>>(&mut self, seed: V) -> Result<V::Value, Fail> {
-        let id = self
-            .value
-            .as_ref()
-            .expect("its name was asked for before")
-            .node;
-        seed.deserialize(self.of.kid(id))
-            .map_err(|e| self.of.reading.about(id, e))
+        let id = self.value.as_ref().expect("its name was asked for before").node;
+        seed.deserialize(self.of.kid(id)).map_err(|e| self.of.reading.about(id, e))
     }
 }
 
@@ -71,16 +61,9 @@ pub(super) struct Elements<'a, 'b> {
 impl SeqAccess<'static> for Elements<'_, '_> {
     type Error = Fail;
 
-    fn next_element_seed<T: DeserializeSeed<'static>>(
-        &mut self,
-        seed: T,
-    ) -> Result<Option<T::Value>, Fail> {
+    fn next_element_seed<T: DeserializeSeed<'static>>(&mut self, seed: T) -> Result<Option<T::Value>, Fail> {
         let next = self.elements.next();
-        next.map(|id| {
-            seed.deserialize(self.of.kid(id))
-                .map_err(|e| self.of.reading.about(id, e))
-        })
-        .transpose()
+        next.map(|id| seed.deserialize(self.of.kid(id)).map_err(|e| self.of.reading.about(id, e))).transpose()
     }
 }
 
@@ -95,10 +78,7 @@ impl<'b, 'a> EnumAccess<'static> for Choice<'a, 'b> {
     type Variant = Self;
 
     fn variant_seed<V: DeserializeSeed<'static>>(self, seed: V) -> Result<(V::Value, Self), Fail> {
-        let variant = seed.deserialize(Name {
-            of: self.of,
-            name: &self.name,
-        });
+        let variant = seed.deserialize(Name { of: self.of, name: &self.name });
         Ok((variant.map_err(|e| self.of.about(e))?, self))
     }
 }
@@ -108,10 +88,7 @@ impl<'a, 'b> Choice<'a, 'b> {
     fn content(&self) -> Result<Value<'a, 'b>, Fail> {
         match self.of.node().kind {
             Kind::Hole(_) => Ok(self.of.hole_kid(&self.name)),
-            Kind::Group(group) if group.bracket == '(' => Ok(Value {
-                unwrapped: true,
-                ..self.of
-            }),
+            Kind::Group(group) if group.bracket == '(' => Ok(Value { unwrapped: true, ..self.of }),
             _ => self.of.fail(What::Parentheses(self.name.clone())),
         }
     }
@@ -130,19 +107,14 @@ impl VariantAccess<'static> for Choice<'_, '_> {
     fn newtype_variant_seed<T: DeserializeSeed<'static>>(self, seed: T) -> Result<T::Value, Fail> {
         let content = self.content()?;
         let at = content.only().unwrap_or(content).id;
-        seed.deserialize(content)
-            .map_err(|e| content.reading.about(at, e))
+        seed.deserialize(content).map_err(|e| content.reading.about(at, e))
     }
 
     fn tuple_variant<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {
         self.content()?.tuple(len, visitor)
     }
 
-    fn struct_variant<V: Visitor<'static>>(
-        self,
-        legal: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Fail> {
+    fn struct_variant<V: Visitor<'static>>(self, legal: &'static [&'static str], visitor: V) -> Result<V::Value, Fail> {
         self.content()?.fields("", legal, visitor)
     }
 }

@@ -9,30 +9,16 @@ use world::spelling::choose;
 
 impl Mender<'_> {
     /// Values without names where fields belong.
-    pub(super) fn nameless(
-        &mut self,
-        id: usize,
-        node: &Node,
-        place: usize,
-        legal: &[&'static str],
-    ) -> bool {
+    pub(super) fn nameless(&mut self, id: usize, node: &Node, place: usize, legal: &[&'static str]) -> bool {
         let Kind::Group(group) = &node.kind else {
             return false;
         };
         let inner = self.node(group.items[place].node).clone();
         let written = self.reading.text[inner.value.clone()].to_string();
         let at = inner.value.clone();
-        if let (
-            1,
-            Kind::Group(Group {
-                name: None,
-                bracket: '(',
-                items,
-            }),
-        ) = (group.items.len(), &inner.kind)
-        {
-            let found = Found::error(&node.path, "one pair of parentheses too many")
-                .hint("write the fields in a single pair");
+        if let (1, Kind::Group(Group { name: None, bracket: '(', items })) = (group.items.len(), &inner.kind) {
+            let found =
+                Found::error(&node.path, "one pair of parentheses too many").hint("write the fields in a single pair");
             self.tell(at, found, Form::Whole);
             self.group(id).expect("it is one").items = items.clone();
             self.node(id).silent |= inner.silent;
@@ -46,11 +32,7 @@ impl Mender<'_> {
                 .zip(&group.items)
                 .map(|(name, i)| format!("{name}: {}", &text[tree.nodes[i.node].value.clone()]));
             let hint = format!("write `({})`", named.collect::<Vec<_>>().join(", "));
-            let hint = if hint.contains('\n') || hint.len() > 2 * SHORT {
-                choose("", legal, "fields")
-            } else {
-                hint
-            };
+            let hint = if hint.contains('\n') || hint.len() > 2 * SHORT { choose("", legal, "fields") } else { hint };
             let found = Found::error(&node.path, "the fields here have names").hint(hint);
             self.tell(at, found, Form::Whole);
             let own: Vec<String> = legal.iter().map(|l| self.own(id, l).to_string()).collect();
@@ -79,36 +61,18 @@ impl Mender<'_> {
 
     /// A value of another kind than the one that belongs there.
     pub(super) fn another_kind(&mut self, id: usize, node: &Node, misfit: &Misfit) -> bool {
-        let mut form = if misfit.says_range() {
-            Form::Whole
-        } else {
-            Form::Kind(id)
-        };
+        let mut form = if misfit.says_range() { Form::Whole } else { Form::Kind(id) };
         let mut found = Found::error(&node.path, self.got(node, misfit));
         match (&node.kind, misfit) {
             (Kind::Group(group), Misfit::Kind(Wanted::List)) if group.bracket == '(' => {
                 found = found.hint("write `[ ]` around it");
                 form = Form::Whole;
                 let tree = self.tree();
-                tree.nodes.push(Node {
-                    path: format!("{}[0]", node.path),
-                    whole: node.value.clone(),
-                    ..node.clone()
-                });
-                let inner = Item {
-                    key: None,
-                    key_at: 0..0,
-                    node: tree.nodes.len() - 1,
-                };
-                tree.nodes[id].kind = Kind::Group(Group {
-                    name: None,
-                    bracket: '[',
-                    items: vec![inner],
-                });
+                tree.nodes.push(Node { path: format!("{}[0]", node.path), whole: node.value.clone(), ..node.clone() });
+                let inner = Item { key: None, key_at: 0..0, node: tree.nodes.len() - 1 };
+                tree.nodes[id].kind = Kind::Group(Group { name: None, bracket: '[', items: vec![inner] });
             }
-            (Kind::Group(group), Misfit::Kind(Wanted::Tuple(_)))
-                if group.bracket == '[' && group.name.is_none() =>
-            {
+            (Kind::Group(group), Misfit::Kind(Wanted::Tuple(_))) if group.bracket == '[' && group.name.is_none() => {
                 found = found.hint("write `( )` in place of `[ ]`");
                 form = Form::Whole;
                 self.group(id).expect("it is one").bracket = '(';

@@ -37,9 +37,7 @@ impl Deserializer<'static> for Value<'_, '_> {
             (None, Some(group)) if group.items.iter().any(|i| i.key.is_some()) => {
                 value.visit_fields(&group, &[], visitor)
             }
-            (None, Some(group)) => {
-                value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor)
-            }
+            (None, Some(group)) => value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor),
             (None, None) => visitor.visit_unit(),
         }
         .map_err(|e: Fail| value.about(e))
@@ -74,9 +72,7 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_f64<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        visitor
-            .visit_f64(value.float()?)
-            .map_err(|e: Fail| value.about(e))
+        visitor.visit_f64(value.float()?).map_err(|e: Fail| value.about(e))
     }
 
     fn deserialize_char<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -84,10 +80,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         if value.asks(Wanted::Plain("a character in quotes")) {
             return visitor.visit_char('a');
         }
-        match value
-            .word()
-            .and_then(|w| w.strip_prefix('\'')?.strip_suffix('\''))
-        {
+        match value.word().and_then(|w| w.strip_prefix('\'')?.strip_suffix('\'')) {
             Some(c) => visitor.visit_str(c),
             None => value.wanted(Wanted::Plain("a character in quotes")),
         }
@@ -129,10 +122,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         match (value.word(), value.group()) {
             (Some("None"), _) => visitor.visit_none(),
             (None, Some(group)) if group.name.as_deref() == Some("Some") => {
-                visitor.visit_some(Value {
-                    unwrapped: true,
-                    ..value
-                })
+                visitor.visit_some(Value { unwrapped: true, ..value })
             }
             _ => visitor.visit_some(value),
         }
@@ -140,77 +130,42 @@ impl Deserializer<'static> for Value<'_, '_> {
     }
 
     fn deserialize_unit<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
-        let empty = self
-            .group()
-            .is_some_and(|g| g.bracket == '(' && g.items.is_empty());
+        let empty = self.group().is_some_and(|g| g.bracket == '(' && g.items.is_empty());
         if self.asks(Wanted::Fields) || empty {
             return visitor.visit_unit();
         }
         self.wanted(Wanted::Plain("`()`"))
     }
 
-    fn deserialize_unit_struct<V: Visitor<'static>>(
-        self,
-        name: &'static str,
-        visitor: V,
-    ) -> Result<V::Value, Fail> {
-        if self.word() == Some(name) {
-            visitor.visit_unit()
-        } else {
-            self.deserialize_unit(visitor)
-        }
+    fn deserialize_unit_struct<V: Visitor<'static>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fail> {
+        if self.word() == Some(name) { visitor.visit_unit() } else { self.deserialize_unit(visitor) }
     }
 
-    fn deserialize_newtype_struct<V: Visitor<'static>>(
-        self,
-        name: &'static str,
-        visitor: V,
-    ) -> Result<V::Value, Fail> {
+    fn deserialize_newtype_struct<V: Visitor<'static>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fail> {
         if name == RAW {
-            let text = if self.asks(Wanted::Plain("a value")) {
-                "()"
-            } else {
-                &self.reading.text[self.node().value]
-            };
+            let text = if self.asks(Wanted::Plain("a value")) { "()" } else { &self.reading.text[self.node().value] };
             let text: StrDeserializer<'_, Fail> = text.into_deserializer();
-            return visitor
-                .visit_newtype_struct(text)
-                .map_err(|e| self.about(e));
+            return visitor.visit_newtype_struct(text).map_err(|e| self.about(e));
         }
         let wrapped = self.group().is_some_and(|g| g.bracket == '(') && !self.unwrapped;
-        visitor
-            .visit_newtype_struct(Value {
-                unwrapped: wrapped,
-                ..self.inner()?
-            })
-            .map_err(|e: Fail| self.about(e))
+        visitor.visit_newtype_struct(Value { unwrapped: wrapped, ..self.inner()? }).map_err(|e: Fail| self.about(e))
     }
 
     fn deserialize_seq<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
         if value.asks(Wanted::List) {
-            let kids = (0..value.refused() + self.reading.filling / 2)
-                .map(|i| value.hole_kid(&i.to_string()).id)
-                .collect();
+            let kids =
+                (0..value.refused() + self.reading.filling / 2).map(|i| value.hole_kid(&i.to_string()).id).collect();
             return value.visit_elements(kids, visitor);
         }
-        match value
-            .group()
-            .filter(|g| g.bracket == '[' && g.name.is_none())
-        {
+        match value.group().filter(|g| g.bracket == '[' && g.name.is_none()) {
             // The parser has reported names in a list already.
-            Some(group) => {
-                value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor)
-            }
+            Some(group) => value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor),
             None => value.wanted(Wanted::List),
         }
     }
 
-    fn deserialize_tuple<V: Visitor<'static>>(
-        self,
-        len: usize,
-        visitor: V,
-    ) -> Result<V::Value, Fail> {
+    fn deserialize_tuple<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {
         self.tuple(len, visitor)
     }
 
@@ -252,9 +207,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         let value = self.inner()?;
         let name = if value.asks(Wanted::Choice(legal)) {
             let n = legal.len().max(1);
-            legal
-                .get((self.reading.filling + value.refused()) % n)
-                .map(|l| (*l).to_string())
+            legal.get((self.reading.filling + value.refused()) % n).map(|l| (*l).to_string())
         } else {
             let word = value.word().filter(|w| is_name(w)).map(str::to_string);
             word.or_else(|| value.group().and_then(|g| g.name))
@@ -262,9 +215,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         let Some(name) = name else {
             return value.fail(What::Unnamed(legal));
         };
-        visitor
-            .visit_enum(Choice { of: value, name })
-            .map_err(|e| value.about(e))
+        visitor.visit_enum(Choice { of: value, name }).map_err(|e| value.about(e))
     }
 
     fn deserialize_identifier<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {

@@ -61,10 +61,7 @@ impl Refusal {
             Some((legal, got)) => (legal, Some(got)),
             None => (said, None),
         };
-        Self {
-            legal: legal.to_string(),
-            got: got.map(str::to_string),
-        }
+        Self { legal: legal.to_string(), got: got.map(str::to_string) }
     }
 
     /// The legal range, if it has two ends.
@@ -143,10 +140,7 @@ impl Display for Misfit {
                 write!(f, "expected {wanted} values in parentheses, not {got}")
             }
             Misfit::Name(name) => {
-                write!(
-                    f,
-                    "expected fields in parentheses without the name `{name}`"
-                )
+                write!(f, "expected fields in parentheses without the name `{name}`")
             }
             Misfit::Fraction => f.write_str("must be a whole number"),
             Misfit::Zero => f.write_str("must be at least 1"),
@@ -187,11 +181,7 @@ impl serde::de::Error for Fail {
     fn invalid_value(_: serde::de::Unexpected<'_>, expected: &dyn serde::de::Expected) -> Self {
         let expected = expected.to_string();
         // serde's whole numbers without zero say so in their name, and in no other way.
-        Self::new(What::Misfit(if expected.contains("nonzero") {
-            Misfit::Zero
-        } else {
-            Misfit::Said(expected)
-        }))
+        Self::new(What::Misfit(if expected.contains("nonzero") { Misfit::Zero } else { Misfit::Said(expected) }))
     }
 
     fn unknown_variant(variant: &str, legal: &'static [&'static str]) -> Self {

@@ -29,23 +29,15 @@ impl Told {
             Form::Whole => None,
             Form::Missing(field, id) => {
                 let hole = hole(tree, *id);
-                let legal = hole
-                    .and_then(legal)
-                    .map_or(String::new(), |l| format!(": {l}"));
+                let legal = hole.and_then(legal).map_or(String::new(), |l| format!(": {l}"));
                 Some(format!("add `{field}: {}`{legal}", shape(tree, *id)))
             }
             Form::Kind(id) => match hole(tree, *id) {
-                Some(Hole {
-                    wanted: Some(Wanted::Fields | Wanted::Tuple(_)),
-                    ..
-                }) => Some(format!("write `{}`", shape(tree, *id))),
-                Some(Hole {
-                    wanted: Some(Wanted::Whole(..)),
-                    ..
-                }) => hole(tree, *id).and_then(legal),
-                Some(Hole {
-                    range: Some(range), ..
-                }) if range != FINITE => Some(range.clone()),
+                Some(Hole { wanted: Some(Wanted::Fields | Wanted::Tuple(_)), .. }) => {
+                    Some(format!("write `{}`", shape(tree, *id)))
+                }
+                Some(Hole { wanted: Some(Wanted::Whole(..)), .. }) => hole(tree, *id).and_then(legal),
+                Some(Hole { range: Some(range), .. }) if range != FINITE => Some(range.clone()),
                 _ => None,
             },
             Form::Parentheses(name, id) => Some(format!("write `{name}{}`", shape(tree, *id))),
@@ -82,21 +74,11 @@ fn shape(tree: &Tree, id: usize) -> String {
             });
             format!("({})", fields.collect::<Vec<_>>().join(", "))
         }
-        Kind::Hole(Hole {
-            wanted: Some(Wanted::Fields),
-            kids,
-            fields,
-            ..
-        }) => {
-            let fields = fields
-                .iter()
-                .map(|f| kids.get(*f).map_or(format!("{f}: ..."), |id| field(f, *id)));
+        Kind::Hole(Hole { wanted: Some(Wanted::Fields), kids, fields, .. }) => {
+            let fields = fields.iter().map(|f| kids.get(*f).map_or(format!("{f}: ..."), |id| field(f, *id)));
             format!("({})", fields.collect::<Vec<_>>().join(", "))
         }
-        Kind::Hole(Hole {
-            wanted: Some(Wanted::Tuple(n)),
-            ..
-        }) => format!("({})", vec!["..."; *n].join(", ")),
+        Kind::Hole(Hole { wanted: Some(Wanted::Tuple(n)), .. }) => format!("({})", vec!["..."; *n].join(", ")),
         _ => "...".to_string(),
     }
 }
@@ -106,9 +88,7 @@ fn legal(hole: &Hole) -> Option<String> {
     let range = hole.range.as_ref().filter(|r| *r != FINITE);
     let kind = match hole.wanted.as_ref()? {
         Wanted::Plain(words) => (*words).to_string(),
-        Wanted::Whole(0, most) if *most == u64::MAX.into() => {
-            "a whole number, 0 or greater".to_string()
-        }
+        Wanted::Whole(0, most) if *most == u64::MAX.into() => "a whole number, 0 or greater".to_string(),
         Wanted::Whole(least, most) => format!("a whole number from {least} to {most}"),
         Wanted::List => "a list in square brackets".to_string(),
         Wanted::Choice(choices) => format!("one of {}", choices.join(", ")),

@@ -33,17 +33,8 @@ pub(super) struct Mender<'a> {
 impl<'a> Mender<'a> {
     pub(super) fn new(text: &'a str, tree: Tree, renamed: Option<Renamed>) -> Self {
         let tree = RefCell::new(tree);
-        let reading = Reading {
-            text,
-            tree,
-            filling: 0,
-            first: RefCell::default(),
-        };
-        Self {
-            reading,
-            told: Vec::new(),
-            renamed,
-        }
+        let reading = Reading { text, tree, filling: 0, first: RefCell::default() };
+        Self { reading, told: Vec::new(), renamed }
     }
 
     /// Reads the whole text with one set of stand-ins. `None` if none of their values fits.
@@ -51,19 +42,12 @@ impl<'a> Mender<'a> {
         self.reading.filling = filling;
         for node in &mut self.tree().nodes {
             if let Kind::Hole(hole) = &mut node.kind {
-                *hole = Hole {
-                    absent: filling == 2,
-                    ..Hole::default()
-                };
+                *hole = Hole { absent: filling == 2, ..Hole::default() };
             }
         }
         for _ in 0..ROUNDS {
             let id = self.tree().root;
-            let root = Value {
-                reading: &self.reading,
-                id,
-                unwrapped: false,
-            };
+            let root = Value { reading: &self.reading, id, unwrapped: false };
             self.reading.first.take();
             match read_from::<T, _>(root) {
                 Ok(value) if self.settled() => return Some(value),
@@ -163,18 +147,10 @@ impl<'a> Mender<'a> {
             (Kind::Group(_), What::Missing(field)) => self.missing(id, &node, field),
             (Kind::Group(group), What::Field(name, legal)) => {
                 let legal = self.legal(id, legal);
-                let known: Vec<&str> = (group.items.iter())
-                    .filter_map(|i| i.key.as_deref())
-                    .map(|key| self.shown(id, key))
-                    .collect();
-                let free: Vec<&str> = (legal.iter().copied())
-                    .filter(|l| !known.contains(l))
-                    .collect();
-                let Some(i) = group
-                    .items
-                    .iter()
-                    .position(|i| i.key.as_ref() == Some(&name))
-                else {
+                let known: Vec<&str> =
+                    (group.items.iter()).filter_map(|i| i.key.as_deref()).map(|key| self.shown(id, key)).collect();
+                let free: Vec<&str> = (legal.iter().copied()).filter(|l| !known.contains(l)).collect();
+                let Some(i) = group.items.iter().position(|i| i.key.as_ref() == Some(&name)) else {
                     return false;
                 };
                 let found = Found::error(&node.path, format!("there is no field `{name}`"))
@@ -190,11 +166,7 @@ impl<'a> Mender<'a> {
                 true
             }
             (Kind::Group(group), What::Twice(field)) => {
-                let Some(i) = group
-                    .items
-                    .iter()
-                    .rposition(|i| i.key.as_deref() == Some(field))
-                else {
+                let Some(i) = group.items.iter().rposition(|i| i.key.as_deref() == Some(field)) else {
                     return false;
                 };
                 let shown = self.shown(id, field);
@@ -223,14 +195,8 @@ impl<'a> Mender<'a> {
             }
             (kind, What::Parentheses(name)) => {
                 let (problem, form) = match kind {
-                    Kind::Group(g) => (
-                        format!("expected `(` after `{name}`, got `{}`", g.bracket),
-                        Form::Whole,
-                    ),
-                    _ => (
-                        format!("`{name}` needs parentheses"),
-                        Form::Parentheses(name.clone(), id),
-                    ),
+                    Kind::Group(g) => (format!("expected `(` after `{name}`, got `{}`", g.bracket), Form::Whole),
+                    _ => (format!("`{name}` needs parentheses"), Form::Parentheses(name.clone(), id)),
                 };
                 self.tell(node.value.clone(), Found::error(&node.path, problem), form);
                 self.node(id).silent = true;
@@ -238,18 +204,14 @@ impl<'a> Mender<'a> {
                     Some(group) if group.bracket == '{' => group.bracket = '(',
                     Some(_) => self.dig(id),
                     None => {
-                        self.node(id).kind = Kind::Group(Group {
-                            name: Some(name),
-                            bracket: '(',
-                            items: Vec::new(),
-                        })
+                        self.node(id).kind = Kind::Group(Group { name: Some(name), bracket: '(', items: Vec::new() })
                     }
                 }
                 true
             }
             (_, What::Bare(name)) => {
-                let found = Found::error(&node.path, format!("`{name}` has no parentheses"))
-                    .hint(format!("write `{name}`"));
+                let found =
+                    Found::error(&node.path, format!("`{name}` has no parentheses")).hint(format!("write `{name}`"));
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
                 true
@@ -264,22 +226,15 @@ impl<'a> Mender<'a> {
                     return false;
                 };
                 group.items.iter_mut().for_each(|i| i.key = None);
-                let found = Found::error(
-                    &node.path,
-                    format!("the values here have no names, got `{name}:`"),
-                )
-                .hint("write the values alone");
+                let found = Found::error(&node.path, format!("the values here have no names, got `{name}:`"))
+                    .hint("write the values alone");
                 self.tell(node.whole.clone(), found, Form::Whole);
                 true
             }
             (_, What::Misfit(misfit)) => self.another_kind(id, &node, &misfit),
             (_, What::Refused(refusal)) => {
                 let found = Found::error(&node.path, refusal.to_string());
-                let found = if refusal.is_not_finite() {
-                    found.hint("give a finite number")
-                } else {
-                    found
-                };
+                let found = if refusal.is_not_finite() { found.hint("give a finite number") } else { found };
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
                 true
@@ -320,30 +275,16 @@ impl<'a> Mender<'a> {
             };
             return std::mem::take(&mut hole.absent);
         }
-        let path = key
-            .as_deref()
-            .map_or(node.path.clone(), |k| joined(&node.path, k));
+        let path = key.as_deref().map_or(node.path.clone(), |k| joined(&node.path, k));
         let hole = self.tree().hole(&path, node.whole.end);
-        self.group(id).expect("it is one").items.push(Item {
-            key: key.clone(),
-            key_at: 0..0,
-            node: hole,
-        });
+        self.group(id).expect("it is one").items.push(Item { key: key.clone(), key_at: 0..0, node: hole });
         if !node.silent {
             let (problem, at, form) = match key {
                 Some(_) => {
                     let shown = self.shown(id, field).to_string();
-                    (
-                        format!("the field `{shown}` is missing"),
-                        node.whole.clone(),
-                        Form::Missing(shown, hole),
-                    )
+                    (format!("the field `{shown}` is missing"), node.whole.clone(), Form::Missing(shown, hole))
                 }
-                None => (
-                    "expected a value in the parentheses".to_string(),
-                    node.value.clone(),
-                    Form::Kind(hole),
-                ),
+                None => ("expected a value in the parentheses".to_string(), node.value.clone(), Form::Kind(hole)),
             };
             self.tell(at, Found::error(&node.path, problem), form);
         }
@@ -354,10 +295,6 @@ impl<'a> Mender<'a> {
     pub(super) fn got(&self, node: &Node, misfit: &Misfit) -> String {
         let given = &self.reading.text[node.value.clone()];
         let short = (1..=SHORT).contains(&given.len()) && !given.contains('\n');
-        if short {
-            format!("{misfit}, got {given}")
-        } else {
-            misfit.to_string()
-        }
+        if short { format!("{misfit}, got {given}") } else { misfit.to_string() }
     }
 }

@@ -62,8 +62,8 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
     renamed: Option<Renamed>,
     meaning: &dyn Fn(&T) -> Vec<Found>,
 ) -> Result<T, ScenarioError> {
-    let reader = ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
+    let reader =
+        ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
     let error = match reader.from_str(text).map(|Whole(value)| value) {
         // The type reads both names, so ron does not notice the wrong one.
         Ok(_) if renamed.as_ref().is_some_and(|r| r.misused(text)) => None,

@@ -40,15 +40,7 @@ impl<'a> Parser<'a> {
             let found = Found::error("", problem).hint("end it with `\"`");
             tree.faults.push((at.clone(), found));
         }
-        Self {
-            text,
-            tokens,
-            at: 0,
-            by_indent,
-            open: Vec::new(),
-            told_cut: false,
-            tree,
-        }
+        Self { text, tokens, at: 0, by_indent, open: Vec::new(), told_cut: false, tree }
     }
 
     fn whole(mut self) -> Option<Tree> {
@@ -92,34 +84,18 @@ impl<'a> Parser<'a> {
     }
 
     fn word(&self) -> Option<&'a str> {
-        self.peek()
-            .filter(|t| !is_mark(t.first))
-            .map(|t| self.slice(t))
+        self.peek().filter(|t| !is_mark(t.first)).map(|t| self.slice(t))
     }
 
     fn fault(&mut self, at: Range<usize>, path: &str, problem: &str, hint: &str) {
         let found = Found::error(path, problem);
-        let found = if hint.is_empty() {
-            found
-        } else {
-            found.hint(hint)
-        };
+        let found = if hint.is_empty() { found } else { found.hint(hint) };
         self.tree.faults.push((at, found));
     }
 
     fn push(&mut self, path: &str, key: &Range<usize>, value: Range<usize>, kind: Kind) -> usize {
-        let start = if key.is_empty() {
-            value.start
-        } else {
-            key.start
-        };
-        self.tree.nodes.push(Node {
-            path: path.to_string(),
-            whole: start..value.end,
-            value,
-            kind,
-            silent: false,
-        });
+        let start = if key.is_empty() { value.start } else { key.start };
+        self.tree.nodes.push(Node { path: path.to_string(), whole: start..value.end, value, kind, silent: false });
         self.tree.nodes.len() - 1
     }
 
@@ -142,11 +118,7 @@ impl<'a> Parser<'a> {
         let start = token.at.start;
         let name = self.word();
         self.at += 1;
-        let bracket = if name.is_some() {
-            self.first(0)
-        } else {
-            token.first
-        };
+        let bracket = if name.is_some() { self.first(0) } else { token.first };
         let named = name.is_some_and(is_name);
         if name.is_some() && !(named && "([{".contains(bracket)) {
             return Some(self.push(path, &key, token.at.clone(), Kind::Word));
@@ -164,11 +136,7 @@ impl<'a> Parser<'a> {
         let (items, silent) = self.items(path, bracket, opener, named, depth)?;
         self.open.pop();
         let end = (self.tokens.all.get(self.at - 1)).map_or(start, |t| t.at.end);
-        let group = Group {
-            name: name.map(str::to_string),
-            bracket,
-            items,
-        };
+        let group = Group { name: name.map(str::to_string), bracket, items };
         let id = self.push(path, &key, start..end, Kind::Group(group));
         self.tree.nodes[id].silent = silent;
         Some(id)
@@ -209,22 +177,15 @@ impl<'a> Parser<'a> {
                         let outer = &self.open[..self.open.len() - 1];
                         let mine = outer.iter().rev().any(|b| closing(*b) == token.first);
                         if mine {
-                            let problem = format!(
-                                "expected `{}` before this `{}`",
-                                closing(bracket),
-                                token.first
-                            );
-                            let line = 1 + self.text[..self.tokens.all[opener].at.start]
-                                .matches('\n')
-                                .count();
+                            let problem = format!("expected `{}` before this `{}`", closing(bracket), token.first);
+                            let line = 1 + self.text[..self.tokens.all[opener].at.start].matches('\n').count();
                             let hint = format!("the `{bracket}` of line {line} is not closed");
                             self.fault(token.at.clone(), path, &problem, &hint);
                             return Some((items, true));
                         }
                         let open = self.tokens.all[opener].at.start;
                         if depth > 0 && !self.text[open..token.at.start].contains('\n') {
-                            let problem =
-                                format!("expected `{}`, got `{}`", closing(bracket), token.first);
+                            let problem = format!("expected `{}`, got `{}`", closing(bracket), token.first);
                             self.fault(token.at.clone(), path, &problem, "");
                             self.at += 1;
                             return Some((items, false));
@@ -296,20 +257,10 @@ impl<'a> Parser<'a> {
         (bracket == '(' && same_line && field && begins).then_some(1)
     }
 
-    fn item(
-        &mut self,
-        key: Option<usize>,
-        path: &str,
-        bracket: char,
-        depth: usize,
-    ) -> Option<Item> {
+    fn item(&mut self, key: Option<usize>, path: &str, bracket: char, depth: usize) -> Option<Item> {
         let Some(skip) = key else {
             let node = self.value(path, 0..0, depth + 1)?;
-            return Some(Item {
-                key: None,
-                key_at: 0..0,
-                node,
-            });
+            return Some(Item { key: None, key_at: 0..0, node });
         };
         let name = self.peek()?;
         let word = self.slice(name);
@@ -335,11 +286,7 @@ impl<'a> Parser<'a> {
             self.fault(name.at.clone(), path, &problem, "");
             self.hole(path, &name.at)
         };
-        Some(Item {
-            key: Some(word.to_string()),
-            key_at: name.at.clone(),
-            node,
-        })
+        Some(Item { key: Some(word.to_string()), key_at: name.at.clone(), node })
     }
 
     /// Reports that the text ends within these brackets; only the innermost ones are reported.

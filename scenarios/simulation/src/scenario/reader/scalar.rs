@@ -2,10 +2,8 @@
 
 /// Numbers that are tried in place of one that could not be read, in two sets. A mistake of meaning that appears with
 /// only one set comes from the number, not from the file. The first is NaN, so that the type names its legal range.
-const STAND_INS: [[f64; 7]; 2] = [
-    [f64::NAN, 1.0, 0.5, 0.0, 10.0, 100.0, -1.0],
-    [f64::NAN, 30.0, 0.9, 2.0, 0.1, 300.0, -30.0],
-];
+const STAND_INS: [[f64; 7]; 2] =
+    [[f64::NAN, 1.0, 0.5, 0.0, 10.0, 100.0, -1.0], [f64::NAN, 30.0, 0.9, 2.0, 0.1, 300.0, -30.0]];
 
 /// The stand-in of a set after `refused` others. It lies within the bounds, if they are known.
 pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)>) -> f64 {
@@ -13,17 +11,9 @@ pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)
     let tried = set[refused % set.len()];
     match bounds {
         Some((low, high)) if !(low..=high).contains(&tried) => {
-            let middle = if low > 0.0 {
-                (low * high).sqrt()
-            } else {
-                0.5 * (low + high)
-            };
+            let middle = if low > 0.0 { (low * high).sqrt() } else { 0.5 * (low + high) };
             // The second set takes a higher value.
-            if filling.is_multiple_of(STAND_INS.len()) {
-                middle
-            } else {
-                0.5 * (middle + middle.midpoint(high))
-            }
+            if filling.is_multiple_of(STAND_INS.len()) { middle } else { 0.5 * (middle + middle.midpoint(high)) }
         }
         _ => tried,
     }
@@ -80,9 +70,7 @@ pub(super) fn whole(word: &str) -> Option<i128> {
 /// Without underscores and the suffix of a type.
 fn plain(word: &str) -> String {
     let mut plain = word.replace('_', "");
-    for suffix in [
-        "f32", "f64", "u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64",
-    ] {
+    for suffix in ["f32", "f64", "u8", "u16", "u32", "u64", "i8", "i16", "i32", "i64"] {
         if !plain.starts_with("0x")
             && let Some(number) = plain.strip_suffix(suffix)
         {
@@ -128,24 +116,13 @@ mod tests {
 
     #[test]
     fn numbers_and_texts_are_read_as_ron_reads_them() {
-        for (word, value) in [
-            ("-1.5e3", -1500.0),
-            ("1_000", 1000.0),
-            (".5", 0.5),
-            ("2f64", 2.0),
-        ] {
+        for (word, value) in [("-1.5e3", -1500.0), ("1_000", 1000.0), (".5", 0.5), ("2f64", 2.0)] {
             assert_eq!(number(word), Some(value), "{word}");
         }
         assert!(number("NaN").is_some_and(f64::is_nan));
         assert_eq!(number("-inf"), Some(f64::NEG_INFINITY));
-        assert_eq!(
-            [number("\u{2212}3"), number("1.2.3"), number("infinity")],
-            [None; 3]
-        );
-        assert_eq!(
-            [whole("0x1f"), whole("-7"), whole("2.5")],
-            [Some(31), Some(-7), None]
-        );
+        assert_eq!([number("\u{2212}3"), number("1.2.3"), number("infinity")], [None; 3]);
+        assert_eq!([whole("0x1f"), whole("-7"), whole("2.5")], [Some(31), Some(-7), None]);
         assert_eq!(text("\"a\\\"b\\n\""), Some(Ok("a\"b\n".to_string())));
         assert_eq!(text("r#\"a\"b\"#"), Some(Ok("a\"b".to_string())));
         assert_eq!([text("\"\\q\""), text("a")], [Some(Err('q')), None]);

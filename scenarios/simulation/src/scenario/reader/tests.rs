@@ -179,16 +179,11 @@ fn missing_things_are_told_with_what_to_write() {
     );
     assert_eq!(
         missing("Level(depth_m: 2)", "(depth_m: 2)"),
-        [
-            "p:4:10: bed: expected the name of a choice, got (depth_m: 2) | choices here: Level, Slope"
-        ]
+        ["p:4:10: bed: expected the name of a choice, got (depth_m: 2) | choices here: Level, Slope"]
     );
     assert_eq!(
         missing("Level(depth_m: 2)", "Level{depth_m: -2}"),
-        [
-            "p:4:10: bed: expected `(` after `Level`, got `{`",
-            "p:4:25: bed.depth_m: must be > 0, got -2"
-        ]
+        ["p:4:10: bed: expected `(` after `Level`, got `{`", "p:4:25: bed.depth_m: must be > 0, got -2"]
     );
     assert_eq!(
         missing("Altitude(2)", "Altitude()"),
@@ -208,9 +203,7 @@ fn tuples_structures_and_lists_in_one_anothers_place() {
     );
     assert_eq!(
         wrong("(length_m: 10, width_m: 5)", "[10, 5]"),
-        [
-            "p:3:11: area: expected fields in parentheses, got [10, 5] | write `(length_m: ..., width_m: ...)`"
-        ]
+        ["p:3:11: area: expected fields in parentheses, got [10, 5] | write `(length_m: ..., width_m: ...)`"]
     );
     assert_eq!(
         wrong("(length_m: 10, width_m: 5)", "((length_m: 10, width_m: 0))"),
@@ -232,18 +225,12 @@ fn tuples_structures_and_lists_in_one_anothers_place() {
     );
     assert_eq!(
         wrong("(1, 2)", "(1, 2, 3)"),
-        [
-            "p:10:11: size: expected 2 values in parentheses, not 3, got (1, 2, 3) | write `(..., ...)`"
-        ]
+        ["p:10:11: size: expected 2 values in parentheses, not 3, got (1, 2, 3) | write `(..., ...)`"]
     );
     let single = pond(&[]);
     let from = single.find("[\n").expect("a list");
     let to = single.find("    ],").expect("its end");
-    let single = format!(
-        "{}(id: \"carp\", n: -3, weight_kg: 1){}",
-        &single[..from],
-        &single[to + 5..]
-    );
+    let single = format!("{}(id: \"carp\", n: -3, weight_kg: 1){}", &single[..from], &single[to + 5..]);
     assert_eq!(
         said(&single),
         [
@@ -282,24 +269,15 @@ fn brackets_that_do_not_match_are_told_where_they_are() {
     let size = "p:10:15: size.1: must be > 0, got 0";
     assert_eq!(
         wrong("width_m: 5)", "width_m: 5"),
-        [
-            "p:3:11: area: this `(` is not closed | a `)` is missing before line 4",
-            size
-        ]
+        ["p:3:11: area: this `(` is not closed | a `)` is missing before line 4", size]
     );
     assert_eq!(
         wrong("width_m: 5)", "width_m: 5))"),
-        [
-            "p:3:37: this `)` is one too many | the scenario continues after it: remove it",
-            size
-        ]
+        ["p:3:37: this `)` is one too many | the scenario continues after it: remove it", size]
     );
     assert_eq!(
         wrong("weight_kg: 1.5)", "weight_kg: 1.5"),
-        [
-            "p:6:9: fish[0]: this `(` is not closed | a `)` is missing before line 7",
-            size
-        ]
+        ["p:6:9: fish[0]: this `(` is not closed | a `)` is missing before line 7", size]
     );
     let closed = wrong("Altitude(2)", "Altitude(2]");
     assert!(closed[0].starts_with("p:9:2"), "{closed:?}");
@@ -310,11 +288,7 @@ fn brackets_that_do_not_match_are_told_where_they_are() {
 fn meaning_is_told_beside_form_where_it_does_not_follow_from_it() {
     let high = ("Altitude(2)", "Altitude(3)");
     assert_eq!(
-        said(&pond(&[
-            high,
-            ("n: 3", "n: -3"),
-            ("\"Pond\"", "\"Pond of ponds\"")
-        ])),
+        said(&pond(&[high, ("n: 3", "n: -3"), ("\"Pond\"", "\"Pond of ponds\"")])),
         [
             "p:2:5: title: is too long",
             "p:6:25: fish[0].n: must be a whole number from 0 to 4294967295, got -3",
@@ -322,29 +296,17 @@ fn meaning_is_told_beside_form_where_it_does_not_follow_from_it() {
         ]
     );
     // With the bed unknown nobody can say what is above the surface.
-    assert_eq!(
-        said(&pond(&[high, ("depth_m: 2", "depth_m: -2")])),
-        ["p:4:25: bed.depth_m: must be > 0, got -2"]
-    );
+    assert_eq!(said(&pond(&[high, ("depth_m: 2", "depth_m: -2")])), ["p:4:25: bed.depth_m: must be > 0, got -2"]);
 }
 
 #[test]
 fn values_that_are_given_twice_or_not_at_all() {
     assert_eq!(
-        said(&pond(&[
-            ("width_m: 5", "width_m: 5, width_m: 6"),
-            ("look: Down", "look: ")
-        ])),
-        [
-            "p:3:38: area: the field `width_m` is given twice",
-            "p:11:5: look: expected a value after `look:`"
-        ]
+        said(&pond(&[("width_m: 5", "width_m: 5, width_m: 6"), ("look: Down", "look: ")])),
+        ["p:3:38: area: the field `width_m` is given twice", "p:11:5: look: expected a value after `look:`"]
     );
     assert_eq!(
-        said(&pond(&[
-            ("width_m: 5", "width_m: 5, 7"),
-            ("Down", "\"Down\"")
-        ])),
+        said(&pond(&[("width_m: 5", "width_m: 5, 7"), ("Down", "\"Down\"")])),
         [
             "p:3:38: area: expected `name: value`, got 7 | fields here: length_m, width_m, heading_deg",
             "p:11:11: look: expected the name of a choice, got \"Down\" | choices here: Up, Down"
@@ -355,10 +317,7 @@ fn values_that_are_given_twice_or_not_at_all() {
 /// Whatever stands in a text, it is refused with a place and without a panic.
 #[test]
 fn any_text_is_an_answer() {
-    for odd in [
-        "(", ")", "[", "]", "{", ",", ":", "=", ";", "\"", "x", "-", "/*", "//", "r#\"", "#",
-        "\u{2212}",
-    ] {
+    for odd in ["(", ")", "[", "]", "{", ",", ":", "=", ";", "\"", "x", "-", "/*", "//", "r#\"", "#", "\u{2212}"] {
         for at in 0..=POND.len() {
             for to in [at, (at + 7).min(POND.len())] {
                 let text = format!("{}{odd}{}", &POND[..at], &POND[to..]);
@@ -370,8 +329,5 @@ fn any_text_is_an_answer() {
     }
     let deep = "(".repeat(100_000);
     let said = said(&deep);
-    assert!(
-        said[0].starts_with("p:1:1: brackets are nested more than 128 deep"),
-        "{said:?}"
-    );
+    assert!(said[0].starts_with("p:1:1: brackets are nested more than 128 deep"), "{said:?}");
 }

@@ -32,11 +32,7 @@ impl Tokens {
             return whole;
         }
         let lines = scan(text, true);
-        if lines.unclosed.is_empty() {
-            whole
-        } else {
-            lines
-        }
+        if lines.unclosed.is_empty() { whole } else { lines }
     }
 }
 

@@ -134,24 +134,14 @@ impl Tree {
 
     /// Adds a stand-in inside a stand-in, or returns the one that is there.
     pub(super) fn hole_kid(&mut self, id: usize, name: &str) -> usize {
-        let Node {
-            path,
-            whole,
-            kind: Kind::Hole(hole),
-            ..
-        } = &self.nodes[id]
-        else {
+        let Node { path, whole, kind: Kind::Hole(hole), .. } = &self.nodes[id] else {
             return id;
         };
         if let Some(kid) = hole.kids.get(name) {
             return *kid;
         }
         // The name of a choice (`Depth(5)`) is no part of a path.
-        let path = if name.starts_with(|c: char| c.is_ascii_uppercase()) {
-            path.clone()
-        } else {
-            joined(path, name)
-        };
+        let path = if name.starts_with(|c: char| c.is_ascii_uppercase()) { path.clone() } else { joined(path, name) };
         let kid = self.hole(&path, whole.end);
         if let Kind::Hole(hole) = &mut self.nodes[id].kind {
             hole.kids.insert(name.to_string(), kid);
@@ -162,6 +152,5 @@ impl Tree {
 
 /// Whether a word can be the name of a field or of a choice.
 pub(super) fn is_name(word: &str) -> bool {
-    word.starts_with(|c: char| c.is_alphabetic() || c == '_')
-        && word.chars().all(|c| c.is_alphanumeric() || c == '_')
+    word.starts_with(|c: char| c.is_alphabetic() || c == '_') && word.chars().all(|c| c.is_alphanumeric() || c == '_')
 }

@@ -46,11 +46,7 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     pub(super) fn kid(&self, id: usize) -> Self {
-        Self {
-            reading: self.reading,
-            id,
-            unwrapped: false,
-        }
+        Self { reading: self.reading, id, unwrapped: false }
     }
 
     pub(super) fn fail<T>(&self, what: What) -> Result<T, Fail> {
@@ -114,11 +110,7 @@ impl<'a, 'b> Value<'a, 'b> {
         match self.group().filter(|_| self.unwrapped) {
             None => Some(*self),
             Some(group) => match group.items.as_slice() {
-                [
-                    Item {
-                        key: None, node, ..
-                    },
-                ] => Some(self.kid(*node)),
+                [Item { key: None, node, .. }] => Some(self.kid(*node)),
                 _ => None,
             },
         }
@@ -155,13 +147,7 @@ impl<'a, 'b> Value<'a, 'b> {
         let there = |i: &&Item| !matches!(&tree.nodes[i.node].kind, Kind::Hole(h) if h.absent);
         let items: Vec<Item> = group.items.iter().filter(there).cloned().collect();
         drop(tree);
-        visitor
-            .visit_map(Fields {
-                of: self,
-                items: items.into_iter(),
-                value: None,
-            })
-            .map_err(|e| self.about(e))
+        visitor.visit_map(Fields { of: self, items: items.into_iter(), value: None }).map_err(|e| self.about(e))
     }
 
     pub(super) fn visit_elements<V: Visitor<'static>>(
@@ -169,12 +155,7 @@ impl<'a, 'b> Value<'a, 'b> {
         elements: Vec<usize>,
         visitor: V,
     ) -> Result<V::Value, Fail> {
-        visitor
-            .visit_seq(Elements {
-                of: self,
-                elements: elements.into_iter(),
-            })
-            .map_err(|e| self.about(e))
+        visitor.visit_seq(Elements { of: self, elements: elements.into_iter() }).map_err(|e| self.about(e))
     }
 
     pub(super) fn fields<V: Visitor<'static>>(
@@ -184,55 +165,33 @@ impl<'a, 'b> Value<'a, 'b> {
         visitor: V,
     ) -> Result<V::Value, Fail> {
         if self.asks(Wanted::Fields) {
-            let Kind::Hole(hole) = self.node().kind else {
-                unreachable!("it was one just now")
-            };
-            let item = |f: &&str| Item {
-                key: Some((*f).to_string()),
-                key_at: 0..0,
-                node: self.hole_kid(f).id,
-            };
+            let Kind::Hole(hole) = self.node().kind else { unreachable!("it was one just now") };
+            let item = |f: &&str| Item { key: Some((*f).to_string()), key_at: 0..0, node: self.hole_kid(f).id };
             let items: Vec<Item> = hole.fields.iter().map(item).collect();
             return visitor
-                .visit_map(Fields {
-                    of: self,
-                    items: items.into_iter(),
-                    value: None,
-                })
+                .visit_map(Fields { of: self, items: items.into_iter(), value: None })
                 .map_err(|e| self.about(e));
         }
         let Some(group) = self.group().filter(|g| g.bracket == '(') else {
             return self.wanted(Wanted::Fields);
         };
         match &group.name {
-            Some(given) if !self.unwrapped && given != name => {
-                self.misfit(Misfit::Name(given.clone()))
-            }
+            Some(given) if !self.unwrapped && given != name => self.misfit(Misfit::Name(given.clone())),
             _ => self.visit_fields(&group, legal, visitor),
         }
     }
 
-    pub(super) fn tuple<V: Visitor<'static>>(
-        self,
-        len: usize,
-        visitor: V,
-    ) -> Result<V::Value, Fail> {
+    pub(super) fn tuple<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {
         if self.asks(Wanted::Tuple(len)) {
             let kids = (0..len).map(|i| self.hole_kid(&i.to_string()).id).collect();
             return self.visit_elements(kids, visitor);
         }
-        let Some(group) = self
-            .group()
-            .filter(|g| g.bracket == '(' && (self.unwrapped || g.name.is_none()))
-        else {
+        let Some(group) = self.group().filter(|g| g.bracket == '(' && (self.unwrapped || g.name.is_none())) else {
             return self.wanted(Wanted::Tuple(len));
         };
         let elements = self.elements(&group)?;
         if elements.len() != len {
-            return self.misfit(Misfit::Count {
-                wanted: len,
-                got: elements.len(),
-            });
+            return self.misfit(Misfit::Count { wanted: len, got: elements.len() });
         }
         self.visit_elements(elements, visitor)
     }
@@ -245,11 +204,7 @@ impl<'a, 'b> Value<'a, 'b> {
             };
             let number = scalar::stand_in(self.reading.filling, self.refused(), bounds);
             // In one set no two of them are the same, so that no two parts are by their stand-ins alone.
-            let apart = if self.reading.filling == 2 {
-                1.0 - 1e-3 * (self.id % 97) as f64
-            } else {
-                1.0
-            };
+            let apart = if self.reading.filling == 2 { 1.0 - 1e-3 * (self.id % 97) as f64 } else { 1.0 };
             return Ok(number * apart);
         }
         match self.word().and_then(scalar::number) {
@@ -260,9 +215,7 @@ impl<'a, 'b> Value<'a, 'b> {
 
     pub(super) fn whole(self, least: i128, most: i128) -> Result<i128, Fail> {
         if self.asks(Wanted::Whole(least, most)) {
-            return Ok(
-                scalar::stand_in_whole(self.reading.filling, self.refused()).clamp(least, most)
-            );
+            return Ok(scalar::stand_in_whole(self.reading.filling, self.refused()).clamp(least, most));
         }
         match self.word().map(|w| (scalar::whole(w), scalar::number(w))) {
             Some((Some(v), _)) if (least..=most).contains(&v) => Ok(v),

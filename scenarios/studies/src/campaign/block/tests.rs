@@ -35,10 +35,7 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
             seed: place.seed.number(),
             error: (run == 3).then(|| "no water".to_string()),
             declarations: (0..run % 3).map(|number| declared(run, number)).collect(),
-            ..row(
-                place.seed_index,
-                run.is_multiple_of(3).then_some((run as f64, 0.1)),
-            )
+            ..row(place.seed_index, run.is_multiple_of(3).then_some((run as f64, 0.1)))
         }
     };
     runs.map(one).collect()
@@ -84,19 +81,11 @@ fn what_is_read_follows_from_what_is_there_not_from_what_is_planned() {
     for block in [4, 0] {
         write_block(dir, block, &rows(&campaign, manifest.runs_of(block))).unwrap();
     }
-    for name in [
-        "part-1.parquet",
-        "part-000002.parquet.tmp",
-        "part-000099.parquet",
-    ] {
+    for name in ["part-1.parquet", "part-000002.parquet.tmp", "part-000099.parquet"] {
         fs::write(dir.join(name), "").unwrap();
     }
     assert_eq!(present(dir, &manifest).unwrap(), [0, 4]);
-    let many = Manifest {
-        runs: 1 << 40,
-        block: 1,
-        ..manifest
-    };
+    let many = Manifest { runs: 1 << 40, block: 1, ..manifest };
     assert_eq!(present(dir, &many).unwrap(), [0, 4, 99]);
 }
 
@@ -114,17 +103,9 @@ fn what_is_no_regular_file_is_said_and_never_waited_for_nor_replaced() {
             panic!("a pipe is no block");
         };
         let said = said.to_string();
-        assert!(
-            said.contains("part-000000.parquet is not whole: it is a pipe, not a file"),
-            "{said}"
-        );
+        assert!(said.contains("part-000000.parquet is not whole: it is a pipe, not a file"), "{said}");
         let write = write_block(dir.path(), 0, &rows(&campaign, 0..8));
-        assert!(
-            write
-                .unwrap_err()
-                .to_string()
-                .contains("it is a pipe, and only a regular file is replaced")
-        );
+        assert!(write.unwrap_err().to_string().contains("it is a pipe, and only a regular file is replaced"));
     }
 }
 
@@ -138,11 +119,7 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
             break;
         }
         // Damage at the end, in the footer, does most harm.
-        let from = if draw.uniform() < 0.5 {
-            n - n.min(1500)
-        } else {
-            0
-        };
+        let from = if draw.uniform() < 0.5 { n - n.min(1500) } else { 0 };
         let k = from + at(draw, n - from);
         let length = 1 + at(draw, 8);
         let end = (k + length).min(n);
@@ -251,20 +228,14 @@ fn rows_without_their_declarations_are_not_whole() {
     let sound = fs::read(block_path(dir, 0)).unwrap();
     fs::remove_file(declarations_path(dir, 0)).unwrap();
     let missing = said();
-    assert!(
-        missing.ends_with("declarations-000000.parquet is not whole: it does not exist"),
-        "{missing}"
-    );
+    assert!(missing.ends_with("declarations-000000.parquet is not whole: it does not exist"), "{missing}");
     // Those of other rows: sound in themselves, but one is missing.
     let mut other = good.clone();
     other[2].declarations.pop();
     write_block(dir, 0, &other).unwrap();
     fs::write(block_path(dir, 0), sound).unwrap();
     let wrong = said();
-    assert!(
-        wrong.contains("its rows and declarations are not those"),
-        "{wrong}"
-    );
+    assert!(wrong.contains("its rows and declarations are not those"), "{wrong}");
     write_block(dir, 0, &good).unwrap();
     assert!(matches!(read_block(dir, &manifest, 0), BlockState::Done(there) if there == good));
 }
@@ -279,21 +250,12 @@ fn a_merge_has_a_line_for_every_declaration() {
     let csv = dir.join("all.csv");
     let merged = merge(dir, &dir.join("all.parquet"), Some(&csv)).unwrap();
     let declarations: Vec<_> = all.iter().flat_map(|r| r.declarations.clone()).collect();
-    assert_eq!(
-        (merged.rows, merged.declarations),
-        (16, declarations.len() as u64)
-    );
-    assert_eq!(
-        merged.declarations_path,
-        dir.join("all-declarations.parquet")
-    );
+    assert_eq!((merged.rows, merged.declarations), (16, declarations.len() as u64));
+    assert_eq!(merged.declarations_path, dir.join("all-declarations.parquet"));
     let file = fs::File::open(&merged.declarations_path).unwrap();
     let (back, _) = read::<DeclarationRow>(file, 1000).unwrap();
     assert_eq!(back, declarations);
     let [runs, lines] = as_csv(&all);
     assert_eq!(fs::read_to_string(csv).unwrap(), runs);
-    assert_eq!(
-        fs::read_to_string(dir.join("all-declarations.csv")).unwrap(),
-        lines
-    );
+    assert_eq!(fs::read_to_string(dir.join("all-declarations.csv")).unwrap(), lines);
 }

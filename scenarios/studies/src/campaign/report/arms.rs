@@ -3,9 +3,7 @@
 use super::restricted::{Restricted, restricted};
 use super::unit::Unit;
 use crate::campaign::RunRow;
-use crate::campaign::stats::{
-    Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson,
-};
+use crate::campaign::stats::{Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson};
 
 /// Seed of the bootstrap, fixed so that a report of the same rows is always the same.
 pub(super) const SEED: u64 = 1;
@@ -81,10 +79,7 @@ pub(super) struct Share {
 
 impl Share {
     pub(super) fn of(rows: &[&RunRow], what: impl Fn(&RunRow) -> bool) -> Self {
-        Self {
-            count: rows.iter().filter(|r| what(r)).count() as u64,
-            n: rows.len() as u64,
-        }
+        Self { count: rows.iter().filter(|r| what(r)).count() as u64, n: rows.len() as u64 }
     }
 
     pub(super) fn value(self) -> Option<f64> {
@@ -181,15 +176,11 @@ pub(super) fn conditions(arms: &[String], rows: &[RunRow]) -> Vec<ConditionFigur
         return Vec::new();
     }
     let one = |condition: &str, arm: &str| {
-        counts
-            .get(&(condition, arm))
-            .map(|success| ConditionFigures {
-                condition: condition.to_string(),
-                arm: arm.to_string(),
-                success: *success,
-            })
+        counts.get(&(condition, arm)).map(|success| ConditionFigures {
+            condition: condition.to_string(),
+            arm: arm.to_string(),
+            success: *success,
+        })
     };
-    (order.iter())
-        .flat_map(|c| arms.iter().filter_map(|a| one(c, a)).collect::<Vec<_>>())
-        .collect()
+    (order.iter()).flat_map(|c| arms.iter().filter_map(|a| one(c, a)).collect::<Vec<_>>()).collect()
 }

@@ -38,33 +38,16 @@ pub(super) fn not_yet_declared(arm: &str, rows: &[&RunRow]) -> Curve {
         Some(t) => (t, true),
         None => (r.mission_s, false),
     }));
-    let points = (survival.steps.iter()).map(|s| Point {
-        x: s.t_s,
-        y: s.share,
-        interval: s.interval,
-    });
-    Curve {
-        arm: arm.to_string(),
-        points: thinned(points.collect()),
-        end: survival.end_s,
-        n: survival.n,
-    }
+    let points = (survival.steps.iter()).map(|s| Point { x: s.t_s, y: s.share, interval: s.interval });
+    Curve { arm: arm.to_string(), points: thinned(points.collect()), end: survival.end_s, n: survival.n }
 }
 
 /// Share of all runs whose declaration is at most this far from the source.
 pub(super) fn errors(arm: &str, rows: &[&RunRow]) -> Curve {
     let ecdf = Ecdf::new(rows.iter().filter_map(|r| r.error_m), rows.len() as u64);
     let (y, interval) = ecdf.at(-1.0);
-    let mut points = vec![Point {
-        x: 0.0,
-        y,
-        interval,
-    }];
-    points.extend(
-        ecdf.steps()
-            .into_iter()
-            .map(|(x, y, interval)| Point { x, y, interval }),
-    );
+    let mut points = vec![Point { x: 0.0, y, interval }];
+    points.extend(ecdf.steps().into_iter().map(|(x, y, interval)| Point { x, y, interval }));
     Curve {
         arm: arm.to_string(),
         points: thinned(points),
@@ -79,9 +62,7 @@ fn thinned(points: Vec<Point>) -> Vec<Point> {
     if n <= MOST {
         return points;
     }
-    (0..MOST)
-        .map(|k| points[k * (n - 1) / (MOST - 1)])
-        .collect()
+    (0..MOST).map(|k| points[k * (n - 1) / (MOST - 1)]).collect()
 }
 
 #[cfg(test)]
@@ -97,29 +78,17 @@ mod tests {
             assert_eq!(curve.points.len(), MOST);
             assert_eq!(curve.points[0].x, 0.0);
             assert_eq!(curve.points[MOST - 1].x, curve.end);
-            assert!(
-                curve
-                    .points
-                    .windows(2)
-                    .all(|w| w[0].x < w[1].x || w[1].x == 0.0)
-            );
+            assert!(curve.points.windows(2).all(|w| w[0].x < w[1].x || w[1].x == 0.0));
         }
     }
 
     #[test]
     fn failed_runs_are_in_no_survival_curve_but_in_the_shares_of_errors() {
-        let failed = RunRow {
-            error: Some("x".into()),
-            mission_s: 0.0,
-            ..row(1, None)
-        };
+        let failed = RunRow { error: Some("x".into()), mission_s: 0.0, ..row(1, None) };
         let found = row(0, Some((3.0, 4.0)));
         let rows = [&found, &failed];
         assert_eq!(not_yet_declared("a", &rows).n, 1);
         let errors = errors("a", &rows);
-        assert_eq!(
-            (errors.n, errors.points[1].x, errors.points[1].y),
-            (2, 5.0, 0.5)
-        );
+        assert_eq!((errors.n, errors.points[1].x, errors.points[1].y), (2, 5.0, 0.5));
     }
 }

@@ -40,11 +40,7 @@ impl Page {
     /// A paragraph for browsers without JavaScript.
     pub(super) fn without_script(&mut self, text: &str) {
         let text = escaped(text);
-        writeln!(
-            self.text,
-            "<noscript><style>.still{{display:block}}</style><p>{text}</p></noscript>"
-        )
-        .expect(TEXT);
+        writeln!(self.text, "<noscript><style>.still{{display:block}}</style><p>{text}</p></noscript>").expect(TEXT);
     }
 
     /// An animation; its picture stands in for it in print and without JavaScript.

@@ -4,9 +4,7 @@ use super::arms::{ArmMeasure, SEED, of_arm};
 use super::restricted::time_s;
 use super::unit::Unit;
 use crate::campaign::RunRow;
-use crate::campaign::stats::{
-    Better, Difference, Separation, paired_mean, paired_median, paired_share,
-};
+use crate::campaign::stats::{Better, Difference, Separation, paired_mean, paired_median, paired_share};
 use std::collections::BTreeMap;
 
 /// Up to this many arms, each is compared with each; of more arms, each is compared with the first.
@@ -72,12 +70,7 @@ pub struct Comparison {
 }
 
 /// All comparisons of a campaign; `against` names the arm with which each other one is compared.
-pub(super) fn comparisons(
-    arms: &[String],
-    rows: &[RunRow],
-    limit_s: f64,
-    against: Option<&str>,
-) -> Vec<Comparison> {
+pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64, against: Option<&str>) -> Vec<Comparison> {
     if let Some(second) = against {
         let others = arms.iter().filter(|a| *a != second);
         return (others.flat_map(|first| compared(first, second, rows, limit_s))).collect();
@@ -98,30 +91,20 @@ type Pair<'a> = (&'a RunRow, &'a RunRow);
 
 fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Comparison> {
     type Key<'a> = (&'a str, u64);
-    let others: BTreeMap<Key<'_>, &RunRow> = of_arm(rows, second)
-        .into_iter()
-        .map(|r| ((r.condition.as_str(), r.seed_index), r))
-        .collect();
+    let others: BTreeMap<Key<'_>, &RunRow> =
+        of_arm(rows, second).into_iter().map(|r| ((r.condition.as_str(), r.seed_index), r)).collect();
     let pairs: Vec<Pair<'_>> = of_arm(rows, first)
         .into_iter()
         .filter_map(|r| Some((r, *others.get(&(r.condition.as_str(), r.seed_index))?)))
         .collect();
-    let restricted = paired_mean(
-        (pairs.iter()).filter_map(|(a, b)| time_s(a, limit_s).zip(time_s(b, limit_s))),
-        Better::Less,
-    );
+    let restricted =
+        paired_mean((pairs.iter()).filter_map(|(a, b)| time_s(a, limit_s).zip(time_s(b, limit_s))), Better::Less);
     let difference = |by: Compares| match by {
-        Compares::Success => paired_share(
-            pairs.iter().map(|(a, b)| (a.success, b.success)),
-            Better::More,
-        ),
+        Compares::Success => paired_share(pairs.iter().map(|(a, b)| (a.success, b.success)), Better::More),
         Compares::Restricted => restricted,
-        Compares::Measure(m) => paired_median(
-            pairs.iter().filter_map(|(a, b)| m.of(a).zip(m.of(b))),
-            Better::Less,
-            SEED,
-            m.words(),
-        ),
+        Compares::Measure(m) => {
+            paired_median(pairs.iter().filter_map(|(a, b)| m.of(a).zip(m.of(b))), Better::Less, SEED, m.words())
+        }
     };
     let n = pairs.len();
     let one = |by: Compares| {
@@ -156,15 +139,8 @@ fn looks_faster(
     restricted: Option<Difference>,
 ) -> Option<String> {
     let n = pairs.len();
-    let found = [
-        pairs.iter().filter(|(a, _)| a.success).count(),
-        pairs.iter().filter(|(_, b)| b.success).count(),
-    ];
-    let (fast, slow) = if by_time.estimate < 0.0 {
-        (0, 1)
-    } else {
-        (1, 0)
-    };
+    let found = [pairs.iter().filter(|(a, _)| a.success).count(), pairs.iter().filter(|(_, b)| b.success).count()];
+    let (fast, slow) = if by_time.estimate < 0.0 { (0, 1) } else { (1, 0) };
     if by_time.estimate == 0.0 || found[fast] >= found[slow] {
         return None;
     }

@@ -10,9 +10,7 @@ use output::charts::palette::{GREY, INK};
 use output::charts::panel::{Panel, range_of};
 
 /// Colours that the colour-blind can tell apart (Okabe & Ito 2008).
-const COLOURS: [&str; 7] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
-];
+const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 const LEFT: f64 = 72.0;
 const WIDTH: f64 = 760.0;
@@ -39,14 +37,7 @@ fn line_style(k: usize) -> Style<'static> {
 
 /// Step curves with their bands. With `until_end`, each curve goes to its own end (survival), otherwise to the right
 /// edge.
-pub(super) fn curves(
-    name: &str,
-    title: &str,
-    x: &str,
-    y: &str,
-    all: &[Curve],
-    until_end: bool,
-) -> String {
+pub(super) fn curves(name: &str, title: &str, x: &str, y: &str, all: &[Curve], until_end: bool) -> String {
     let keys = all.len() as f64 * 17.0;
     let mut c = Canvas::new(LEFT + WIDTH + 24.0, 40.0 + HEIGHT + 48.0 + keys);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, title);
@@ -66,11 +57,7 @@ pub(super) fn curves(
         let high: Vec<_> = steps(curve, end, |p| p.interval.high);
         let mut band = high;
         band.extend(steps(curve, end, |p| p.interval.low).into_iter().rev());
-        let tint = Style {
-            fill: Some(colour(k)),
-            fill_opacity: Some(0.15),
-            ..Style::default()
-        };
+        let tint = Style { fill: Some(colour(k)), fill_opacity: Some(0.15), ..Style::default() };
         c.polygon(panel.all(&band), &tint);
     }
     for (k, curve) in all.iter().enumerate() {
@@ -115,21 +102,13 @@ pub(super) fn success(arms: &[ArmFigures]) -> String {
         .enumerate()
         .map(|(k, a)| Entry {
             name: format!("{} (n = {})", a.arm, a.success.n),
-            value: a
-                .success
-                .value()
-                .map(|v| (100.0 * v, times(a.success.interval(), 100.0))),
+            value: a.success.value().map(|v| (100.0 * v, times(a.success.interval(), 100.0))),
             colour: colour(k),
         })
         .collect();
     let height = 40.0 + LINE * entries.len() as f64 + 60.0;
     let mut c = Canvas::new(NAMES + WIDTH - 200.0 + 24.0, height);
-    c.bold(
-        [16.0, 24.0],
-        13.0,
-        Anchor::Start,
-        "Success with 95 % interval",
-    );
+    c.bold([16.0, 24.0], 13.0, Anchor::Start, "Success with 95 % interval");
     list(&mut c, 38.0, [0.0, 100.0], None, &entries, "Successes (%)");
     c.svg("success")
 }
@@ -138,10 +117,7 @@ pub(super) fn success(arms: &[ArmFigures]) -> String {
 pub(super) fn differences(comparisons: &[Comparison]) -> String {
     let each = |by: Compares| comparisons.iter().filter(move |c| c.by == by);
     let per_panel = LINE * each(Compares::Success).count() as f64 + 84.0;
-    let mut c = Canvas::new(
-        NAMES + WIDTH - 200.0 + 24.0,
-        44.0 + per_panel * Compares::ALL.len() as f64,
-    );
+    let mut c = Canvas::new(NAMES + WIDTH - 200.0 + 24.0, 44.0 + per_panel * Compares::ALL.len() as f64);
     let title = "Paired differences with 95 % interval (first − second; same seeds and conditions)";
     c.bold([16.0, 24.0], 13.0, Anchor::Start, title);
     for (k, by) in Compares::ALL.into_iter().enumerate() {
@@ -154,20 +130,11 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
         };
         let entries: Vec<Entry> = each(by)
             .map(|c| Entry {
-                name: format!(
-                    "{} − {} ({})",
-                    c.first,
-                    c.second,
-                    c.difference.map_or(0, |d| d.pairs)
-                ),
+                name: format!("{} − {} ({})", c.first, c.second, c.difference.map_or(0, |d| d.pairs)),
                 value: (c.difference)
                     .filter(|d| by == Compares::Success || d.pairs >= LEAST_VALUES)
                     .map(|d| (scale * d.estimate, times(d.interval, scale))),
-                colour: if c.difference.is_some_and(|d| !d.interval.contains(0.0)) {
-                    INK
-                } else {
-                    GREY
-                },
+                colour: if c.difference.is_some_and(|d| !d.interval.contains(0.0)) { INK } else { GREY },
             })
             .collect();
         let values = entries.iter().filter_map(|e| e.value);
@@ -175,23 +142,13 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
         let known = range_of(ends, 0.06).filter(|[low, high]| high - low > 1e-6);
         let x = known.unwrap_or([-1.0, 1.0]);
         let label = format!("Difference in {} ({unit})", by.words());
-        list(
-            &mut c,
-            38.0 + per_panel * k as f64,
-            x,
-            Some(0.0),
-            &entries,
-            &label,
-        );
+        list(&mut c, 38.0 + per_panel * k as f64, x, Some(0.0), &entries, &label);
     }
     c.svg("differences")
 }
 
 fn times(i: Interval, scale: f64) -> Interval {
-    Interval {
-        low: scale * i.low,
-        high: scale * i.high,
-    }
+    Interval { low: scale * i.low, high: scale * i.high }
 }
 
 struct Entry {
@@ -202,22 +159,12 @@ struct Entry {
 
 /// Values with intervals, one under the other.
 fn list(c: &mut Canvas, top: f64, x: [f64; 2], mark: Option<f64>, entries: &[Entry], label: &str) {
-    let panel = Panel {
-        left: NAMES,
-        top,
-        width: WIDTH - 200.0,
-        height: LINE * entries.len() as f64 + 8.0,
-        x,
-        y: [0.0, 1.0],
-    };
+    let panel =
+        Panel { left: NAMES, top, width: WIDTH - 200.0, height: LINE * entries.len() as f64 + 8.0, x, y: [0.0, 1.0] };
     panel.grid(c, 1e6);
     if let Some(mark) = mark {
         let at = panel.px(mark);
-        c.line(
-            [at, panel.top],
-            [at, panel.bottom()],
-            &Style::line(INK, 1.0).dashed("4 3"),
-        );
+        c.line([at, panel.top], [at, panel.bottom()], &Style::line(INK, 1.0).dashed("4 3"));
     }
     for (k, entry) in entries.iter().enumerate() {
         let y = top + LINE * (k as f64 + 0.5) + 4.0;

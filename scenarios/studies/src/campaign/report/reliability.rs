@@ -111,9 +111,7 @@ pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
             let of: Vec<_> = said.iter().copied().filter(|s| inside(s.0)).collect();
             Bin::new(e[0], e[1], &of)
         });
-        let declared = rows
-            .iter()
-            .filter(|r| of.of(r).is_some() && r.map_declared == Some(1));
+        let declared = rows.iter().filter(|r| of.of(r).is_some() && r.map_declared == Some(1));
         Some(Reliability {
             arm: arm.to_string(),
             of,
@@ -194,10 +192,7 @@ pub(crate) fn csv(all: &[Reliability]) -> String {
         let bins: Vec<_> = std::iter::once(&r.all).chain(&r.bins).map(line).collect();
         bins
     };
-    csv_text(
-        "arm,probability_of,from,to,n,stated,count,share,low,high",
-        all.iter().flat_map(of_arm),
-    )
+    csv_text("arm,probability_of,from,to,n,stated,count,share,low,high", all.iter().flat_map(of_arm))
 }
 
 const SIDE: f64 = 330.0;
@@ -239,11 +234,7 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
                 // Area by the number of runs.
                 let share = b.n as f64 / r.all.n as f64;
                 let size = 2.0 + 5.0 * share.sqrt();
-                c.circle(
-                    panel.at([b.stated, b.share()]),
-                    size,
-                    &Style::fill(colour(n)),
-                );
+                c.circle(panel.at([b.stated, b.share()]), size, &Style::fill(colour(n)));
             }
         }
         panel.frame(&mut c, 1.0);
@@ -257,11 +248,7 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
     for (k, arm) in arms.iter().enumerate() {
         let y = below + 17.0 * (k + 1) as f64;
         let n = all.iter().find(|r| r.arm == *arm).map_or(0, |r| r.all.n);
-        c.line(
-            [LEFT, y - 4.0],
-            [LEFT + 26.0, y - 4.0],
-            &Style::line(colour(k), 2.0),
-        );
+        c.line([LEFT, y - 4.0], [LEFT + 26.0, y - 4.0], &Style::line(colour(k), 2.0));
         let words = format!("{arm} (n = {n})");
         c.text([LEFT + 34.0, y], 11.0, Anchor::Start, &words);
     }
@@ -305,10 +292,7 @@ mod tests {
         let near = &all[1];
         assert_eq!((near.all.share(), near.bins.len()), (1.0, 1));
         let words = table(&all);
-        assert_eq!(
-            words.rows[1][..6],
-            ["a", "best cell", "20 to 40", "10", "30.0", "30.0"]
-        );
+        assert_eq!(words.rows[1][..6], ["a", "best cell", "20 to 40", "10", "30.0", "30.0"]);
         assert!(notes(&all).contains("Without a declaration: 1 of 14 of a."));
         assert_eq!(csv(&all).lines().count(), 1 + 3 + 2);
         let svg = picture(&all, |_| "#000000");

@@ -38,14 +38,8 @@ pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
 /// When a successful run had its success: at the declaration that brought it, which is the last one if it takes
 /// several; without any declaration, at its end.
 fn success_s(row: &RunRow) -> f64 {
-    let mut kept = (row.declarations.iter())
-        .filter(|d| d.stands())
-        .map(|d| d.t_s);
-    let at = if row.sources_declared > 1 {
-        kept.next_back()
-    } else {
-        kept.next()
-    };
+    let mut kept = (row.declarations.iter()).filter(|d| d.stands()).map(|d| d.t_s);
+    let at = if row.sources_declared > 1 { kept.next_back() } else { kept.next() };
     at.or(row.declared_s).unwrap_or(row.mission_s)
 }
 
@@ -54,17 +48,8 @@ pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> Restricted {
     let times: Vec<f64> = rows.iter().filter_map(|r| time_s(r, limit_s)).collect();
     let n = times.len() as u64;
     let at_limit = times.iter().filter(|t| **t >= limit_s).count() as u64;
-    let interval = positive_mean_interval(&times).map(|i| Interval {
-        low: i.low,
-        high: i.high.min(limit_s),
-    });
-    Restricted {
-        limit_s,
-        n,
-        at_limit,
-        mean_s: (n > 0).then(|| times.iter().sum::<f64>() / n as f64),
-        interval,
-    }
+    let interval = positive_mean_interval(&times).map(|i| Interval { low: i.low, high: i.high.min(limit_s) });
+    Restricted { limit_s, n, at_limit, mean_s: (n > 0).then(|| times.iter().sum::<f64>() / n as f64), interval }
 }
 
 #[cfg(test)]
@@ -78,10 +63,7 @@ mod tests {
         let found = row(0, Some((1.0, 1.0))); // declares at 900 s
         let wrong = row(1, Some((500.0, 0.0)));
         let none = row(2, None);
-        let error = RunRow {
-            error: Some("x".into()),
-            ..row(3, None)
-        };
+        let error = RunRow { error: Some("x".into()), ..row(3, None) };
         let r = restricted(&[&found, &wrong, &none, &error], 1200.0);
         assert_eq!((r.n, r.at_limit, r.mean_s), (3, 2, Some(1100.0)));
         // Three values are too few for an interval.
@@ -91,40 +73,19 @@ mod tests {
         let many: Vec<RunRow> = (0..10).map(|k| row(k, Some((1.0, 1.0)))).collect();
         let r = restricted(&many.iter().collect::<Vec<_>>(), 950.0);
         let i = r.interval.unwrap();
-        assert!(
-            i.low > 0.0 && i.low < r.mean_s.unwrap() && i.high <= 950.0,
-            "{i:?}"
-        );
+        assert!(i.low > 0.0 && i.low < r.mean_s.unwrap() && i.high <= 950.0, "{i:?}");
         assert_eq!(restricted(&[], 10.0).mean_s, None);
     }
 
     #[test]
     fn success_is_at_the_declaration_that_did_it() {
-        let at = |t_s, verdict: &str| DeclarationRow {
-            t_s,
-            verdict: verdict.to_string(),
-            ..DeclarationRow::default()
-        };
-        let all = vec![
-            at(100.0, "rejected"),
-            at(300.0, "verified"),
-            at(700.0, "unchecked"),
-        ];
-        let one = RunRow {
-            declarations: all,
-            sources_declared: 1,
-            ..row(0, Some((1.0, 1.0)))
-        };
+        let at = |t_s, verdict: &str| DeclarationRow { t_s, verdict: verdict.to_string(), ..DeclarationRow::default() };
+        let all = vec![at(100.0, "rejected"), at(300.0, "verified"), at(700.0, "unchecked")];
+        let one = RunRow { declarations: all, sources_declared: 1, ..row(0, Some((1.0, 1.0))) };
         assert_eq!(time_s(&one, 1e4), Some(300.0));
-        let two = RunRow {
-            sources_declared: 2,
-            ..one
-        };
+        let two = RunRow { sources_declared: 2, ..one };
         assert_eq!(time_s(&two, 1e4), Some(700.0));
-        let manoeuvre = RunRow {
-            success: true,
-            ..row(4, None)
-        };
+        let manoeuvre = RunRow { success: true, ..row(4, None) };
         assert_eq!(time_s(&manoeuvre, 1e4), Some(1004.0));
     }
 }

@@ -52,12 +52,7 @@ impl Content {
             section(&mut out, title, table, columns);
         }
         for (title, table) in &self.pairs {
-            section(
-                &mut out,
-                &format!("{title}, arm against arm"),
-                table,
-                columns,
-            );
+            section(&mut out, &format!("{title}, arm against arm"), table, columns);
         }
         for warning in &self.warnings {
             paragraph(&mut out, &format!("Warning: {warning}"), columns);

@@ -9,14 +9,8 @@ use crate::campaign::stats::{Difference, Interval, LEAST_VALUES};
 use output::files::{csv_number, csv_text};
 
 /// A column's values that are there, with the ends of their intervals.
-fn values<'a>(
-    all: impl IntoIterator<Item = (Option<f64>, Option<Interval>)> + 'a,
-) -> impl Iterator<Item = f64> + 'a {
-    (all.into_iter()).flat_map(|(v, i)| {
-        [v, i.map(|i| i.low), i.map(|i| i.high)]
-            .into_iter()
-            .flatten()
-    })
+fn values<'a>(all: impl IntoIterator<Item = (Option<f64>, Option<Interval>)> + 'a) -> impl Iterator<Item = f64> + 'a {
+    (all.into_iter()).flat_map(|(v, i)| [v, i.map(|i| i.low), i.map(|i| i.high)].into_iter().flatten())
 }
 
 fn shown(scale: &Scale, value: Option<f64>) -> String {
@@ -24,11 +18,7 @@ fn shown(scale: &Scale, value: Option<f64>) -> String {
 }
 
 /// The interval of a figure of `n` values; for too few values there is none.
-pub(crate) fn range(
-    n: u64,
-    interval: Option<Interval>,
-    show: impl Fn(Interval) -> String,
-) -> String {
+pub(crate) fn range(n: u64, interval: Option<Interval>, show: impl Fn(Interval) -> String) -> String {
     match interval {
         Some(i) if n >= LEAST_VALUES as u64 => show(i),
         _ if n == 0 => "-".to_string(),
@@ -70,9 +60,7 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
         let all = || (arms.iter()).flat_map(|a| a.measured.iter().map(move |m| (a, m)));
         let rows = || all().filter(|(_, m)| m.measure == measure);
         let both = |m: &Measured| [(m.median, m.median_interval), (m.q90, m.q90_interval)];
-        let scale = measure
-            .unit()
-            .scale(values(rows().flat_map(|(_, m)| both(m))));
+        let scale = measure.unit().scale(values(rows().flat_map(|(_, m)| both(m))));
         let one = |(a, m): (&ArmFigures, &Measured)| {
             let interval = |i| range(m.n, i, |i| scale.numbers(i));
             [
@@ -100,15 +88,11 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
 /// With a capital, as a title.
 fn title(words: &str) -> String {
     let mut rest = words.chars();
-    rest.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(rest).collect()
-    })
+    rest.next().map_or(String::new(), |first| first.to_uppercase().chain(rest).collect())
 }
 
 pub(super) fn restricted(arms: &[ArmFigures]) -> Table {
-    let all = arms
-        .iter()
-        .map(|a| (a.restricted.mean_s, a.restricted.interval));
+    let all = arms.iter().map(|a| (a.restricted.mean_s, a.restricted.interval));
     let scale = Unit::Seconds.scale(values(all));
     let one = |a: &ArmFigures| {
         let r = a.restricted;
@@ -154,8 +138,7 @@ pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<(String, Table)> {
                     (Compares::Success, Some(d)) => scale.numbers(d.interval),
                     _ => range(n, sound_interval(c), |i| scale.numbers(i)),
                 },
-                d.map_or("not separable: no pairs", |d| d.verdict.words())
-                    .to_string(),
+                d.map_or("not separable: no pairs", |d| d.verdict.words()).to_string(),
                 c.rests_on.clone(),
             ]
         };
@@ -184,13 +167,8 @@ pub(super) fn conditions(conditions: &[ConditionFigures]) -> Table {
             share.numbers(c.success.interval()),
         ]
     };
-    let head = [
-        "condition".to_string(),
-        "arm".to_string(),
-        "runs".to_string(),
-        share.head("success"),
-        share.head(INTERVAL),
-    ];
+    let head =
+        ["condition".to_string(), "arm".to_string(), "runs".to_string(), share.head("success"), share.head(INTERVAL)];
     Table::new(head, conditions.iter().map(one))
 }
 
@@ -223,10 +201,7 @@ pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
         }
         lines
     };
-    csv_text(
-        "arm,quantity,n,count,value,low,high",
-        arms.iter().flat_map(of_arm),
-    )
+    csv_text("arm,quantity,n,count,value,low,high", arms.iter().flat_map(of_arm))
 }
 
 pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
@@ -246,10 +221,7 @@ pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
             c.warning.clone().unwrap_or_default(),
         ]
     };
-    csv_text(
-        "first,second,by,pairs,difference,low,high,first_is,rests_on,warning",
-        comparisons.iter().map(one),
-    )
+    csv_text("first,second,by,pairs,difference,low,high,first_is,rests_on,warning", comparisons.iter().map(one))
 }
 
 pub(super) fn conditions_csv(conditions: &[ConditionFigures]) -> String {
@@ -257,20 +229,9 @@ pub(super) fn conditions_csv(conditions: &[ConditionFigures]) -> String {
         let s = c.success;
         let [value, low, high] = fields(s.value(), Some(s.interval()));
         let (n, count) = (s.n.to_string(), s.count.to_string());
-        [
-            c.condition.clone(),
-            c.arm.clone(),
-            n,
-            count,
-            value,
-            low,
-            high,
-        ]
+        [c.condition.clone(), c.arm.clone(), n, count, value, low, high]
     };
-    csv_text(
-        "condition,arm,runs,successes,share,low,high",
-        conditions.iter().map(one),
-    )
+    csv_text("condition,arm,runs,successes,share,low,high", conditions.iter().map(one))
 }
 
 pub(super) fn curves_csv(x: &str, curves: &[Curve]) -> String {

@@ -20,17 +20,12 @@ impl Table {
         head: [impl Into<String>; N],
         rows: impl IntoIterator<Item = [String; N]>,
     ) -> Self {
-        Self {
-            head: head.map(Into::into).into(),
-            rows: rows.into_iter().map(Into::into).collect(),
-        }
+        Self { head: head.map(Into::into).into(), rows: rows.into_iter().map(Into::into).collect() }
     }
 
     /// The table in at most `columns` characters: as it is, or turned, or each row as lines of its own.
     pub(crate) fn text(&self, columns: Option<usize>) -> String {
-        let fits = |text: &String| {
-            columns.is_none_or(|most| text.lines().all(|l| l.chars().count() <= most))
-        };
+        let fits = |text: &String| columns.is_none_or(|most| text.lines().all(|l| l.chars().count() <= most));
         (Some(self.aligned()).filter(fits))
             .or_else(|| Some(self.turned().aligned()).filter(fits))
             .unwrap_or_else(|| wrapped(&self.listed(), columns))
@@ -69,10 +64,7 @@ impl Table {
             std::iter::once(self.head[k].clone()).chain(cells).collect()
         };
         let mut all = (0..self.head.len()).map(column);
-        Self {
-            head: all.next().unwrap_or_default(),
-            rows: all.collect(),
-        }
+        Self { head: all.next().unwrap_or_default(), rows: all.collect() }
     }
 
     /// Each row by itself: its first cell, then a line for each other one.
@@ -122,13 +114,7 @@ mod tests {
 
     fn table() -> Table {
         let row = |cells: [&str; 3]| cells.map(String::from);
-        Table::new(
-            ["arm", "median, s", "rests on"],
-            [
-                row(["a", "12", "all 40 pairs"]),
-                row(["bcd", "3", "no pair"]),
-            ],
-        )
+        Table::new(["arm", "median, s", "rests on"], [row(["a", "12", "all 40 pairs"]), row(["bcd", "3", "no pair"])])
     }
 
     /// The formatter's widest field has 65 535 characters; a row file may contain a longer name.
@@ -164,10 +150,7 @@ mod tests {
 
     #[test]
     fn long_lines_are_broken_between_words() {
-        assert_eq!(
-            wrapped("one two three\n  four five\n\nx", Some(9)),
-            "one two\n  three\n  four\n    five\n\nx\n"
-        );
+        assert_eq!(wrapped("one two three\n  four five\n\nx", Some(9)), "one two\n  three\n  four\n    five\n\nx\n");
         let long = "a".repeat(30);
         assert_eq!(wrapped(&long, Some(9)), format!("{long}\n"));
         assert_eq!(wrapped("as it is", None), "as it is");

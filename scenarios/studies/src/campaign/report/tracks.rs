@@ -80,11 +80,7 @@ fn of_one(mut rows: Vec<&RunRow>) -> Vec<Pick> {
     rows.retain(|row| row.error.is_none() && !row.digest.is_empty());
     rows.sort_by(|a, b| place(a).partial_cmp(&place(b)).expect("numbers"));
     let n = rows.len();
-    let ranks = [
-        (Rank::Best, 0),
-        (Rank::Median, n / 2),
-        (Rank::Worst, n.wrapping_sub(1)),
-    ];
+    let ranks = [(Rank::Best, 0), (Rank::Median, n / 2), (Rank::Worst, n.wrapping_sub(1))];
     let mut picks: Vec<Pick> = Vec::new();
     for (rank, k) in ranks {
         let known = |row: &RunRow| picks.iter().any(|p| p.row.run == row.run);
@@ -131,11 +127,7 @@ pub(super) fn section(page: &mut Page, shown: &[Shown], arms: usize) {
 
 fn title(pick: &Pick) -> String {
     let row = &pick.row;
-    let under = if row.condition.is_empty() {
-        String::new()
-    } else {
-        format!(", {}", row.condition)
-    };
+    let under = if row.condition.is_empty() { String::new() } else { format!(", {}", row.condition) };
     let (arm, rank) = (&row.arm, pick.rank.words());
     format!("{arm}{under}: {rank} run, number {}", row.run)
 }
@@ -175,46 +167,30 @@ mod tests {
             row(5, Some((60.0, 0.0))),
         ];
         let three = runs(&picks(&[], &rows));
-        assert_eq!(
-            three,
-            [(Rank::Best, 1), (Rank::Median, 5), (Rank::Worst, 0)]
-        );
+        assert_eq!(three, [(Rank::Best, 1), (Rank::Median, 5), (Rank::Worst, 0)]);
         let mut other_way: Vec<_> = rows.to_vec();
         other_way.reverse();
         assert_eq!(runs(&picks(&[], &other_way)), three);
         // The worst is the wrong declaration that is farthest off, when all have declared.
-        assert_eq!(
-            runs(&picks(&[], &rows[1..])).last(),
-            Some(&(Rank::Worst, 3))
-        );
+        assert_eq!(runs(&picks(&[], &rows[1..])).last(), Some(&(Rank::Worst, 3)));
     }
 
     #[test]
     fn few_runs_are_not_shown_twice_and_broken_ones_not_at_all() {
-        let broken = RunRow {
-            error: Some("panicked".to_string()),
-            ..row(7, None)
-        };
+        let broken = RunRow { error: Some("panicked".to_string()), ..row(7, None) };
         assert_eq!(picks(&[], std::slice::from_ref(&broken)), []);
         let one = runs(&picks(&[], &[broken, row(1, None)]));
         assert_eq!(one, [(Rank::Best, 1)]);
         let two = runs(&picks(&[], &[row(1, None), row(2, Some((1.0, 1.0)))]));
         assert_eq!(two, [(Rank::Best, 2), (Rank::Median, 1)]);
-        let nan = RunRow {
-            error_m: Some(f64::NAN),
-            success: false,
-            ..row(3, Some((1.0, 0.0)))
-        };
+        let nan = RunRow { error_m: Some(f64::NAN), success: false, ..row(3, Some((1.0, 0.0))) };
         let last = runs(&picks(&[], &[nan, row(4, Some((90.0, 0.0)))]));
         assert_eq!(last, [(Rank::Best, 4), (Rank::Median, 3)]);
     }
 
     #[test]
     fn of_many_arms_the_first_are_shown() {
-        let of = |arm: &str| RunRow {
-            arm: arm.to_string(),
-            ..row(1, None)
-        };
+        let of = |arm: &str| RunRow { arm: arm.to_string(), ..row(1, None) };
         let rows = ["d", "c", "b", "a"].map(of);
         let order = ["a", "b"].map(String::from);
         let arms: Vec<String> = (picks(&order, &rows).into_iter().map(|p| p.row.arm)).collect();

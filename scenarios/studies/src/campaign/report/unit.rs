@@ -23,17 +23,10 @@ impl Unit {
     pub fn scale(self, values: impl IntoIterator<Item = f64>) -> Scale {
         let sizes = values.into_iter().map(f64::abs);
         let sizes = sizes.filter(|v| v.is_finite() && *v > 0.0);
-        let (least, most) = sizes.fold((f64::INFINITY, 0.0f64), |(low, high), v| {
-            (low.min(v), high.max(v))
-        });
-        let scale = |factor, name, decimals| Scale {
-            factor,
-            name,
-            decimals,
-        };
+        let (least, most) = sizes.fold((f64::INFINITY, 0.0f64), |(low, high), v| (low.min(v), high.max(v)));
+        let scale = |factor, name, decimals| Scale { factor, name, decimals };
         // Three digits of the largest, and one more if the least has no two.
-        let finer =
-            |decimals: usize| decimals + usize::from(least * 10f64.powi(decimals as i32) < 9.5);
+        let finer = |decimals: usize| decimals + usize::from(least * 10f64.powi(decimals as i32) < 9.5);
         match self {
             Unit::Share => scale(100.0, "%", 1),
             Unit::Metres if most < 0.9995 => scale(100.0, "cm", 1),
@@ -72,9 +65,7 @@ impl Scale {
     /// A value with its unit.
     #[must_use]
     pub fn show(&self, value: f64) -> String {
-        format!("{} {}", self.number(value), self.name)
-            .trim_end()
-            .to_string()
+        format!("{} {}", self.number(value), self.name).trim_end().to_string()
     }
 
     /// An interval without its unit.
@@ -119,31 +110,13 @@ mod tests {
     fn what_stands_in_one_column_has_one_unit() {
         let both = |low, high| {
             let scale = Unit::Metres.scale([low, high]);
-            (
-                scale.head("error"),
-                scale.numbers(Interval { low, high }),
-                scale.show_interval(Interval { low, high }),
-            )
+            (scale.head("error"), scale.numbers(Interval { low, high }), scale.show_interval(Interval { low, high }))
         };
-        let said = |head: &str, bare: &str, whole: &str| {
-            (head.to_string(), bare.to_string(), whole.to_string())
-        };
-        assert_eq!(
-            both(-0.972, 1.1),
-            said("error, m", "-0.97 to 1.10", "-0.97 to 1.10 m")
-        );
-        assert_eq!(
-            both(0.5, 0.6),
-            said("error, cm", "50.0 to 60.0", "50.0 to 60.0 cm")
-        );
-        assert_eq!(
-            both(900.4, 1001.0),
-            said("error, m", "900 to 1001", "900 to 1001 m")
-        );
-        assert_eq!(
-            both(-0.001, 150.0),
-            said("error, m", "0.0 to 150.0", "0.0 to 150.0 m")
-        );
+        let said = |head: &str, bare: &str, whole: &str| (head.to_string(), bare.to_string(), whole.to_string());
+        assert_eq!(both(-0.972, 1.1), said("error, m", "-0.97 to 1.10", "-0.97 to 1.10 m"));
+        assert_eq!(both(0.5, 0.6), said("error, cm", "50.0 to 60.0", "50.0 to 60.0 cm"));
+        assert_eq!(both(900.4, 1001.0), said("error, m", "900 to 1001", "900 to 1001 m"));
+        assert_eq!(both(-0.001, 150.0), said("error, m", "0.0 to 150.0", "0.0 to 150.0 m"));
         assert_eq!(Unit::Number.scale([f64::NAN]).head("n"), "n");
     }
 }

@@ -43,11 +43,7 @@ impl Walls {
         );
         if self.shared > 0 {
             let paid = self.runs - self.shared;
-            let saved = if paid > 0 {
-                self.spin_up_s / paid as f64 * self.shared as f64
-            } else {
-                0.0
-            };
+            let saved = if paid > 0 { self.spin_up_s / paid as f64 * self.shared as f64 } else { 0.0 };
             out.push_str(&format!(
                 " {} runs took their spin-up over from another: about {saved:.0} s saved.",
                 self.shared
@@ -64,25 +60,11 @@ mod tests {
 
     #[test]
     fn says_where_the_time_went_and_what_was_saved() {
-        let paid = RunRow {
-            spin_up_wall_s: 3.0,
-            mission_wall_s: 1.0,
-            ..row(0, None)
-        };
-        let shared = RunRow {
-            spin_up_wall_s: 0.0,
-            mission_wall_s: 2.0,
-            ..row(1, None)
-        };
+        let paid = RunRow { spin_up_wall_s: 3.0, mission_wall_s: 1.0, ..row(0, None) };
+        let shared = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 2.0, ..row(1, None) };
         let said = Walls::of(&[paid, shared]).words();
-        assert!(
-            said.contains("6 s, 3.0 s a run; spin-up 50 % (3 s), mission 50 % (3 s)"),
-            "{said}"
-        );
-        assert!(
-            said.contains("1 runs took their spin-up over from another: about 3 s saved"),
-            "{said}"
-        );
+        assert!(said.contains("6 s, 3.0 s a run; spin-up 50 % (3 s), mission 50 % (3 s)"), "{said}");
+        assert!(said.contains("1 runs took their spin-up over from another: about 3 s saved"), "{said}");
         assert_eq!(Walls::of(&[]).words(), "Wall time: none measured.");
     }
 }

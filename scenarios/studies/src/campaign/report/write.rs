@@ -75,26 +75,14 @@ const PAIR_NOTES: &str = "Pairs are runs of the same seed and condition. Success
 pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, ReportError> {
     let folder = begin_folder(dir, "report")?;
     let names = arm_names(about.arms, rows);
-    let grouped: Vec<(&String, Vec<&RunRow>)> = names
-        .iter()
-        .map(|name| (name, of_arm(rows, name)))
-        .collect();
+    let grouped: Vec<(&String, Vec<&RunRow>)> = names.iter().map(|name| (name, of_arm(rows, name))).collect();
     let longest = (rows.iter().map(|r| r.mission_s)).fold(0.0, f64::max);
     let limit_s = about.limit_s.unwrap_or(longest);
-    let figures: Vec<_> = grouped
-        .iter()
-        .map(|(name, rows)| arms::figures(name, rows, limit_s))
-        .collect();
+    let figures: Vec<_> = grouped.iter().map(|(name, rows)| arms::figures(name, rows, limit_s)).collect();
     let conditions = arms::conditions(&names, rows);
     let comparisons = pairs::comparisons(&names, rows, limit_s, about.against);
-    let waiting: Vec<_> = grouped
-        .iter()
-        .map(|(name, rows)| curves::not_yet_declared(name, rows))
-        .collect();
-    let errors: Vec<_> = grouped
-        .iter()
-        .map(|(name, rows)| curves::errors(name, rows))
-        .collect();
+    let waiting: Vec<_> = grouped.iter().map(|(name, rows)| curves::not_yet_declared(name, rows)).collect();
+    let errors: Vec<_> = grouped.iter().map(|(name, rows)| curves::errors(name, rows)).collect();
 
     let mut kept = Kept::new(&folder);
     kept.write("arms.csv", tables::arms_csv(&figures).as_bytes());
@@ -111,9 +99,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         kept.write("conditions.csv", csv.as_bytes());
     }
 
-    let reliable: Vec<_> = (grouped.iter())
-        .flat_map(|(name, rows)| reliability::reliability(name, rows))
-        .collect();
+    let reliable: Vec<_> = (grouped.iter()).flat_map(|(name, rows)| reliability::reliability(name, rows)).collect();
     if !reliable.is_empty() {
         let csv = reliability::csv(&reliable);
         kept.write("reliability.csv", csv.as_bytes());
@@ -153,16 +139,10 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         kept.figure(name, svg);
     }
 
-    let title = if about.title.is_empty() {
-        about.name
-    } else {
-        about.title
-    };
+    let title = if about.title.is_empty() { about.name } else { about.title };
     let content = Content {
         title: title.to_string(),
-        about: std::iter::once(heading(about, rows.len()))
-            .chain(success_words(about, &conditions))
-            .collect(),
+        about: std::iter::once(heading(about, rows.len())).chain(success_words(about, &conditions)).collect(),
         sets: Table::new(
             ["arm", "sets in the scenario"],
             (about.arms.iter().zip(about.sets)).map(|(arm, set)| [arm.clone(), set.clone()]),
@@ -171,25 +151,14 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         success: tables::success(&figures),
         measured: tables::measured(&figures),
         restricted: tables::restricted(&figures),
-        pairs: if comparisons.is_empty() {
-            Vec::new()
-        } else {
-            tables::pairs(&comparisons)
-        },
-        warnings: (comparisons.iter())
-            .filter_map(|c| c.warning.clone())
-            .collect(),
-        reliable: (!reliable.is_empty())
-            .then(|| (reliability::table(&reliable), reliability::notes(&reliable))),
+        pairs: if comparisons.is_empty() { Vec::new() } else { tables::pairs(&comparisons) },
+        warnings: (comparisons.iter()).filter_map(|c| c.warning.clone()).collect(),
+        reliable: (!reliable.is_empty()).then(|| (reliability::table(&reliable), reliability::notes(&reliable))),
         walls: Walls::of(rows).words(),
-        first_error: rows
-            .iter()
-            .filter(|r| r.error.is_some())
-            .min_by_key(|r| r.run)
-            .map(|r| {
-                let error = r.error.as_deref().unwrap_or_default();
-                format!("First failure: run {}: {error}", r.run)
-            }),
+        first_error: rows.iter().filter(|r| r.error.is_some()).min_by_key(|r| r.run).map(|r| {
+            let error = r.error.as_deref().unwrap_or_default();
+            format!("First failure: run {}: {error}", r.run)
+        }),
     };
     let mut page = Page::new(title);
     for words in &content.about {
@@ -241,11 +210,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         page.paragraph(error);
     }
     kept.write("report.html", page.end().as_bytes());
-    Ok(Written {
-        text: content.text(about.columns),
-        files: kept.done()?,
-        removed: folder.removed().to_vec(),
-    })
+    Ok(Written { text: content.text(about.columns), files: kept.done()?, removed: folder.removed().to_vec() })
 }
 
 /// What counts as a success, and whether figures of several conditions are pooled.
@@ -254,10 +219,7 @@ fn success_words(about: &About<'_>, conditions: &[ConditionFigures]) -> Vec<Stri
     match about.success {
         [] => {}
         [rule] => said.push(format!("Success: {rule}.")),
-        rules => said.push(format!(
-            "Success is not the same in all arms and conditions: {}.",
-            rules.join("; or ")
-        )),
+        rules => said.push(format!("Success is not the same in all arms and conditions: {}.", rules.join("; or "))),
     }
     let mut names: Vec<&str> = conditions.iter().map(|c| c.condition.as_str()).collect();
     names.dedup();
@@ -281,11 +243,7 @@ fn heading(about: &About<'_>, done: usize) -> String {
         "Campaign {}: scenario {}, {part}{}; version {}, hash {}.",
         about.name,
         about.scenario,
-        if about.seeds.is_empty() {
-            String::new()
-        } else {
-            format!(", {}", about.seeds)
-        },
+        if about.seeds.is_empty() { String::new() } else { format!(", {}", about.seeds) },
         about.version,
         about.hash
     )

@@ -9,24 +9,15 @@ fn faults(text: &str) -> Vec<String> {
 #[test]
 fn mistakes_are_located() {
     let good = "(version: 2, title: \"t\", base: \"duck_st\", seeds: 3,\n arms: [(name: \"a\")])";
-    assert_eq!(
-        CampaignSpec::parse("c.ron", good).unwrap().n_conditions(),
-        1
-    );
+    assert_eq!(CampaignSpec::parse("c.ron", good).unwrap().n_conditions(), 1);
     assert_eq!(
         faults(&good.replace("seeds: 3", "seeds: 0")),
         ["c.ron:1:43: seeds: count must be from 1 to 1099511627776, got 0"]
     );
     let wide = good.replace("seeds: 3", "seeds: 3, until: (half_width: 0.5)");
-    assert_eq!(
-        faults(&wide),
-        ["c.ron:1:61: until.half_width: must be above 0 and below 0.5, got 0.5"]
-    );
+    assert_eq!(faults(&wide), ["c.ron:1:61: until.half_width: must be above 0 and below 0.5, got 0.5"]);
     let twins = good.replace("(name: \"a\")", "(name: \"a\"), (name: \"a\")");
-    assert_eq!(
-        faults(&twins),
-        ["c.ron:2:23: arms[1].name: \"a\" is taken by another arm"]
-    );
+    assert_eq!(faults(&twins), ["c.ron:2:23: arms[1].name: \"a\" is taken by another arm"]);
     let said = faults(&good.replace("seeds", "seed_s"));
     assert!(said[0].contains("there is no field `seed_s`"), "{said:?}");
 }
@@ -39,45 +30,22 @@ const GOOD: &str = "(version: 2, title: \"t\", base: \"b\", seeds: 20, arms: [(n
 
 #[test]
 fn a_number_of_seeds_is_seeds_1_to_it_and_other_forms_are_on_request() {
-    assert_eq!(
-        seeds(GOOD),
-        Seeds::Literal {
-            first: 1,
-            count: 20
-        }
-    );
+    assert_eq!(seeds(GOOD), Seeds::Literal { first: 1, count: 20 });
     let form = |form: &str| GOOD.replace("seeds: 20", &format!("seeds: {form}"));
-    assert_eq!(
-        seeds(&form("Literal(first: 101, count: 20)")),
-        Seeds::Literal {
-            first: 101,
-            count: 20
-        }
-    );
-    assert_eq!(
-        seeds(&form("/* old */ Hashed( seed: 7, count: 20, )")),
-        Seeds::Hashed { seed: 7, count: 20 }
-    );
+    assert_eq!(seeds(&form("Literal(first: 101, count: 20)")), Seeds::Literal { first: 101, count: 20 });
+    assert_eq!(seeds(&form("/* old */ Hashed( seed: 7, count: 20, )")), Seeds::Hashed { seed: 7, count: 20 });
     for (odd, says) in [
         ("-3", "got -3"),
         ("2.5", "got 2.5"),
         ("Literal(first: 1)", "`count`"),
-        (
-            "Literal(first: -1, count: 2)",
-            "Literal(first: 101, count: 20)",
-        ),
+        ("Literal(first: -1, count: 2)", "Literal(first: 101, count: 20)"),
         ("Hased(seed: 1, count: 2)", "Hased"),
         ("\"20\"", "must be a number"),
-        (
-            "Literal(first: 18446744073709551615, count: 2)",
-            "first of 2 seeds must be from 0 to",
-        ),
+        ("Literal(first: 18446744073709551615, count: 2)", "first of 2 seeds must be from 0 to"),
     ] {
         let said = faults(&form(odd));
         assert!(
-            said[0].starts_with("c.ron:1:")
-                && said[0].contains(": seeds: ")
-                && said[0].contains(says),
+            said[0].starts_with("c.ron:1:") && said[0].contains(": seeds: ") && said[0].contains(says),
             "{odd}: {said:?}"
         );
     }
@@ -90,31 +58,19 @@ fn version_1_means_what_it_meant_and_says_so() {
     assert_eq!(old.seeds, Seeds::Hashed { seed: 1, count: 20 });
     let said = old.note().unwrap();
     assert!(said.message.contains("hashed from 1"), "{said}");
-    assert!(
-        said.help
-            .unwrap()
-            .contains("`seeds: Hashed(seed: 1, count: 20)`")
-    );
+    assert!(said.help.unwrap().contains("`seeds: Hashed(seed: 1, count: 20)`"));
     let drawn = "conditions: Random(n: 2, draw: [(\"x\", Uniform(0, 1))])";
-    let other = GOOD
-        .replace("version: 2", "version: 1, seed: 9")
-        .replace("arms:", &format!("{drawn}, arms:"));
+    let other = GOOD.replace("version: 2", "version: 1, seed: 9").replace("arms:", &format!("{drawn}, arms:"));
     let other = CampaignSpec::parse("c.ron", &other).unwrap();
     assert_eq!(other.seeds, Seeds::Hashed { seed: 9, count: 20 });
     assert!(matches!(other.conditions, Conditions::Random(r) if r.seed == Some(9)));
     assert_eq!(CampaignSpec::parse("c.ron", GOOD).unwrap().note(), None);
     // A field that belongs to the other version is refused by name.
     let said = faults(&GOOD.replace("seeds: 20", "seed: 9, seeds: 20"));
-    assert!(
-        said[0].contains("seed: a file of version 2 has no field `seed`"),
-        "{said:?}"
-    );
+    assert!(said[0].contains("seed: a file of version 2 has no field `seed`"), "{said:?}");
     let form = GOOD.replace("version: 2", "version: 1");
     let said = faults(&form.replace("20", "Literal(first: 1, count: 2)"));
-    assert!(
-        said[0].contains("seeds: a file of version 1 has a number here"),
-        "{said:?}"
-    );
+    assert!(said[0].contains("seeds: a file of version 1 has a number here"), "{said:?}");
     let said = faults(&GOOD.replace("version: 2", "version: 3"));
     assert!(said[0].contains("versions 1 and 2, got 3"), "{said:?}");
 }
@@ -122,9 +78,7 @@ fn version_1_means_what_it_meant_and_says_so() {
 #[test]
 fn seeds_are_read_beside_a_mistake_elsewhere() {
     for seeds in ["20", "Literal(first: 101, count: 20)"] {
-        let text = GOOD
-            .replace("20", seeds)
-            .replace("version: 2", "version: 2, foo: 3");
+        let text = GOOD.replace("20", seeds).replace("version: 2", "version: 2, foo: 3");
         let said = faults(&text);
         assert_eq!(said.len(), 1, "{said:?}");
         assert!(said[0].contains("no field `foo`"), "{said:?}");
@@ -144,8 +98,5 @@ fn an_arm_cannot_set_what_the_conditions_vary() {
     let text = "(version: 1, title: \"t\", base: \"b\", seeds: 1, arms: [(name: \"a\", set: [(\"x\", \"1\")])], \
         conditions: Random(n: 2, draw: [(\"x\", Uniform(0, 1))]))";
     let said = faults(text);
-    assert!(
-        said[0].contains("`x` is set by the conditions too"),
-        "{said:?}"
-    );
+    assert!(said[0].contains("`x` is set by the conditions too"), "{said:?}");
 }

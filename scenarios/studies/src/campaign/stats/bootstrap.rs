@@ -25,14 +25,9 @@ pub const RESAMPLES: usize = 4000;
 pub fn quantile_interval(sorted: &[f64], p: f64, seed: u64, name: &str) -> Option<Interval> {
     let last = sorted.len().checked_sub(1)?;
     let mut rng = Stream::new(seed, name, "bootstrap");
-    let mut drawn: Vec<f64> = (0..RESAMPLES)
-        .map(|_| resampled(sorted, place(last, p), &mut rng))
-        .collect();
+    let mut drawn: Vec<f64> = (0..RESAMPLES).map(|_| resampled(sorted, place(last, p), &mut rng)).collect();
     drawn.sort_by(f64::total_cmp);
-    Some(Interval {
-        low: quantile(&drawn, 0.025)?,
-        high: quantile(&drawn, 0.975)?,
-    })
+    Some(Interval { low: quantile(&drawn, 0.025)?, high: quantile(&drawn, 0.975)? })
 }
 
 /// The quantile of one resample.
@@ -85,9 +80,7 @@ mod tests {
         };
         for p in [0.0, 0.1, 0.5, 0.9, 1.0] {
             let mut rng = Stream::new(3, "law", "test");
-            let fast: Vec<f64> = (0..n)
-                .map(|_| resampled(&x, place(6, p), &mut rng))
-                .collect();
+            let fast: Vec<f64> = (0..n).map(|_| resampled(&x, place(6, p), &mut rng)).collect();
             let slow: Vec<f64> = (0..n)
                 .map(|_| {
                     let drawn = (0..7).map(|_| x[(rng.uniform() * 7.0) as usize]);
@@ -96,10 +89,7 @@ mod tests {
                 .collect();
             let ((a, sa), (b, sb)) = (stats(&fast), stats(&slow));
             let apart = 5.0 * (sa * sa + sb * sb).sqrt();
-            assert!(
-                (a - b).abs() <= apart,
-                "p {p}: {a} against {b}, allowed {apart}"
-            );
+            assert!((a - b).abs() <= apart, "p {p}: {a} against {b}, allowed {apart}");
         }
     }
 
@@ -112,9 +102,7 @@ mod tests {
         let held = (0..trials)
             .filter(|t| {
                 let x = finite_sorted((0..60).map(|_| rng.exponential(1.0)));
-                quantile_interval(&x, 0.5, *t, "median")
-                    .unwrap()
-                    .contains(std::f64::consts::LN_2)
+                quantile_interval(&x, 0.5, *t, "median").unwrap().contains(std::f64::consts::LN_2)
             })
             .count();
         let share = held as f64 / trials as f64;
@@ -134,10 +122,7 @@ mod tests {
     #[test]
     fn of_none_one_and_equal_values() {
         assert_eq!(quantile_interval(&[], 0.5, 1, "m"), None);
-        let point = Some(Interval {
-            low: 3.0,
-            high: 3.0,
-        });
+        let point = Some(Interval { low: 3.0, high: 3.0 });
         assert_eq!(quantile_interval(&[3.0], 0.9, 1, "m"), point);
         assert_eq!(quantile_interval(&[3.0; 40], 0.9, 1, "m"), point);
     }

@@ -16,10 +16,7 @@ use world::math;
 #[must_use]
 pub fn mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
-    Some(Interval {
-        low: mean - half,
-        high: mean + half,
-    })
+    Some(Interval { low: mean - half, high: mean + half })
 }
 
 /// 95 % interval of the mean of a quantity that cannot be negative; `None` for fewer than [`LEAST_VALUES`] values.
@@ -27,15 +24,8 @@ pub fn mean_interval(values: &[f64]) -> Option<Interval> {
 pub fn positive_mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
     // If all of them are 0, there is no spread.
-    let wide = if mean > 0.0 {
-        math::exp(half / mean)
-    } else {
-        1.0
-    };
-    Some(Interval {
-        low: mean / wide,
-        high: mean * wide,
-    })
+    let wide = if mean > 0.0 { math::exp(half / mean) } else { 1.0 };
+    Some(Interval { low: mean / wide, high: mean * wide })
 }
 
 /// The mean, and half the width of its interval.
@@ -74,26 +64,17 @@ mod tests {
         // s² = 2.5, n = 5: t(4) = 2.776, half width 2.776 · sqrt(0.5).
         let x = [1.0, 2.0, 3.0, 4.0, 5.0];
         let i = mean_interval(&x).unwrap();
-        assert!(
-            (i.half_width() - 1.9632).abs() < 1e-3 && i.contains(3.0),
-            "{i:?}"
-        );
+        assert!((i.half_width() - 1.9632).abs() < 1e-3 && i.contains(3.0), "{i:?}");
         let i = positive_mean_interval(&x).unwrap();
         let wide = math::exp(1.9632 / 3.0);
-        assert!(
-            (i.low - 3.0 / wide).abs() < 1e-3 && (i.high - 3.0 * wide).abs() < 2e-3,
-            "{i:?}"
-        );
+        assert!((i.low - 3.0 / wide).abs() < 1e-3 && (i.high - 3.0 * wide).abs() < 2e-3, "{i:?}");
     }
 
     #[test]
     fn of_few_values_there_is_none_and_of_positive_ones_it_is_positive() {
         for n in 0..LEAST_VALUES {
             let few = vec![3.0; n];
-            assert_eq!(
-                (mean_interval(&few), positive_mean_interval(&few)),
-                (None, None)
-            );
+            assert_eq!((mean_interval(&few), positive_mean_interval(&few)), (None, None));
         }
         // Student's interval would reach far below 0.
         let skewed = [1.0, 1.0, 2.0, 3.0, 500.0];

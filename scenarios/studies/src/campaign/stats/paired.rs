@@ -75,21 +75,13 @@ impl Difference {
         } else {
             less
         };
-        Self {
-            pairs,
-            estimate,
-            interval,
-            verdict,
-        }
+        Self { pairs, estimate, interval, verdict }
     }
 }
 
 /// Difference of two shares from pairs of (first, second); `None` if there are no pairs.
 #[must_use]
-pub fn paired_share(
-    pairs: impl IntoIterator<Item = (bool, bool)>,
-    better: Better,
-) -> Option<Difference> {
+pub fn paired_share(pairs: impl IntoIterator<Item = (bool, bool)>, better: Better) -> Option<Difference> {
     let (mut n, mut first, mut second) = (0_usize, 0.0, 0.0);
     for (a, b) in pairs {
         n += 1;
@@ -102,16 +94,8 @@ pub fn paired_share(
     let (b, c, m) = (first + 0.5, second + 0.5, n as f64 + 2.0);
     let d = (b - c) / m;
     let half = Z95 * ((b + c) / m - d * d).sqrt() / m.sqrt();
-    let interval = Interval {
-        low: (d - half).max(-1.0),
-        high: (d + half).min(1.0),
-    };
-    Some(Difference::new(
-        n,
-        (first - second) / n as f64,
-        interval,
-        better,
-    ))
+    let interval = Interval { low: (d - half).max(-1.0), high: (d + half).min(1.0) };
+    Some(Difference::new(n, (first - second) / n as f64, interval, better))
 }
 
 /// Median of the differences within pairs of (first, second). Pairs with a value that is not finite are left out;
@@ -132,18 +116,12 @@ pub fn paired_median(
 /// Mean of the differences within pairs of (first, second). Pairs with a value that is not finite are left out. If
 /// there are fewer pairs than an interval needs, the interval is infinite.
 #[must_use]
-pub fn paired_mean(
-    pairs: impl IntoIterator<Item = (f64, f64)>,
-    better: Better,
-) -> Option<Difference> {
+pub fn paired_mean(pairs: impl IntoIterator<Item = (f64, f64)>, better: Better) -> Option<Difference> {
     let values = finite_sorted(pairs.into_iter().map(|(a, b)| a - b));
     if values.is_empty() {
         return None;
     }
-    let interval = mean_interval(&values).unwrap_or(Interval {
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    });
+    let interval = mean_interval(&values).unwrap_or(Interval { low: f64::NEG_INFINITY, high: f64::INFINITY });
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     Some(Difference::new(values.len(), mean, interval, better))
 }
@@ -176,11 +154,7 @@ mod tests {
 
     #[test]
     fn like_arms_are_not_separable() {
-        for pairs in [
-            shares(10, 0, 0, 0),
-            shares(0, 0, 0, 10),
-            shares(30, 5, 5, 3),
-        ] {
+        for pairs in [shares(10, 0, 0, 0), shares(0, 0, 0, 10), shares(30, 5, 5, 3)] {
             let d = paired_share(pairs, Better::More).unwrap();
             assert_eq!((d.estimate, d.verdict), (0.0, Separation::NotSeparable));
             assert!(d.interval.low < 0.0 && d.interval.high > 0.0);
@@ -194,10 +168,7 @@ mod tests {
     fn less_of_an_error_is_better() {
         let closer = (0..40).map(|k| (f64::from(k), f64::from(k) + 2.0 + f64::from(k % 3)));
         let d = paired_median(closer.clone(), Better::Less, 1, "x").unwrap();
-        assert_eq!(
-            (d.pairs, d.estimate, d.verdict),
-            (40, -3.0, Separation::Better)
-        );
+        assert_eq!((d.pairs, d.estimate, d.verdict), (40, -3.0, Separation::Better));
         let d = paired_median(closer.map(|(a, b)| (b, a)), Better::Less, 1, "x").unwrap();
         assert_eq!(d.verdict, Separation::Worse);
     }
@@ -206,10 +177,7 @@ mod tests {
     fn means_of_differences_have_students_interval() {
         let pairs = (0..9).map(|k| (f64::from(k), 10.0 + 2.0 * f64::from(k % 3)));
         let d = paired_mean(pairs, Better::Less).unwrap();
-        assert_eq!(
-            (d.pairs, d.estimate, d.verdict),
-            (9, -8.0, Separation::Better)
-        );
+        assert_eq!((d.pairs, d.estimate, d.verdict), (9, -8.0, Separation::Better));
         assert!(d.interval.contains(-8.0) && d.interval.high < 0.0, "{d:?}");
         let few = paired_mean([(1.0, 9.0); 4], Better::Less).unwrap();
         assert_eq!(few.verdict, Separation::NotSeparable);
@@ -219,10 +187,7 @@ mod tests {
     #[test]
     fn few_or_no_pairs_say_nothing() {
         let five = paired_median([(1.0, 9.0); 5], Better::Less, 1, "x").unwrap();
-        assert_eq!(
-            (five.estimate, five.verdict),
-            (-8.0, Separation::NotSeparable)
-        );
+        assert_eq!((five.estimate, five.verdict), (-8.0, Separation::NotSeparable));
         assert_eq!(paired_median([(1.0, f64::NAN)], Better::Less, 1, "x"), None);
         assert_eq!(paired_share([], Better::More), None);
         let one = paired_share([(true, false)], Better::More).unwrap();

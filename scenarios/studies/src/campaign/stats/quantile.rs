@@ -43,10 +43,7 @@ mod tests {
         let x = [1.0, 2.0, 3.0, 4.0];
         assert_eq!(quantile(&x, 0.5), Some(2.5));
         assert!((quantile(&x, 0.9).unwrap() - 3.7).abs() < 1e-12);
-        assert_eq!(
-            (quantile(&x, 0.0), quantile(&x, 1.0)),
-            (Some(1.0), Some(4.0))
-        );
+        assert_eq!((quantile(&x, 0.0), quantile(&x, 1.0)), (Some(1.0), Some(4.0)));
         assert_eq!(quantile(&[5.0], 0.9), Some(5.0));
         assert_eq!(quantile(&[], 0.5), None);
     }

@@ -42,19 +42,11 @@ impl Survival {
     /// Times that are not finite are left out. An event counts before the end of a trial at the same time.
     #[must_use]
     pub fn new(trials: impl IntoIterator<Item = (f64, bool)>) -> Self {
-        let mut trials: Vec<(f64, bool)> = (trials.into_iter())
-            .filter(|(t, _)| t.is_finite())
-            .collect();
+        let mut trials: Vec<(f64, bool)> = (trials.into_iter()).filter(|(t, _)| t.is_finite()).collect();
         trials.sort_by(|a, b| a.0.total_cmp(&b.0));
         let n = trials.len() as u64;
         let (mut share, mut greenwood) = (1.0, 0.0);
-        let mut steps = vec![SurvivalStep {
-            t_s: 0.0,
-            at_risk: n,
-            events: 0,
-            share,
-            interval: wilson(n, n),
-        }];
+        let mut steps = vec![SurvivalStep { t_s: 0.0, at_risk: n, events: 0, share, interval: wilson(n, n) }];
         let mut i = 0;
         while i < trials.len() {
             let t_s = trials[i].0;
@@ -78,19 +70,9 @@ impl Survival {
                 greenwood += d / (r * (r - d));
                 log_log(share, greenwood)
             };
-            steps.push(SurvivalStep {
-                t_s,
-                at_risk,
-                events,
-                share,
-                interval,
-            });
+            steps.push(SurvivalStep { t_s, at_risk, events, share, interval });
         }
-        Self {
-            steps,
-            end_s: trials.last().map_or(0.0, |x| x.0),
-            n,
-        }
+        Self { steps, end_s: trials.last().map_or(0.0, |x| x.0), n }
     }
 
     /// Earliest time by which half of the trials have had the event, s; `None` if never.
@@ -105,10 +87,7 @@ impl Survival {
 fn log_log(share: f64, greenwood: f64) -> Interval {
     let ln = math::ln(share);
     let wide = Z95 * greenwood.sqrt() / -ln;
-    Interval {
-        low: math::exp(ln * math::exp(wide)),
-        high: math::exp(ln * math::exp(-wide)),
-    }
+    Interval { low: math::exp(ln * math::exp(wide)), high: math::exp(ln * math::exp(-wide)) }
 }
 
 #[cfg(test)]
@@ -122,8 +101,7 @@ mod tests {
         let events = [6, 6, 6, 7, 10, 13, 16, 22, 23];
         let ended = [6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35];
         let s = Survival::new(
-            (events.iter().map(|t| (f64::from(*t), true)))
-                .chain(ended.iter().map(|t| (f64::from(*t), false))),
+            (events.iter().map(|t| (f64::from(*t), true))).chain(ended.iter().map(|t| (f64::from(*t), false))),
         );
         let want = [1.0, 0.8571, 0.8067, 0.7529, 0.6902, 0.6275, 0.5378, 0.4482];
         let got: Vec<f64> = s.steps.iter().map(|s| s.share).collect();
@@ -136,30 +114,15 @@ mod tests {
         assert_eq!(s.end_s, 35.0);
         // Greenwood at 6: 0.8571 · sqrt(3 / (21 · 18)) = 0.0764; on the ln(-ln) scale 0.620 to 0.952.
         let first = s.steps[1].interval;
-        assert!(
-            (first.low - 0.620).abs() < 5e-4 && (first.high - 0.952).abs() < 5e-4,
-            "{first:?}"
-        );
+        assert!((first.low - 0.620).abs() < 5e-4 && (first.high - 0.952).abs() < 5e-4, "{first:?}");
     }
 
     /// By hand: 1 of 4 at 1 s (3/4); one ends at 2 s; 1 of 2 at 3 s (3/8); the last at 4 s (0).
     #[test]
     fn gives_the_curve_worked_by_hand() {
         let s = Survival::new([(3.0, true), (2.0, false), (1.0, true), (4.0, true)]);
-        let got: Vec<(f64, u64, f64)> = s
-            .steps
-            .iter()
-            .map(|s| (s.t_s, s.at_risk, s.share))
-            .collect();
-        assert_eq!(
-            got,
-            [
-                (0.0, 4, 1.0),
-                (1.0, 4, 0.75),
-                (3.0, 2, 0.375),
-                (4.0, 1, 0.0)
-            ]
-        );
+        let got: Vec<(f64, u64, f64)> = s.steps.iter().map(|s| (s.t_s, s.at_risk, s.share)).collect();
+        assert_eq!(got, [(0.0, 4, 1.0), (1.0, 4, 0.75), (3.0, 2, 0.375), (4.0, 1, 0.0)]);
         assert_eq!(s.median_s(), Some(3.0));
     }
 
@@ -170,16 +133,11 @@ mod tests {
         let all = Survival::new([(5.0, true); 3]);
         assert_eq!(all.steps[1].share, 0.0);
         let never = Survival::new([(5.0, false); 3]);
-        assert_eq!(
-            (never.steps.len(), never.end_s, never.median_s()),
-            (1, 5.0, None)
-        );
+        assert_eq!((never.steps.len(), never.end_s, never.median_s()), (1, 5.0, None));
         for s in [none, all, never] {
             for step in s.steps {
                 let i = step.interval;
-                assert!(
-                    0.0 <= i.low && i.low <= step.share && step.share <= i.high && i.high <= 1.0
-                );
+                assert!(0.0 <= i.low && i.low <= step.share && step.share <= i.high && i.high <= 1.0);
             }
         }
     }

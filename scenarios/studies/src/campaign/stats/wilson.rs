@@ -14,15 +14,9 @@ pub const Z95: f64 = 1.959_963_984_540_054;
 /// 95 % score interval of the true share, given `successes` of `n`.
 #[must_use]
 pub fn wilson(successes: u64, n: u64) -> Interval {
-    assert!(
-        successes <= n,
-        "{successes} successes of {n} trials: count again"
-    );
+    assert!(successes <= n, "{successes} successes of {n} trials: count again");
     if n == 0 {
-        return Interval {
-            low: 0.0,
-            high: 1.0,
-        };
+        return Interval { low: 0.0, high: 1.0 };
     }
     let (k, n_f, z2) = (successes as f64, n as f64, Z95 * Z95);
     let p = k / n_f;
@@ -61,13 +55,7 @@ mod tests {
 
     #[test]
     fn ends_stay_ends_and_nothing_known_is_everything_possible() {
-        assert_eq!(
-            wilson(0, 0),
-            Interval {
-                low: 0.0,
-                high: 1.0
-            }
-        );
+        assert_eq!(wilson(0, 0), Interval { low: 0.0, high: 1.0 });
         assert_eq!(wilson(0, 7).low, 0.0);
         assert_eq!(wilson(7, 7).high, 1.0);
         near(wilson(1, 1), 0.2065, 1.0);

@@ -2,10 +2,7 @@
 
 macro_rules! row {
     ($name:literal) => {
-        (
-            $name,
-            include_str!(concat!("../../../rows/", $name, ".ron")),
-        )
+        ($name, include_str!(concat!("../../../rows/", $name, ".ron")))
     };
 }
 

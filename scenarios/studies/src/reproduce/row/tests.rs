@@ -5,10 +5,8 @@ use super::*;
 #[test]
 fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/rows");
-    let mut files: Vec<String> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|f| f.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut files: Vec<String> =
+        std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().file_name().into_string().unwrap()).collect();
     files.sort();
     // No name stands for all rows.
     let rows = wanted(&[], &[]).unwrap();
@@ -39,10 +37,7 @@ fn a_row_is_chosen_by_its_name_alone_and_a_group_by_what_no_row_is_called() {
         rows.into_iter().map(|r| r.row.id).collect()
     };
     // Each once, in the order of the names.
-    assert_eq!(
-        ids(&["wp_dead_end", "wp"]),
-        ["wp_dead_end", "wp_laminar", "wp_turbulent"]
-    );
+    assert_eq!(ids(&["wp_dead_end", "wp"]), ["wp_dead_end", "wp_laminar", "wp_turbulent"]);
 }
 
 #[test]
@@ -56,10 +51,7 @@ fn arms_are_chosen_alone_with_their_figures() {
     let theirs = |f: &Figure| f.arm.as_deref() == Some("adaptive");
     assert!(rows[0].row.figures.iter().all(theirs));
     let said = of("adaptve").unwrap_err().to_string();
-    assert!(
-        said.contains("`adaptve`") && said.contains("`paper`, `adaptive`"),
-        "{said}"
-    );
+    assert!(said.contains("`adaptve`") && said.contains("`paper`, `adaptive`"), "{said}");
 }
 
 #[test]
@@ -77,23 +69,14 @@ fn broken_rows_are_named_with_what_is_wrong() {
         (row("a", "Count(0, 0)"), "the total > 0"),
         (row("a", "Value(NaN)"), "must be finite"),
         (row("a", "Median(3)"), "Median"),
-        (
-            row("a", "Run(3)").replace("figures:", "quick: 0, figures:"),
-            "nonzero",
-        ),
+        (row("a", "Run(3)").replace("figures:", "quick: 0, figures:"), "nonzero"),
         (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
-        (
-            row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"),
-            "below 1",
-        ),
+        (row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"), "below 1"),
         ("(".to_string(), "r: "),
     ] {
         let said = read("r", &text).unwrap_err().to_string();
         assert!(said.contains(says), "{said}");
     }
     let said = wanted(&["nobody".into()], &[]).unwrap_err().to_string();
-    assert!(
-        said.contains("`nobody`") && said.contains("duck_st"),
-        "{said}"
-    );
+    assert!(said.contains("`nobody`") && said.contains("duck_st"), "{said}");
 }
