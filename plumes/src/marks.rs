@@ -11,7 +11,7 @@
 use std::arch::x86_64 as x86;
 
 /// A word for each place.
-pub(crate) type Marks = [u32; 32];
+pub(crate) type LaneMask = [u32; 32];
 
 /// What a loop writes for a place: all ones if it is marked.
 #[inline(always)]
@@ -25,7 +25,7 @@ pub(crate) trait Movemask {
     ///
     /// # Safety
     /// The machine must have these instructions.
-    unsafe fn bits(marks: &Marks) -> u32;
+    unsafe fn bits(marks: &LaneMask) -> u32;
 }
 
 /// Those of every machine.
@@ -33,7 +33,7 @@ pub(crate) struct Portable;
 
 impl Movemask for Portable {
     #[inline(always)]
-    unsafe fn bits(marks: &Marks) -> u32 {
+    unsafe fn bits(marks: &LaneMask) -> u32 {
         let bits = marks.iter().enumerate().map(|(l, mark)| mark & (1 << l));
         bits.fold(0, |all, one| all | one)
     }
@@ -46,7 +46,7 @@ pub(crate) struct Avx2;
 #[cfg(target_arch = "x86_64")]
 impl Movemask for Avx2 {
     #[inline(always)]
-    unsafe fn bits(marks: &Marks) -> u32 {
+    unsafe fn bits(marks: &LaneMask) -> u32 {
         let mut all = 0;
         for (n, eight) in marks.as_chunks::<8>().0.iter().enumerate() {
             // SAFETY: reads eight words at any alignment; the caller promises AVX2.
@@ -64,7 +64,7 @@ pub(crate) struct Avx512;
 #[cfg(target_arch = "x86_64")]
 impl Movemask for Avx512 {
     #[inline(always)]
-    unsafe fn bits(marks: &Marks) -> u32 {
+    unsafe fn bits(marks: &LaneMask) -> u32 {
         let mut all = 0;
         for (n, some) in marks.as_chunks::<16>().0.iter().enumerate() {
             // SAFETY: reads sixteen words at any alignment; the caller promises AVX-512.
@@ -81,7 +81,7 @@ impl Movemask for Avx512 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path::Path;
+    use crate::path::InstructionSet;
 
     #[test]
     fn bits_are_the_marked_places() {
@@ -92,16 +92,16 @@ mod tests {
                 1 => u32::MAX,
                 _ => (r.uniform() * f64::from(u32::MAX)) as u32,
             };
-            let marks: Marks = std::array::from_fn(|l| mark(want >> l & 1 == 1));
-            for path in Path::all() {
+            let marks: LaneMask = std::array::from_fn(|l| mark(want >> l & 1 == 1));
+            for path in InstructionSet::all() {
                 // SAFETY: only versions that this machine can run.
                 let bits = unsafe {
                     match path {
-                        Path::Portable => Portable::bits(&marks),
+                        InstructionSet::Portable => Portable::bits(&marks),
                         #[cfg(target_arch = "x86_64")]
-                        Path::Avx2 => Avx2::bits(&marks),
+                        InstructionSet::Avx2 => Avx2::bits(&marks),
                         #[cfg(target_arch = "x86_64")]
-                        Path::Avx512 => Avx512::bits(&marks),
+                        InstructionSet::Avx512 => Avx512::bits(&marks),
                     }
                 };
                 assert_eq!(bits, want, "{path:?}");

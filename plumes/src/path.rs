@@ -8,7 +8,7 @@
 
 /// Which version of the vector code runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Path {
+pub(crate) enum InstructionSet {
     /// Runs on every machine of the target.
     Portable,
     /// AVX2.
@@ -19,18 +19,18 @@ pub(crate) enum Path {
     Avx512,
 }
 
-impl Path {
+impl InstructionSet {
     /// The versions that this machine can run, the fastest last.
     pub(crate) fn all() -> Vec<Self> {
-        let mut all = vec![Path::Portable];
+        let mut all = vec![InstructionSet::Portable];
         #[cfg(target_arch = "x86_64")]
         {
             use std::arch::is_x86_feature_detected as has;
             if has!("avx2") {
-                all.push(Path::Avx2);
+                all.push(InstructionSet::Avx2);
             }
             if has!("avx512f") && has!("avx512bw") && has!("avx512dq") && has!("avx512vl") {
-                all.push(Path::Avx512);
+                all.push(InstructionSet::Avx512);
             }
         }
         all
@@ -38,17 +38,17 @@ impl Path {
 
     /// The fastest version that this machine can run.
     pub(crate) fn detect() -> Self {
-        Self::all().pop().unwrap_or(Path::Portable)
+        Self::all().pop().unwrap_or(InstructionSet::Portable)
     }
 
     fn name(self) -> &'static str {
         match self {
-            Path::Portable if cfg!(target_arch = "x86_64") => "SSE2",
-            Path::Portable => "portable",
+            InstructionSet::Portable if cfg!(target_arch = "x86_64") => "SSE2",
+            InstructionSet::Portable => "portable",
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => "AVX2",
+            InstructionSet::Avx2 => "AVX2",
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => "AVX-512",
+            InstructionSet::Avx512 => "AVX-512",
         }
     }
 }
@@ -57,5 +57,5 @@ impl Path {
 /// all of them.
 #[must_use]
 pub fn instructions() -> &'static str {
-    Path::detect().name()
+    InstructionSet::detect().name()
 }

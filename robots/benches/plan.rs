@@ -4,7 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::BeliefGrid;
-use robots::plan::{AStar, AStarParams, Cost, From, Planner, Room};
+use robots::plan::{AStar, AStarParams, Cost, FreeSpace, From, Planner};
 use std::path::Path;
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
@@ -17,7 +17,7 @@ fn main() {
 }
 
 /// Blocks at random on a level bed.
-fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> Room {
+fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> FreeSpace {
     let size = [0, 1, 2].map(|a| n[a] as f64 * cell_m[a]);
     let bed = Terrain::Level { depth_m: size[2] };
     let mut rng = Stream::new(7, "bench", "blocks");
@@ -44,12 +44,12 @@ fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> Room {
         .collect();
     let lattice =
         BeliefGrid { corner: Vector3::new(0.0, 0.0, -size[2]), axes: [Vector2::x(), Vector2::y()], cell_m, n };
-    let mut room = Room::new(lattice, 0.5, 4.0);
+    let mut room = FreeSpace::new(lattice, 0.5, 4.0);
     room.chart(&Obstacles(solids), &bed, &|_, _| -size[2] / 2.0);
     room
 }
 
-fn plan(bencher: divan::Bencher, room: &Room, params: &AStarParams, to: [f64; 3]) {
+fn plan(bencher: divan::Bencher, room: &FreeSpace, params: &AStarParams, to: [f64; 3]) {
     let n = room.lattice().n;
     let c = room.lattice().cell_m;
     let place = |part: [f64; 3]| {
@@ -117,7 +117,7 @@ fn million_voxels_between_walls(bencher: divan::Bencher, north: f64) {
         cell_m: [1.0; 3],
         n,
     };
-    let mut room = Room::new(lattice, 0.5, 4.0);
+    let mut room = FreeSpace::new(lattice, 0.5, 4.0);
     room.chart(&solids, &bed, &|_, _| -size[2] / 2.0);
     plan(bencher, &room, &AStarParams::default(), [0.98, north, 0.5]);
 }

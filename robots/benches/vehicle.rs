@@ -4,7 +4,7 @@
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::handoff::{ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
-use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle};
+use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, Remus100, RemusSpec};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -33,9 +33,9 @@ fn start() -> Truth {
     Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -4.0), Heading::from_deg(70.0)))
 }
 
-fn auv(parameters: ParameterSet) -> Vehicle {
+fn auv(parameters: ParameterSet) -> Remus100 {
     let spec = RemusSpec { parameters, ..RemusSpec::default() };
-    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
+    Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 const TURN: ActuatorCommand = ActuatorCommand { rudder_rad: 0.1, stern_rad: 0.0, rpm: 1200.0 };

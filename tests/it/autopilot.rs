@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::actuate::{Autopilot, AutopilotSpec};
 use robots::handoff::{Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
-use robots::vehicles::{InMemory, RemusSpec, Vehicle};
+use robots::vehicles::{InMemory, Remus100, RemusSpec};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -17,7 +17,7 @@ const STEP_S: f64 = 0.02;
 struct Run {
     physics: Physics,
     id: BodyId,
-    vehicle: Vehicle,
+    vehicle: Remus100,
     pilot: Autopilot,
     bed: Terrain,
     current: Vector3<f64>,
@@ -28,7 +28,7 @@ impl Run {
     fn new(heading_deg: f64, depth_m: f64, current: Vector3<f64>) -> Self {
         let area = Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+        let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
         let pose = Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(heading_deg));

@@ -6,7 +6,7 @@ use robots::handoff::Picture;
 use robots::sense::camera::{
     CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render, turned,
 };
-use robots::vision::place::{AddUpSpec, Answer, Place, Stand, Useless};
+use robots::vision::place::{AddUpSpec, PlacePictures, PlaceVerdict, Stand, Useless};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
@@ -102,12 +102,12 @@ fn shown(image: RgbImage) -> Picture {
     Picture { image: Arc::new(image), p_BC: Vector3::zeros(), R_BC: turned(0.0, FRAC_PI_2), view_rad: FRAC_PI_2 }
 }
 
-fn place(within_m: f64) -> Place {
+fn place(within_m: f64) -> PlacePictures {
     let spec = AddUpSpec { within_m: Positive::new(within_m), ..AddUpSpec::default() };
-    Place::new(&spec, Vector2::zeros(), Heading::from_deg(90.0))
+    PlacePictures::new(&spec, Vector2::zeros(), Heading::from_deg(90.0))
 }
 
-fn add(place: &mut Place, pictures: &[(Picture, Stand)]) {
+fn add(place: &mut PlacePictures, pictures: &[(Picture, Stand)]) {
     for (picture, stand) in pictures {
         place.add(picture, stand).expect("a picture of the bed");
     }
@@ -141,7 +141,7 @@ fn all_pictures_of_a_line_verify_a_source_and_find_its_place() {
     let mut place = place(3.0);
     add(&mut place, &source(8.0).pictures(&line(0.0, 2.5), 1));
     let said = place.weigh();
-    assert_eq!(said.answer, Answer::Verified, "{:.1}", said.log_factor);
+    assert_eq!(said.answer, PlaceVerdict::Verified, "{:.1}", said.log_factor);
     let off = said.best.expect("a place").norm();
     assert!(off < 0.7, "{off}");
 }
@@ -164,18 +164,21 @@ fn what_is_no_source_is_rejected_or_left_open() {
         }
         let said = place.weigh();
         // Dye that passes by as a wide band is partly taken for background: it may stay open.
-        let may =
-            if what == "rock in passing dye" { [Answer::Rejected, Answer::CannotTell] } else { [Answer::Rejected; 2] };
+        let may = if what == "rock in passing dye" {
+            [PlaceVerdict::Rejected, PlaceVerdict::CannotTell]
+        } else {
+            [PlaceVerdict::Rejected; 2]
+        };
         assert!(may.contains(&said.answer) && said.log_factor < 0.0, "{what}: {:.1}", said.log_factor);
     }
     let mut murky = place(2.0);
     add(&mut murky, &source(1.2).pictures(&line(0.0, 2.5), 1));
     let said = murky.weigh();
-    assert_eq!(said.answer, Answer::CannotTell, "{:.1}", said.log_factor);
+    assert_eq!(said.answer, PlaceVerdict::CannotTell, "{:.1}", said.log_factor);
     let mut elsewhere = place(3.0);
     add(&mut elsewhere, &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1));
     let said = elsewhere.weigh();
-    assert_eq!(said.answer, Answer::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
+    assert_eq!(said.answer, PlaceVerdict::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
 }
 
 /// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no more
@@ -187,7 +190,7 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     let mut place = place(2.0);
     add(&mut place, &passes[0]);
     let once = place.weigh();
-    assert_eq!(once.answer, Answer::CannotTell, "{:.1}", once.log_factor);
+    assert_eq!(once.answer, PlaceVerdict::CannotTell, "{:.1}", once.log_factor);
     let mut copied = place.clone();
     for _ in 1..4 {
         add(&mut copied, &passes[0]);
@@ -199,7 +202,7 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     }
     let all = place.weigh();
     assert!(all.log_factor > once.log_factor + 1.0, "{} {}", all.log_factor, once.log_factor);
-    assert_eq!(all.answer, Answer::Verified, "{:.1}", all.log_factor);
+    assert_eq!(all.answer, PlaceVerdict::Verified, "{:.1}", all.log_factor);
 }
 
 /// The second pass believes itself 0.6 m farther north than it is; half of that at least is taken out.
@@ -219,7 +222,7 @@ fn overlap_takes_out_an_error_of_the_navigation() {
 fn pictures_of_nothing_leave_it_open() {
     let stand = Stand { position: Vector2::zeros(), altitude_m: 2.0, R_WB: UnitQuaternion::identity() };
     let mut place = place(2.0);
-    assert_eq!(place.weigh().answer, Answer::CannotTell);
+    assert_eq!(place.weigh().answer, PlaceVerdict::CannotTell);
     let plain = |w, h, level: u8| shown(RgbImage::from_pixel(w, h, Rgb([level; 3])));
     for (picture, why) in [
         (plain(0, 0, 0), Useless::Empty),
@@ -238,5 +241,5 @@ fn pictures_of_nothing_leave_it_open() {
     assert_eq!(place.add(&picture, &up), Err(Useless::Empty));
     assert_eq!(place.pictures(), [0, 7]);
     let said = place.weigh();
-    assert_eq!((said.answer, said.log_factor), (Answer::CannotTell, 0.0));
+    assert_eq!((said.answer, said.log_factor), (PlaceVerdict::CannotTell, 0.0));
 }

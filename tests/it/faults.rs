@@ -4,7 +4,7 @@ use crate::common;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, load_text, template};
-use rheotaxis::trial::{Ended, Trial, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Watch};
 use robots::handoff::Actuation;
 use std::sync::Arc;
 use world::registry::Registry;
@@ -46,7 +46,7 @@ impl Watch for States {
     }
 }
 
-fn flown(loaded: &Loaded) -> (Ended, Vec<(f64, RobotFrame)>) {
+fn flown(loaded: &Loaded) -> (RunEnd, Vec<(f64, RobotFrame)>) {
     let mut states = States::default();
     let ended = Trial::assemble(loaded, 3).unwrap().run(&mut states);
     (ended, states.0)

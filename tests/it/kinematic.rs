@@ -8,10 +8,10 @@ use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{Loaded, load_text, template};
-use rheotaxis::trial::{Ended, Trial, Unwatched};
+use rheotaxis::trial::{RunEnd, Trial, Unwatched};
 use robots::handoff::Readings;
 use robots::sense::Sensors;
-use robots::vehicles::{Craft, InMemory, KinematicSpec, VehicleSpec};
+use robots::vehicles::{InMemory, KinematicSpec, Vehicle, VehicleSpec};
 use world::catalogue::Entry;
 
 const WATER: &str = "Kinematic()";
@@ -32,7 +32,7 @@ fn text_with(text: &str, vehicle: &str, changes: &[(&str, &str)]) -> Loaded {
     load_text(&Registry::default(), "kinematic", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()))
 }
 
-fn run(loaded: &Loaded, seed: u64) -> Ended {
+fn run(loaded: &Loaded, seed: u64) -> RunEnd {
     Trial::assemble(loaded, seed).expect("a run").finish_quietly()
 }
 
@@ -143,7 +143,7 @@ fn the_list_shows_it_with_its_source() {
 /// A kinematic vehicle carries every instrument where the REMUS carries it.
 #[test]
 fn every_instrument_has_the_mount_of_the_remus() {
-    let mount = |spec: VehicleSpec| Craft::load(&spec, &InMemory::default()).expect("built in");
+    let mount = |spec: VehicleSpec| Vehicle::load(&spec, &InMemory::default()).expect("built in");
     let remus = mount(VehicleSpec::default());
     let car = mount(VehicleSpec::Kinematic(KinematicSpec::default()));
     let sensors = world::registry::Registry::default().entries::<Sensors>();

@@ -8,14 +8,14 @@ mod faults;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::score::Score;
-use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Unwatched, Watch};
 use world::ranges::{NonNegative, Positive};
 
 /// Seed of the runs.
 const SEED: u64 = 11;
 
 /// Everything that is known at the end of a run, or what went wrong with it.
-type End = Result<(Ended, Score), String>;
+type End = Result<(RunEnd, Score), String>;
 
 /// Cuts a scenario short.
 fn cut(loaded: &mut Loaded, spin_up_s: f64, limit_s: f64) {
@@ -24,12 +24,12 @@ fn cut(loaded: &mut Loaded, spin_up_s: f64, limit_s: f64) {
     time.limit_s = Positive::new(time.limit_s.get().min(limit_s));
 }
 
-fn end(trial: &Trial) -> (Ended, Score) {
+fn end(trial: &Trial) -> (RunEnd, Score) {
     (trial.ended(), trial.score().clone())
 }
 
 /// The run alone.
-fn alone(loaded: &Loaded) -> (Ended, Score) {
+fn alone(loaded: &Loaded) -> (RunEnd, Score) {
     let mut trial = Trial::assemble(loaded, SEED).unwrap();
     trial.run(&mut Unwatched);
     end(&trial)

@@ -5,7 +5,7 @@ use parry3d::math::{Pose, Rotation, Vector};
 use parry3d::query::distance;
 use parry3d::shape::Capsule;
 use robots::handoff::BeliefGrid;
-use robots::plan::{AStar, AStarParams, From, Planner, Reach, Room};
+use robots::plan::{AStar, AStarParams, FreeSpace, From, Planner, Reach};
 use std::path::Path;
 use world::obstacles::{Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
@@ -75,7 +75,7 @@ fn paths_are_free_for_the_inflated_hull_in_ten_thousand_random_worlds() {
         let solids = obstacles(&mut rng, size, &bed);
         let lattice =
             BeliefGrid { corner: Vector3::new(0.0, 0.0, -size[2]), axes: [Vector2::x(), Vector2::y()], cell_m, n };
-        let mut room = Room::new(lattice, HULL_M, 4.0);
+        let mut room = FreeSpace::new(lattice, HULL_M, 4.0);
         let level = -0.5 * size[2];
         room.chart(&solids, &bed, &|_, _| level);
         let mut place = || {

@@ -4,7 +4,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
-use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Unwatched, Watch};
 use std::path::Path;
 use std::sync::Arc;
 use world::ranges::{Finite, NonNegative, Positive};
@@ -18,7 +18,7 @@ fn channel(limit_s: f64) -> Loaded {
 }
 
 /// How it ended, and the least distance from a source, m.
-fn run(loaded: &Loaded) -> (Ended, f64) {
+fn run(loaded: &Loaded) -> (RunEnd, f64) {
     let mut trial = Trial::assemble(loaded, 5).unwrap();
     let ended = trial.run(&mut Unwatched);
     let closest_m = trial.simulation.world.resource::<Score>().closest_m();

@@ -5,7 +5,7 @@
 use crate::common::root;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle};
+use robots::vehicles::{InMemory, ParameterSet, Remus100, RemusSpec};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics, Solver};
@@ -13,9 +13,9 @@ use world::units::Heading;
 
 const STEP_S: f64 = 0.02;
 
-fn vehicle(parameters: ParameterSet) -> Vehicle {
+fn vehicle(parameters: ParameterSet) -> Remus100 {
     let spec = RemusSpec { parameters, ..RemusSpec::default() };
-    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
+    Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 fn water(velocity: Vector3<f64>) -> WaterSample {
@@ -31,7 +31,7 @@ fn start() -> Truth {
 struct Alone {
     physics: Physics,
     id: BodyId,
-    vehicle: Vehicle,
+    vehicle: Remus100,
     water: WaterSample,
     step_s: f64,
     steps: u64,

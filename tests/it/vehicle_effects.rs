@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{Actuators, InMemory, ParameterSet, RemusSpec, Vehicle};
+use robots::vehicles::{Actuators, InMemory, ParameterSet, Remus100, RemusSpec};
 use std::path::Path;
 use world::area::Area;
 use world::fields::WaterSample;
@@ -19,7 +19,7 @@ const BOTH: [ParameterSet; 2] = [ParameterSet::Reference, ParameterSet::Remus100
 struct Auv {
     physics: Physics,
     id: BodyId,
-    vehicle: Vehicle,
+    vehicle: Remus100,
     water: WaterSample,
 }
 
@@ -30,7 +30,7 @@ impl Auv {
 
     fn under(mut physics: Physics, parameters: ParameterSet, start: Truth) -> Self {
         let spec = RemusSpec { parameters, ..RemusSpec::default() };
-        let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
+        let vehicle = Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle");
         let id = physics.add_body(vehicle.body_spec("auv", start));
         let water = WaterSample {
             velocity: Vector3::zeros(),

@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle};
+use robots::vehicles::{InMemory, ParameterSet, Remus100, RemusSpec};
 use std::f64::consts::PI;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -188,9 +188,11 @@ fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, s
     let [phi, theta, psi] = attitude_deg.map(f64::to_radians);
     let mut theirs =
         State { eta: Vector6::new(0.0, 0.0, 100.0, phi, theta, psi), nu: Vector6::zeros(), act: Vector3::zeros() };
-    let mut vehicle =
-        Vehicle::load(&RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() }, &InMemory::default())
-            .expect("built in");
+    let mut vehicle = Remus100::load(
+        &RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() },
+        &InMemory::default(),
+    )
+    .expect("built in");
     let mut ours = Truth::at_rest(Pose {
         p_WB: Vector3::new(0.0, 0.0, -100.0),
         R_WB: UnitQuaternion::from_euler_angles(phi, -theta, Heading::from_rad(psi).yaw()),

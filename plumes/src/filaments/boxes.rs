@@ -6,8 +6,8 @@
 //!
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
-use crate::marks::{self, Marks, Movemask, mark};
-use crate::path::Path;
+use crate::marks::{self, LaneMask, Movemask, mark};
+use crate::path::InstructionSet;
 
 /// Boxes side by side.
 pub(super) const BOXES: usize = 32;
@@ -39,16 +39,16 @@ impl Boxes {
     }
 
     /// Those that hold a point, a bit each.
-    pub(super) fn hold(&self, path: Path, p: [f32; 3]) -> u32 {
+    pub(super) fn hold(&self, path: InstructionSet, p: [f32; 3]) -> u32 {
         match path {
             // SAFETY: these instructions are part of every machine of the target.
-            Path::Portable => unsafe { self.held::<marks::Portable>(p) },
+            InstructionSet::Portable => unsafe { self.held::<marks::Portable>(p) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { hold_avx2(self, p) },
+            InstructionSet::Avx2 => unsafe { hold_avx2(self, p) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { hold_avx512(self, p) },
+            InstructionSet::Avx512 => unsafe { hold_avx512(self, p) },
         }
     }
 
@@ -58,7 +58,7 @@ impl Boxes {
     /// The machine must have the instructions of `M`.
     #[inline(always)]
     pub(super) unsafe fn held<M: Movemask>(&self, p: [f32; 3]) -> u32 {
-        let mut marks: Marks = [0; BOXES];
+        let mut marks: LaneMask = [0; BOXES];
         for (l, one) in marks.iter_mut().enumerate() {
             let along = |d: usize| (p[d] >= self.lo[d][l]) & (p[d] <= self.hi[d][l]);
             *one = mark(along(0) & along(1) & along(2));
@@ -119,7 +119,7 @@ mod tests {
                 let p: [f32; 3] = std::array::from_fn(|_| r.uniform() as f32);
                 let inside = |e: &Ends| (0..3).all(|d| p[d] >= e[d][0] && p[d] <= e[d][1]);
                 let want: Vec<usize> = (0..n).filter(|l| inside(&ends[*l])).collect();
-                for path in Path::all() {
+                for path in InstructionSet::all() {
                     let hold = boxes.hold(path, p);
                     assert_eq!(set(hold).collect::<Vec<_>>(), want, "{path:?}");
                 }

@@ -6,8 +6,8 @@
 //!
 //! *Deviations*: none.
 
+use super::domain::Domain;
 use super::lookup::Lookup;
-use super::room::Room;
 use super::solids::Solids;
 use crate::error::PlumeError;
 use crate::flow::blockage::Cells;
@@ -38,7 +38,7 @@ pub fn cut_off(
     let walled = water.is_walled();
     let cells = Cells::new(blockage, area, &Ground::new(terrain), obstacles, walled)?;
     let grid = FlowGrid::new(area, terrain, BlockageSpec::grid_shape(blockage));
-    let (mut room, lookup) = (Room::new(&grid), Lookup::new(&grid));
+    let (mut room, lookup) = (Domain::new(&grid), Lookup::new(&grid));
     room.solids = Solids::new(obstacles.clone(), grid.datum);
     room.lead_round(Arc::new(cells));
     let placed = specs.iter().enumerate().filter_map(|(n, spec)| {
@@ -52,7 +52,13 @@ pub fn cut_off(
 }
 
 /// What is wrong with the n-th source, if anything is.
-pub(super) fn problem(grid: &FlowGrid, room: &Room, lookup: &Lookup, n: usize, source: &Source) -> Option<PlumeError> {
+pub(super) fn problem(
+    grid: &FlowGrid,
+    room: &Domain,
+    lookup: &Lookup,
+    n: usize,
+    source: &Source,
+) -> Option<PlumeError> {
     let at = room.place(lookup, grid.local(&source.p_W))?;
     let free = room.open(lookup, &at, true);
     if free.is_some_and(|free| free.q == at.q) {

@@ -15,13 +15,13 @@ use world::fields::{Concentration, Flow};
 
 /// Concentration now, with the displacement by waves; without waves, that of the plume itself.
 #[derive(Clone, Copy)]
-pub struct Displaced<'a> {
+pub struct DisplacedConcentration<'a> {
     plume: &'a Plume,
     flow: &'a dyn Flow,
     t_s: f64,
 }
 
-impl<'a> Displaced<'a> {
+impl<'a> DisplacedConcentration<'a> {
     /// What a probe measures at time `t_s` of the flow, s.
     #[must_use]
     pub fn new(plume: &'a Plume, flow: &'a dyn Flow, t_s: f64) -> Self {
@@ -29,7 +29,7 @@ impl<'a> Displaced<'a> {
     }
 }
 
-impl Concentration for Displaced<'_> {
+impl Concentration for DisplacedConcentration<'_> {
     fn at(&self, p: &Vector3<f64>) -> f64 {
         match self.flow.displacement(p, self.t_s) {
             Some(way) => self.plume.at(&(p - way)),

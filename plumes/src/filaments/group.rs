@@ -6,14 +6,14 @@
 //!
 //! *Deviations*: none.
 
+use super::batch::Batch;
 use super::boxes::Ends;
-use super::crowd::Crowd;
-use super::felt::{Asked, quanta, reach};
-use super::image::Spot;
+use super::contribution::{GroupQuery, quanta, reach};
+use super::image::QueryPoint;
 use super::index::Question;
 use super::order::order;
+use super::run_bounds::RunBounds;
 use super::scan;
-use super::side::Side;
 use super::store::Store;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -34,11 +34,11 @@ pub(super) struct Group {
     quanta: f64,
     per_quantum: f64,
     /// Between which coordinates they move during the step: east, north, up. Most groups are ruled out by one of them.
-    sides: [OnceLock<Box<Side>>; 3],
+    sides: [OnceLock<Box<RunBounds>>; 3],
     asked: Count,
     /// Holds for the step.
     order: OnceLock<Vec<u16>>,
-    crowd: OnceLock<Box<Crowd>>,
+    crowd: OnceLock<Box<Batch>>,
 }
 
 /// How often something was asked about the present time.
@@ -105,18 +105,18 @@ impl Group {
 
     /// What its members contribute at a point [near](Self::near) them, kg/m³.
     #[inline]
-    pub(super) fn felt(&self, q: &Question, spot: &Spot, s: &Store, band: usize) -> f64 {
+    pub(super) fn felt(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize) -> f64 {
         let asked = || self.asked_by(q, spot, s, band);
         let total = match self.crowd.get() {
-            Some(crowd) => crowd.felt(q.path, spot.p, asked),
+            Some(crowd) => crowd.contribution(q.path, spot.p, asked),
             None => self.first_felt(&asked()),
         };
         // The number of quanta is a power of two.
         total as f64 * self.per_quantum
     }
 
-    fn asked_by<'a>(&self, q: &'a Question, spot: &'a Spot, s: &'a Store, band: usize) -> Asked<'a> {
-        Asked {
+    fn asked_by<'a>(&self, q: &'a Question, spot: &'a QueryPoint, s: &'a Store, band: usize) -> GroupQuery<'a> {
+        GroupQuery {
             p: spot.p,
             spot,
             q,
@@ -130,22 +130,22 @@ impl Group {
 
     /// The same in quanta as long as there is no crowd.
     #[inline(never)]
-    fn first_felt(&self, asked: &Asked) -> i64 {
-        let Asked { q, s, p, .. } = *asked;
+    fn first_felt(&self, asked: &GroupQuery) -> i64 {
+        let GroupQuery { q, s, p, .. } = *asked;
         let sides = [0, 1, 2].map(|d| self.side(q, s, d));
-        let runs = Side::runs(q.path, sides, p, self.reach);
+        let runs = RunBounds::runs(q.path, sides, p, self.reach);
         if runs == 0 {
             0
         } else if self.asked.often() {
             let crowd = self.crowd.get_or_init(|| self.crowd(asked));
-            crowd.felt(q.path, p, || *asked)
+            crowd.contribution(q.path, p, || *asked)
         } else {
             scan::felt(asked, self.members.len(), runs)
         }
     }
 
     /// Its members at the present time.
-    fn crowd(&self, asked: &Asked) -> Box<Crowd> {
+    fn crowd(&self, asked: &GroupQuery) -> Box<Batch> {
         let order = self.order.get_or_init(|| {
             // Those that are released within the step stay last.
             let born_s = &asked.s.born_s[self.members.clone()];
@@ -156,14 +156,14 @@ impl Group {
             order.extend(on_time as u16..self.members.len() as u16);
             order
         });
-        Box::new(Crowd::new(asked, order))
+        Box::new(Batch::new(asked, order))
     }
 
-    fn side(&self, q: &Question, s: &Store, d: usize) -> &Side {
+    fn side(&self, q: &Question, s: &Store, d: usize) -> &RunBounds {
         self.sides[d].get_or_init(|| {
             let ways = [&s.start[d], [&s.x, &s.y, &s.z][d]];
             let ways = ways.map(|way| &way[self.members.clone()]);
-            Box::new(Side::new(q.path, ways))
+            Box::new(RunBounds::new(q.path, ways))
         })
     }
 }

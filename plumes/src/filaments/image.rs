@@ -13,9 +13,9 @@
 //! a wall, the kernel reaches as far as the ways lead. It is cut at 4σ along each axis. Between walls less than 4/3 σ
 //! apart it is even, to 3e-5.
 
-use super::leaf::{CUT_SIGMAS, falling};
+use super::domain::{Domain, DomainPoint};
 use super::lookup::Lookup;
-use super::room::{Place, Room};
+use super::packet::{CUT_SIGMAS, falling};
 use std::cell::OnceCell;
 
 /// Part of a Gaussian's mass within the cut: erf(4/√2).
@@ -23,8 +23,8 @@ const WITHIN_CUT: f64 = 0.999_936_66;
 
 /// A filament near a wall.
 #[derive(Clone, Debug)]
-pub(super) struct Felt {
-    at: Place,
+pub(super) struct NearWall {
+    at: DomainPoint,
     sizes: [f64; 2],
     kg: f64,
     along: [f64; 2],
@@ -32,20 +32,20 @@ pub(super) struct Felt {
 }
 
 /// A point at which the concentration is asked for.
-pub(super) struct Spot<'a> {
-    pub(super) room: &'a Room,
+pub(super) struct QueryPoint<'a> {
+    pub(super) room: &'a Domain,
     pub(super) lookup: &'a Lookup,
     /// East, north, up, m; the point lies in the water.
     pub(super) p: [f32; 3],
-    at: Option<Place>,
+    at: Option<DomainPoint>,
     // Longest reach of any filament, m.
     reach: f64,
     ends: OnceCell<[[f64; 2]; 2]>,
 }
 
-impl<'a> Spot<'a> {
+impl<'a> QueryPoint<'a> {
     /// `None` if no water is near.
-    pub(super) fn new(room: &'a Room, lookup: &'a Lookup, p: [f32; 3], reach: f64) -> Option<Self> {
+    pub(super) fn new(room: &'a Domain, lookup: &'a Lookup, p: [f32; 3], reach: f64) -> Option<Self> {
         let mut query = Self { room, lookup, p, at: None, reach, ends: OnceCell::new() };
         if room.is_open() {
             return Some(query);
@@ -63,14 +63,14 @@ impl<'a> Spot<'a> {
     }
 
     /// Free ways along and upwards from the point.
-    fn ends(&self, at: &Place) -> [[f64; 2]; 2] {
+    fn ends(&self, at: &DomainPoint) -> [[f64; 2]; 2] {
         *(self.ends).get_or_init(|| [0, 2].map(|d| self.room.along(at, d, self.reach)))
     }
 }
 
-impl Felt {
+impl NearWall {
     /// A filament of `kg` at `p` with horizontal and vertical sizes (m), if a wall is near enough to matter.
-    pub(super) fn new(room: &Room, lookup: &Lookup, p: [f32; 3], sizes: [f32; 2], kg: f64) -> Option<Self> {
+    pub(super) fn new(room: &Domain, lookup: &Lookup, p: [f32; 3], sizes: [f32; 2], kg: f64) -> Option<Self> {
         let sizes = sizes.map(f64::from);
         let reach = f64::from(CUT_SIGMAS) * sizes[0];
         if room.is_open() || !room.near(lookup, p, reach) {
@@ -81,7 +81,7 @@ impl Felt {
     }
 
     /// Its contribution at a point, kg/m³.
-    pub(super) fn add(&self, query: &Spot<'_>) -> f64 {
+    pub(super) fn add(&self, query: &QueryPoint<'_>) -> f64 {
         let Some(to) = &query.at else { return 0.0 };
         let from = &self.at;
         let [flat, high] = self.sizes;

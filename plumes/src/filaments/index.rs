@@ -12,13 +12,13 @@
 
 use super::bands::{Bands, MOST};
 use super::boxes::{BOXES, Boxes, set};
+use super::domain::Domain;
 use super::group::{Count, GROUP, Group};
-use super::image::Spot;
-pub use super::leaf::CUT_SIGMAS;
+use super::image::QueryPoint;
 use super::lookup::Lookup;
-use super::room::Room;
+pub use super::packet::CUT_SIGMAS;
 use super::store::Store;
-use crate::path::Path;
+use crate::path::InstructionSet;
 use std::sync::OnceLock;
 
 /// The groups of every band of every store.
@@ -44,9 +44,9 @@ struct Groups {
 pub(super) struct Question<'a> {
     pub(super) stores: &'a [Store],
     pub(super) bands: &'a Bands,
-    pub(super) room: &'a Room,
+    pub(super) room: &'a Domain,
     pub(super) lookup: &'a Lookup,
-    pub(super) path: Path,
+    pub(super) path: InstructionSet,
     pub(super) now_s: f64,
 }
 
@@ -84,7 +84,7 @@ impl Index {
         if p[2] > 0.0 {
             return 0.0;
         }
-        let Some(spot) = Spot::new(q.room, q.lookup, p, q.reach()) else {
+        let Some(spot) = QueryPoint::new(q.room, q.lookup, p, q.reach()) else {
             return 0.0;
         };
         self.asked.get_or_init(|| ());
@@ -101,7 +101,7 @@ impl Index {
 
 impl Groups {
     /// Adds what each contributes at a point, kg/m³, in their order.
-    fn add(&self, q: &Question, spot: &Spot, s: &Store, band: usize, total: &mut f64) {
+    fn add(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize, total: &mut f64) {
         let boxes = match self.boxes.get() {
             None if self.asked.often() => Some(self.boxes.get_or_init(|| self.boxes(q, s))),
             boxes => boxes,

@@ -37,7 +37,7 @@
 use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::{level_normals, normals};
-use crate::path::Path;
+use crate::path::InstructionSet;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
 use crate::quad::{Pair, Twice};
@@ -95,7 +95,14 @@ impl Work {
 
 /// Moves all filaments of the block, each by its `dt`. Of a block with few filaments only the first places are worked
 /// on, with the same bits.
-pub(super) fn step(path: Path, cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
+pub(super) fn step(
+    path: InstructionSet,
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    key: [u32; 2],
+    block: &mut Block,
+    work: &mut Work,
+) {
     match block.used {
         0..=32 => step_first::<32>(path, cells, nodes, key, block, work),
         33..=64 => step_first::<64>(path, cells, nodes, key, block, work),
@@ -106,7 +113,7 @@ pub(super) fn step(path: Path, cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2]
 
 /// The same for the first `N` places.
 fn step_first<const N: usize>(
-    path: Path,
+    path: InstructionSet,
     cells: &Lookup,
     nodes: &[[f32; 4]],
     key: [u32; 2],
@@ -115,13 +122,13 @@ fn step_first<const N: usize>(
 ) {
     match path {
         // SAFETY: these instructions are part of every machine of the target.
-        Path::Portable => unsafe { body::<Twice, N>(cells, nodes, key, block, work) },
+        InstructionSet::Portable => unsafe { body::<Twice, N>(cells, nodes, key, block, work) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { body_avx2::<N>(cells, nodes, key, block, work) },
+        InstructionSet::Avx2 => unsafe { body_avx2::<N>(cells, nodes, key, block, work) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx512 => unsafe { body_avx512::<N>(cells, nodes, key, block, work) },
+        InstructionSet::Avx512 => unsafe { body_avx512::<N>(cells, nodes, key, block, work) },
     }
 }
 

@@ -111,9 +111,9 @@ fn all_versions_give_the_same_bits() {
         }
         [&b.x, &b.y, &b.z, &b.bed].map(|v| v.map(f32::to_bits))
     };
-    let portable = run(Path::Portable);
+    let portable = run(InstructionSet::Portable);
     assert_ne!(portable[0], start.x.map(f32::to_bits));
-    for path in Path::all() {
+    for path in InstructionSet::all() {
         assert_eq!(run(path), portable, "{path:?}");
     }
 }
@@ -131,7 +131,7 @@ fn filaments_that_are_not_kicked_upwards_move_the_same_on_the_short_way() {
         for node in &mut nodes[at * nz..(at + 1) * nz] {
             node[3] = 1e-3;
         }
-        for path in Path::all() {
+        for path in InstructionSet::all() {
             let run = |stray: bool| {
                 let (mut b, mut work) = (start.clone(), Work::new());
                 if stray {
@@ -165,7 +165,7 @@ fn few_filaments_in_a_block_move_as_in_a_full_one() {
         let moved = [&b.x, &b.y, &b.z, &b.bed].map(|v| v.map(f32::to_bits)[..used].to_vec());
         (moved, b.outside[..used].to_vec(), b.moved[..used].to_vec())
     };
-    for path in Path::all() {
+    for path in InstructionSet::all() {
         let (full, outside, moved) = run(path, BLOCK);
         for used in [1, 5, 32, 33, 64, 65, 96, 97, 127] {
             let first = full.clone().map(|v| v[..used].to_vec());

@@ -11,7 +11,7 @@
 use super::kernel::BLOCK;
 use crate::flow::grid::{FlowGrid, LogLaw};
 use crate::flow::ground::NearGround;
-use crate::path::Path;
+use crate::path::InstructionSet;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
 pub(super) type Bilinear = [f32; 4];
@@ -148,15 +148,15 @@ impl Lookup {
 }
 
 /// The lower corners of the column cells in which up to [`BLOCK`] filaments are.
-pub(super) fn places(path: Path, cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
+pub(super) fn places(path: InstructionSet, cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
     match path {
-        Path::Portable => places_of(cells, x, y, at),
+        InstructionSet::Portable => places_of(cells, x, y, at),
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { places_avx2(cells, x, y, at) },
+        InstructionSet::Avx2 => unsafe { places_avx2(cells, x, y, at) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx512 => unsafe { places_avx512(cells, x, y, at) },
+        InstructionSet::Avx512 => unsafe { places_avx512(cells, x, y, at) },
     }
 }
 

@@ -1,40 +1,40 @@
 //! Filaments: store, drift, concentration.
 
 mod bands;
+mod batch;
 mod boxes;
-mod carried;
-mod crowd;
+mod contribution;
 mod cut_off;
 mod displaced;
+mod domain;
+mod drift_band;
+mod eddy_coordinates;
 mod evenness;
-mod felt;
 mod fetch;
 mod group;
 mod image;
 mod index;
 mod kernel;
-mod labels;
-mod leaf;
 mod longest_step;
 mod lookup;
-mod moving;
+mod moving_packet;
 mod noise;
 mod open_place;
 mod order;
+mod packet;
 mod plume;
+mod pollock;
 mod rebound;
 mod rise;
-mod room;
 mod rows;
+mod run_bounds;
 mod sampled;
 mod scan;
 mod series;
-mod side;
 mod size;
 mod solids;
 mod step;
 mod store;
-mod sweep;
 mod tally;
 #[cfg(test)]
 mod tests_bands;
@@ -74,7 +74,7 @@ mod walls;
 
 pub use crate::path::instructions;
 pub use cut_off::cut_off;
-pub use displaced::Displaced;
+pub use displaced::DisplacedConcentration;
 pub use index::CUT_SIGMAS;
 pub use longest_step::{EVEN, SharpestMixing, Uneven, examined};
 pub use plume::{Plume, PlumeSettings};

@@ -8,8 +8,8 @@
 //! belongs to the side on which it lies. Obstacles reach into open cells by less than half a cell: dye is there too,
 //! but nobody asks for it.
 
+use super::domain::{Domain, DomainPoint};
 use super::lookup::Lookup;
-use super::room::{Place, Room};
 use crate::flow::blockage::Cells;
 use nalgebra::Vector3;
 
@@ -18,7 +18,7 @@ const FAR: usize = 12;
 /// How far inside an open cell a place stays that was moved there, in cells.
 const INSIDE: f64 = 1e-3;
 
-impl Room {
+impl Domain {
     /// A point itself if it is in the water, otherwise the nearest point that is.
     pub(super) fn in_water(&self, lookup: &Lookup, p: [f32; 3]) -> [f32; 3] {
         if !self.has_solids() {
@@ -44,7 +44,7 @@ impl Room {
 
     /// Whether dye can be at a place: in an open cell, not separated from the cell's centre by a thin wall, and in no
     /// solid.
-    pub(super) fn is_free(&self, p: &Place) -> bool {
+    pub(super) fn is_free(&self, p: &DomainPoint) -> bool {
         let Some(cells) = &self.cells else {
             return self.solids.containing(&self.horizontal(p.q).push(p.z())).is_none();
         };
@@ -54,7 +54,7 @@ impl Room {
     /// The nearest place at which dye can be. This is the place itself, or its mirror image at the nearest side of an
     /// open cell that is visible from it (the obstacle that contains the place does not hide the cell). `None` if there
     /// is none nearby.
-    pub(super) fn open(&self, lookup: &Lookup, p: &Place, looking: bool) -> Option<Place> {
+    pub(super) fn open(&self, lookup: &Lookup, p: &DomainPoint, looking: bool) -> Option<DomainPoint> {
         let Some(cells) = &self.cells else {
             if self.is_free(p) {
                 return Some(*p);
@@ -67,7 +67,7 @@ impl Room {
         if self.is_free(p) && seen(p.cell) {
             return Some(*p);
         }
-        let mut best: Option<(f64, Place)> = None;
+        let mut best: Option<(f64, DomainPoint)> = None;
         let size = self.spacing[0].min(self.spacing[1]);
         let range = |d: usize, r: usize| {
             let c = p.cell[d];
@@ -99,7 +99,7 @@ impl Room {
     }
 
     /// Whether the centre of a cell is visible from a point. Obstacles that contain the point do not count.
-    fn sees(&self, cells: &Cells, lookup: &Lookup, eye: &Vector3<f64>, from: &Place, cell: [usize; 3]) -> bool {
+    fn sees(&self, cells: &Cells, lookup: &Lookup, eye: &Vector3<f64>, from: &DomainPoint, cell: [usize; 3]) -> bool {
         let middle = [0, 1].map(|d| (cell[d] as f64 + 0.5) * self.spacing[d]);
         let Some(at) = self.moved(lookup, from, middle) else {
             return false;
@@ -110,7 +110,7 @@ impl Room {
     }
 
     /// Distance (m) from a place to a cell, and the place mirrored into the cell at its nearest side.
-    fn mirrored(&self, cells: &Cells, lookup: &Lookup, p: &Place, cell: [usize; 3]) -> (f64, Place) {
+    fn mirrored(&self, cells: &Cells, lookup: &Lookup, p: &DomainPoint, cell: [usize; 3]) -> (f64, DomainPoint) {
         let mut q = p.q;
         let mut away = 0.0_f64;
         for d in 0..3 {
@@ -132,7 +132,7 @@ impl Room {
             q[d] = q[d].clamp(low + inside, high - inside);
         }
         let bed = self.bed(lookup, q);
-        (away.sqrt(), Place { q, bed, cell })
+        (away.sqrt(), DomainPoint { q, bed, cell })
     }
 }
 

@@ -7,8 +7,8 @@
 //! *Deviations*: members are halved along their longest side, in units of the kernel's reach, so that all leaves but
 //! the last are full. They are halved by where their step ends, so that the order holds for all of the step.
 
+use super::batch::LEAFLET;
 use super::boxes::{EMPTY, Ends, wider};
-use super::crowd::LEAFLET;
 
 /// Members of a group by number, of those at `ends` (m, along the three axes), felt as far as `reach` (m).
 pub(super) fn order(ends: [&[f32]; 3], reach: [f32; 3]) -> Vec<u16> {

@@ -13,23 +13,23 @@
 mod kept;
 
 use super::bands::Bands;
-use super::carried::Carrier;
 use super::cut_off;
+use super::domain::Domain;
+use super::drift_band::Scratch;
+use super::eddy_coordinates::EddyCoordinates;
 use super::index::{Index, Question};
-use super::labels::Labels;
 use super::lookup::Lookup;
+use super::pollock::Pollock;
 use super::rise::Rise;
-use super::room::Room;
-use super::sampled::Sampled;
+use super::sampled::SampledFlow;
 use super::size::Size;
 use super::solids::Solids;
 use super::store::Store;
-use super::sweep::Desk;
 use crate::error::PlumeError;
-use crate::flow::Blocked;
+use crate::flow::ObstacleFlow;
 use crate::flow::eddies::Small;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::path::Path;
+use crate::path::InstructionSet;
 use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
 use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
@@ -64,7 +64,7 @@ pub struct Plume {
     pub(super) stores: Vec<Store>,
     pub(super) bands: Bands,
     pub(super) grid: FlowGrid,
-    pub(super) sampled: Sampled,
+    pub(super) sampled: SampledFlow,
     pub(super) cells: Lookup,
     pub(super) refresh_s: f64,
     pub(super) next_refresh_s: Option<f64>,
@@ -73,29 +73,29 @@ pub struct Plume {
     /// Number of times at which steps have started.
     pub(super) steps: u64,
     pub(super) now_s: f64,
-    pub(super) path: Path,
-    pub(super) room: Room,
-    pub(super) carrier: Option<Carrier>,
+    pub(super) path: InstructionSet,
+    pub(super) room: Domain,
+    pub(super) carrier: Option<Pollock>,
     pub(super) small: Option<Arc<Small>>,
     pub(super) turned_back: u64,
     pub(super) index: Index,
     pub(super) threads: Option<Arc<rayon::ThreadPool>>,
-    pub(super) desk: OwnDesk,
+    pub(super) desk: OwnScratch,
 }
 
 /// Where a plume moves its filaments. It holds nothing from one step to the next, so a copy of a plume has a new one.
 #[derive(Default)]
-pub(super) struct OwnDesk(pub(super) Box<Desk>);
+pub(super) struct OwnScratch(pub(super) Box<Scratch>);
 
-impl Clone for OwnDesk {
+impl Clone for OwnScratch {
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
-impl std::fmt::Debug for OwnDesk {
+impl std::fmt::Debug for OwnScratch {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str("OwnDesk")
+        f.write_str("OwnScratch")
     }
 }
 
@@ -124,8 +124,8 @@ impl Plume {
             sources,
             bands: Bands::single(0.0, 0.0),
             cells: Lookup::new(&grid),
-            room: Room::new(&grid),
-            sampled: Sampled::new(&grid),
+            room: Domain::new(&grid),
+            sampled: SampledFlow::new(&grid),
             carrier: None,
             small: None,
             grid,
@@ -134,11 +134,11 @@ impl Plume {
             stirred: false,
             steps: 0,
             now_s: 0.0,
-            path: Path::detect(),
+            path: InstructionSet::detect(),
             turned_back: 0,
             index: Index::default(),
             threads: None,
-            desk: OwnDesk::default(),
+            desk: OwnScratch::default(),
         })
     }
 
@@ -147,7 +147,7 @@ impl Plume {
     pub fn carried_by(mut self, small: Option<&Arc<Small>>) -> Self {
         self.small = small.cloned();
         for store in &mut self.stores {
-            store.labels = small.map(|small| Labels::new(small));
+            store.labels = small.map(|small| EddyCoordinates::new(small));
         }
         self
     }
@@ -185,7 +185,7 @@ impl Plume {
     ///
     /// # Panics
     /// If the plume has another grid: a mistake in the code.
-    pub fn led_round(mut self, blocked: Option<&Blocked>) -> Result<Self, PlumeError> {
+    pub fn led_round(mut self, blocked: Option<&ObstacleFlow>) -> Result<Self, PlumeError> {
         let Some(blocked) = blocked else {
             return Ok(self);
         };
@@ -197,7 +197,7 @@ impl Plume {
             cells.n
         );
         self.room.lead_round(cells.clone());
-        self.carrier = Some(Carrier::new(blocked));
+        self.carrier = Some(Pollock::new(blocked));
         for (n, source) in self.sources.iter().enumerate() {
             if let Some(problem) = cut_off::problem(&self.grid, &self.room, &self.cells, n, source) {
                 return Err(problem);

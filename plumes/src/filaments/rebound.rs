@@ -11,8 +11,8 @@
 //! own, mirrored. In horizontal motion a filament keeps its height; it is mirrored at a bed or a solid's slope that it
 //! runs into.
 
+use super::domain::{Domain, DomainPoint};
 use super::lookup::Lookup;
-use super::room::{Place, Room};
 use crate::flow::blockage::Cells;
 use crate::flow::grid::FlowGrid;
 use nalgebra::Vector2;
@@ -42,7 +42,7 @@ pub(super) fn folded(x: f64, [low, high]: [f64; 2]) -> f64 {
 
 /// Result of a filament's motion.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Turned {
+pub(super) struct Reflection {
     /// East, north, up, m.
     pub(super) p: [f32; 3],
     /// Whether it met a wall.
@@ -62,7 +62,7 @@ pub(super) struct Kick {
     pub(super) part: f32,
 }
 
-impl Room {
+impl Domain {
     /// Moves a filament from `from` towards `to` and reflects it at walls; `to` already allows for bed and surface. In
     /// cells, `kick`, if any, is computed again between the closed faces above and below.
     pub(super) fn turn_back(
@@ -72,10 +72,10 @@ impl Room {
         from: [f32; 3],
         to: [f32; 3],
         kick: Option<Kick>,
-    ) -> Turned {
+    ) -> Reflection {
         let went = [0, 1, 2].map(|d| f64::from(to[d]) - f64::from(from[d]));
         let [along, across] = self.parts(Vector2::new(went[0], went[1]));
-        let gone = Turned { p: to, met: false, left: true };
+        let gone = Reflection { p: to, met: false, left: true };
         let Some(start) = self.place(lookup, from) else {
             return gone;
         };
@@ -83,7 +83,7 @@ impl Room {
             return self.round_obstacles(lookup, start, [along, across, went[2]]).unwrap_or(gone);
         };
         let Some(start) = self.open(lookup, &start, false) else {
-            return Turned { p: from, met: true, left: false };
+            return Reflection { p: from, met: true, left: false };
         };
         let mut p = start;
         let ends = self.along(&p, 2, 0.0);
@@ -99,7 +99,7 @@ impl Room {
                 None => return gone,
             }
         }
-        self.settled(cells, lookup, p, z).map_or(Turned { p: from, met: true, left: false }, |p| Turned {
+        self.settled(cells, lookup, p, z).map_or(Reflection { p: from, met: true, left: false }, |p| Reflection {
             p,
             met,
             left: false,
@@ -107,7 +107,7 @@ impl Room {
     }
 
     /// Milstein's step as in `kernel`, between two ends, m.
-    fn kicked(&self, grid: &FlowGrid, p: &Place, ends: [f64; 2], kick: Kick) -> f64 {
+    fn kicked(&self, grid: &FlowGrid, p: &DomainPoint, ends: [f64; 2], kick: Kick) -> f64 {
         let [x, y, z] = self.point(p);
         let here = grid.at(x, y, z);
         let dt = f64::from(kick.dt_s) * f64::from(kick.part);
@@ -121,7 +121,7 @@ impl Room {
 
     /// Moves along one axis at a constant height, from cell to cell. Returns whether it was reflected; `None` if it
     /// left the grid.
-    fn walked(&self, cells: &Cells, lookup: &Lookup, p: &mut Place, z: f64, d: usize, way: f64) -> Option<bool> {
+    fn walked(&self, cells: &Cells, lookup: &Lookup, p: &mut DomainPoint, z: f64, d: usize, way: f64) -> Option<bool> {
         let h = cells.d[d];
         let (mut to, mut met) = (p.q[d] + way, false);
         for _ in 0..IN_A_ROW {
@@ -161,7 +161,7 @@ impl Room {
 
     /// The point of a place at a height. It is mirrored at the bed, at the surface, or at the solid above or below that
     /// it is in.
-    fn settled(&self, cells: &Cells, lookup: &Lookup, mut p: Place, z: f64) -> Option<[f32; 3]> {
+    fn settled(&self, cells: &Cells, lookup: &Lookup, mut p: DomainPoint, z: f64) -> Option<[f32; 3]> {
         p.bed = self.bed(lookup, p.q);
         let z = folded(z, [p.bed, 0.0]);
         p.q[2] = (1.0 - z / p.bed).clamp(0.0, 1.0);
@@ -178,7 +178,7 @@ impl Room {
     }
 
     /// Moves along the three axes between obstacles; `None` if it left the grid.
-    fn round_obstacles(&self, lookup: &Lookup, mut p: Place, way: [f64; 3]) -> Option<Turned> {
+    fn round_obstacles(&self, lookup: &Lookup, mut p: DomainPoint, way: [f64; 3]) -> Option<Reflection> {
         let mut met = false;
         for d in 0..3 {
             let ends = self.along(&p, d, way[d].abs() + CLEAR_M);
@@ -204,7 +204,7 @@ impl Room {
             point = self.solids.way_out(&at).map(|v| v as f32).into();
             met = true;
         }
-        Some(Turned { p: point, met, left: false })
+        Some(Reflection { p: point, met, left: false })
     }
 }
 

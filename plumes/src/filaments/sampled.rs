@@ -13,7 +13,7 @@ use world::fields::Flow;
 
 /// The columns that hold the flow of the present period.
 #[derive(Clone, Debug)]
-pub(super) struct Sampled {
+pub(super) struct SampledFlow {
     /// Number of the period in which each column was evaluated, and in which each cell was noted; 0 is never.
     column: Vec<u32>,
     cell: Vec<u32>,
@@ -28,7 +28,7 @@ pub(super) struct Sampled {
     pub(super) even_k_h: Option<f32>,
 }
 
-impl Sampled {
+impl SampledFlow {
     pub(super) fn new(grid: &FlowGrid) -> Self {
         let columns = grid.bed.len();
         Self {

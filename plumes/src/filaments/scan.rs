@@ -7,12 +7,12 @@
 //!
 //! *Deviations*: none.
 
-use super::felt::{Asked, Present};
-use super::leaf::LEAF;
-use super::moving::{Moving, on_way};
-use super::side::{RUN, RUNS};
-use crate::marks::{self, Marks, Movemask, mark};
-use crate::path::Path;
+use super::contribution::{GroupQuery, PresentMembers};
+use super::moving_packet::{MovingPacket, on_way};
+use super::packet::LEAF;
+use super::run_bounds::{RUN, RUNS};
+use crate::marks::{self, LaneMask, Movemask, mark};
+use crate::path::InstructionSet;
 
 /// Coordinates of the members at the start and at the end of their step.
 type Ways<'a> = [[&'a [f32]; 2]; 3];
@@ -21,8 +21,8 @@ type Ways<'a> = [[&'a [f32]; 2]; 3];
 type Near = [u32; RUNS];
 
 /// The sum of the contributions of a group of `n`, in quanta. Only these `runs` of it (a bit each) may be near.
-pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
-    let Asked { s, from, moment, .. } = asked;
+pub(super) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
+    let GroupQuery { s, from, moment, .. } = asked;
     // Those that are released within the step come last, each on a way of its own. Few of them are not near.
     let born_s = &s.born_s[*from..from + n];
     let late = (born_s.iter().rev()).take_while(|b| **b > moment.span.from_s);
@@ -33,13 +33,13 @@ pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
     let mut near = [0; RUNS];
     match asked.q.path {
         // SAFETY: these instructions are part of every machine of the target.
-        Path::Portable => unsafe { look::<marks::Portable>(asked, &ways, runs, &mut near) },
+        InstructionSet::Portable => unsafe { look::<marks::Portable>(asked, &ways, runs, &mut near) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
+        InstructionSet::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx512 => unsafe { look_avx512(asked, &ways, runs, &mut near) },
+        InstructionSet::Avx512 => unsafe { look_avx512(asked, &ways, runs, &mut near) },
     }
     for m in on_time..n {
         near[m / RUN] |= 1 << (m % RUN);
@@ -51,9 +51,9 @@ pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
 }
 
 /// The sum of the contributions of these members, in quanta.
-fn sum(asked: &Asked, near: &Near) -> i64 {
-    let Asked { s, q, from, .. } = asked;
-    let (mut moving, mut present) = (Moving::default(), Present::default());
+fn sum(asked: &GroupQuery, near: &Near) -> i64 {
+    let GroupQuery { s, q, from, .. } = asked;
+    let (mut moving, mut present) = (MovingPacket::default(), PresentMembers::default());
     let (mut some, mut count, mut total) = ([0; LEAF], 0, 0);
     let mut add = |some: &[u16]| {
         moving.take(s, q.lookup, *from, some);
@@ -80,14 +80,14 @@ fn sum(asked: &Asked, near: &Near) -> i64 {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn look_avx2(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+fn look_avx2(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     // SAFETY: the marks need AVX2, which is this function's.
     unsafe { look::<marks::Avx2>(asked, ways, runs, near) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn look_avx512(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+fn look_avx512(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     // SAFETY: the marks need AVX-512, which is this function's.
     unsafe { look::<marks::Avx512>(asked, ways, runs, near) };
 }
@@ -97,7 +97,7 @@ fn look_avx512(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
 /// # Safety
 /// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn look<M: Movemask>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+unsafe fn look<M: Movemask>(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     let n = ways[0][0].len();
     let mut left = runs;
     while left != 0 {
@@ -128,14 +128,14 @@ unsafe fn look<M: Movemask>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Ne
 /// # Safety
 /// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn within<M: Movemask>(asked: &Asked, ways: &Ways, from: usize) -> u32 {
+unsafe fn within<M: Movemask>(asked: &GroupQuery, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
     let flat = asked.flat_reach();
     let [[x, x1], [y, y1], [z, z1]] = ways;
     let (x, x1) = (&x[from..from + RUN], &x1[from..from + RUN]);
     let (y, y1) = (&y[from..from + RUN], &y1[from..from + RUN]);
     let (z, z1) = (&z[from..from + RUN], &z1[from..from + RUN]);
-    let mut inside: Marks = [0; RUN];
+    let mut inside: LaneMask = [0; RUN];
     for l in 0..RUN {
         let dx = p[0] - on_way(x[l], x1[l], part);
         let dy = p[1] - on_way(y[l], y1[l], part);

@@ -8,13 +8,13 @@
 //! be known no further ahead. A filament that leaves the grid is removed at the start of the step in which it leaves.
 
 use super::bands::Bands;
+use super::drift_band::{DriftContext, hold};
+use super::eddy_coordinates;
 use super::kernel::{BLOCK, folded};
-use super::labels;
 use super::lookup::{Lookup, places};
 use super::noise::step_key;
 use super::plume::Plume;
 use super::store::Store;
-use super::sweep::{Sweep, hold};
 use super::walls::{carry, fold, keep_between};
 use crate::flow::grid::LogLaw;
 use std::ops::Range;
@@ -171,7 +171,7 @@ impl Plume {
         if range.is_empty() {
             return;
         }
-        let sweep = Sweep {
+        let sweep = DriftContext {
             path: self.path,
             cells: &self.cells,
             room: &self.room,
@@ -212,7 +212,7 @@ impl Plume {
             if let Some(small) = &self.small {
                 let p_W = self.sources[n].p_W;
                 let source = (p_W, self.grid.local(&p_W));
-                labels::carry(self.path, small, flow, source, store, range.clone(), span);
+                eddy_coordinates::carry(self.path, small, flow, source, store, range.clone(), span);
                 fold(store, range.clone());
             }
             self.keep_out(n, before, range.start);

@@ -9,7 +9,7 @@
 //! dropped to save memory.
 
 use super::bands::{Bands, MOST, Moment, Scales, Span};
-use super::labels::Labels;
+use super::eddy_coordinates::EddyCoordinates;
 use super::rise::Rise;
 use super::size::Size;
 use std::ops::Range;
@@ -38,7 +38,7 @@ pub(super) struct Store {
     /// What lets them rise, if they are buoyant.
     pub(super) rise: Option<Rise>,
     /// Where they are in the patterns of small eddies, if there are any.
-    pub(super) labels: Option<Labels>,
+    pub(super) labels: Option<EddyCoordinates>,
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.

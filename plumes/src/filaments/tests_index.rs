@@ -1,14 +1,14 @@
 //! The index compared with a search through all filaments.
 
 use super::bands::Bands;
+use super::domain::Domain;
 use super::index::{Index, Question};
-use super::leaf::{LEAF, Leaf};
 use super::lookup::Lookup;
-use super::room::Room;
+use super::packet::{LEAF, Packet64};
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::path::Path;
+use crate::path::InstructionSet;
 use crate::release::ReleaseSpec;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -19,7 +19,7 @@ use world::units::Heading;
 /// Nothing but bed and surface, and a cloud of filaments of all ages in 6 m of water. Each takes a step of some metres
 /// between -4 s and 4 s.
 struct Scene {
-    room: Room,
+    room: Domain,
     lookup: Lookup,
     stores: [Store; 1],
     bands: Bands,
@@ -47,23 +47,23 @@ impl Scene {
         }
         let mut bands = Bands::single(-4.0, 4.0);
         bands.pass();
-        Self { room: Room::new(&grid), lookup: Lookup::new(&grid), stores: [s], bands }
+        Self { room: Domain::new(&grid), lookup: Lookup::new(&grid), stores: [s], bands }
     }
 
-    fn at(&self, index: &Index, path: Path, now_s: f64, p: &Vector3<f64>) -> f64 {
+    fn at(&self, index: &Index, path: InstructionSet, now_s: f64, p: &Vector3<f64>) -> f64 {
         let query =
             Question { stores: &self.stores, bands: &self.bands, room: &self.room, lookup: &self.lookup, path, now_s };
         index.at(&query, p.map(|v| v as f32).into())
     }
 
     /// All filaments in leaves, in the order of release.
-    fn all(&self, now_s: f64) -> Vec<Leaf> {
+    fn all(&self, now_s: f64) -> Vec<Packet64> {
         let s = &self.stores[0];
         let moment = self.bands.moment(0, now_s);
         let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let leaf = |part: &[(usize, [f32; 3])]| {
-            let mut leaf = Leaf::default();
+            let mut leaf = Packet64::default();
             for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
                 (leaf.x[n], leaf.y[n], leaf.z[n]) = (p[0], p[1], p[2]);
@@ -71,7 +71,7 @@ impl Scene {
                 leaf.bed[n] = -6.0;
             }
             leaf.count = part.len();
-            leaf.seal(Path::Portable, s.filament_kg * QUANTA);
+            leaf.seal(InstructionSet::Portable, s.filament_kg * QUANTA);
             leaf
         };
         there.chunks(LEAF).map(leaf).collect()
@@ -102,9 +102,9 @@ fn index_finds_all_that_a_full_search_finds_at_any_time_of_a_step() {
         let all = scene.all(now_s);
         for _ in 0..1000 {
             let p = somewhere(&mut r);
-            let got = scene.at(&index, Path::detect(), now_s, &p);
+            let got = scene.at(&index, InstructionSet::detect(), now_s, &p);
             let q = [p.x as f32, p.y as f32, p.z as f32];
-            let want: i64 = all.iter().map(|l| l.at(Path::Portable, q)).sum();
+            let want: i64 = all.iter().map(|l| l.at(InstructionSet::Portable, q)).sum();
             let want = want as f64 / QUANTA;
             assert!((got - want).abs() <= 1e-5 * want, "{now_s}: {got} {want}");
             hits += usize::from(want > 0.0);
@@ -125,8 +125,8 @@ fn answers_do_not_depend_on_what_was_asked_before() {
         // Every third time so often that groups are divided.
         for _ in 0..if n % 3 == 0 { 100 } else { 3 } {
             let p = somewhere(&mut r);
-            let first = scene.at(&fresh(), Path::Portable, now_s, &p);
-            let again = scene.at(&asked, Path::detect(), now_s, &p);
+            let first = scene.at(&fresh(), InstructionSet::Portable, now_s, &p);
+            let again = scene.at(&asked, InstructionSet::detect(), now_s, &p);
             assert_eq!(again.to_bits(), first.to_bits());
             hits += usize::from(first > 0.0);
         }
@@ -142,7 +142,7 @@ fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
     let mut r = Stream::new(8, "test", "probe");
     for (bed, n) in [(&steep, 5000), (&flat, 3000), (&deep, 40), (&deep, 3000)] {
         let scene = Scene::over(n, bed);
-        for path in Path::all() {
+        for path in InstructionSet::all() {
             let mut index = fresh();
             let mut hits = 0;
             for now_s in [-1.0, 2.9] {
@@ -157,7 +157,7 @@ fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
                     let mut p = Vector3::from_fn(|d, _| f64::from(at[d]) + size * r.normal());
                     p.z = p.z.clamp(bed.bed_z(p.x, p.y), 0.0);
                     let crowd = scene.at(&index, path, now_s, &p);
-                    let scan = scene.at(&fresh(), Path::Portable, now_s, &p);
+                    let scan = scene.at(&fresh(), InstructionSet::Portable, now_s, &p);
                     assert_eq!(crowd.to_bits(), scan.to_bits(), "{path:?} {n} {k}");
                     hits += usize::from(crowd > 0.0);
                 }
@@ -170,6 +170,6 @@ fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
 #[test]
 fn nothing_is_felt_above_the_surface() {
     let scene = Scene::new(1000);
-    let at = |z: f64| scene.at(&fresh(), Path::detect(), 0.0, &Vector3::new(15.0, 0.0, z));
+    let at = |z: f64| scene.at(&fresh(), InstructionSet::detect(), 0.0, &Vector3::new(15.0, 0.0, z));
     assert!(at(-1e-6) > 0.0 && at(1e-6) == 0.0);
 }

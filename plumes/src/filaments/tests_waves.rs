@@ -1,7 +1,7 @@
 //! Dye under waves: mean places and the orbits about them, compared with the paths of particles in the waves
 //! themselves.
 
-use super::displaced::Displaced;
+use super::displaced::DisplacedConcentration;
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, source};
 use crate::flow::catalogue::CurrentSpec;
@@ -102,7 +102,7 @@ fn a_probe_meets_the_dye_where_the_orbit_has_carried_it() {
     for t in [60.0, 61.0, 62.3] {
         let way = water.displacement(&mean, t).unwrap();
         assert!(way.norm() > 0.09);
-        let dye = Displaced::new(&plume, &water, t);
+        let dye = DisplacedConcentration::new(&plume, &water, t);
         let (met, at_mean) = (dye.at(&(mean + way)), plume.at(&mean));
         // p − ξ(p) misses the mean place by ak of the orbit, 4 mm, compared with a size of 5 cm: 1 − exp(−0.08²/2).
         assert!((met / at_mean - 1.0).abs() < 0.02, "{met} {at_mean}");

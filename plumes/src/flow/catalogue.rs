@@ -20,7 +20,7 @@ use crate::flow::waves::WavesSpec;
 
 /// Where a current joins the water.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<'a> {
+pub struct CurrentSlot<'a> {
     /// Its path in the scenario, such as `water.currents[0]`.
     pub field: &'a str,
     /// The operating area.
@@ -31,7 +31,7 @@ pub struct Place<'a> {
     pub seed: Seed,
 }
 
-impl Place<'_> {
+impl CurrentSlot<'_> {
     /// A mistake of the current as a whole.
     pub(super) fn wrong<T>(&self, problem: &str) -> Result<T, PlumeError> {
         Err(PlumeError::Invalid { field: self.field.to_owned(), problem: problem.to_owned() })
@@ -76,19 +76,19 @@ impl Default for CurrentScales {
 }
 
 /// Parameters of a current, and what they say of it before it is made. The current must follow from them and from its
-/// [`Place`] alone, because runs with the same parameters, place and seed share spin-ups, also from the disk.
+/// [`CurrentSlot`] alone, because runs with the same parameters, place and seed share spin-ups, also from the disk.
 pub trait CurrentParams: Spec {
     /// Takes its part in the water; currents join in the order of the scenario.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError>;
+    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError>;
 
     /// The same for one that the mean of all others carries: it joins when those have.
     ///
     /// # Errors
     /// As [`Self::join`].
-    fn join_carried(&self, _water: &mut Water, _place: &Place, _carrier: Vector2<f64>) -> Result<(), PlumeError> {
+    fn join_carried(&self, _water: &mut Water, _place: &CurrentSlot, _carrier: Vector2<f64>) -> Result<(), PlumeError> {
         Ok(())
     }
 

@@ -27,7 +27,7 @@ use world::registry::Listed;
 
 use crate::error::PlumeError;
 use crate::flow::bed::KARMAN;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::flume::Flume;
 use crate::flow::number::Number;
@@ -83,9 +83,9 @@ impl Listed for OpenChannelSpec {
 }
 
 impl CurrentParams for OpenChannelSpec {
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
         let alone = water.flume.is_none() && water.bed.is_none();
-        let Place { field, area, terrain, seed } = *place;
+        let CurrentSlot { field, area, terrain, seed } = *place;
         water.flume = Some(Flume::build(self, field, area, terrain, alone, seed)?);
         Ok(())
     }

@@ -28,7 +28,7 @@ use world::registry::Listed;
 use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
 use crate::flow::number::{Number, along, times};
 use crate::flow::solenoidal::Solenoidal;
@@ -75,11 +75,11 @@ impl Listed for MeanderSpec {
 }
 
 impl CurrentParams for MeanderSpec {
-    fn join(&self, _: &mut Water, _: &Place) -> Result<(), PlumeError> {
+    fn join(&self, _: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
         Ok(())
     }
 
-    fn join_carried(&self, water: &mut Water, place: &Place, carrier: Vector2<f64>) -> Result<(), PlumeError> {
+    fn join_carried(&self, water: &mut Water, place: &CurrentSlot, carrier: Vector2<f64>) -> Result<(), PlumeError> {
         let meander = self.build(place.field, place.area, carrier, place.seed)?;
         water.meanders.push(meander);
         Ok(())
@@ -117,7 +117,7 @@ pub struct Meander {
     half: Vector2<f64>,
     /// Copies of the water share it.
     grid: Arc<Solenoidal>,
-    carried: Carried,
+    carried: FarrellField,
     dt_s: f64,
     // Stream functions at times (first + k)·dt.
     levels: VecDeque<Vec<f64>>,
@@ -126,7 +126,7 @@ pub struct Meander {
 
 /// Farrell's field itself, before projection, in the area's axes.
 #[derive(Clone, Debug)]
-struct Carried {
+struct FarrellField {
     cells: [usize; 2],
     h: [f64; 2],
     dt: f64,
@@ -178,7 +178,7 @@ impl MeanderSpec {
             })
         });
         let turned = area.local(area.centre + carrier);
-        let mut carried = Carried {
+        let mut carried = FarrellField {
             cells,
             h,
             dt,
@@ -275,7 +275,7 @@ impl Meander {
     }
 }
 
-impl Carried {
+impl FarrellField {
     /// Value at an edge node, linear between the corners (at the start, at an inner node too).
     fn edge(&self, i: usize, j: usize) -> Vector2<f64> {
         let f = i as f64 / self.cells[0] as f64;

@@ -26,7 +26,7 @@ pub mod uniform;
 pub mod water;
 pub mod waves;
 
-pub use blockage::{BlockageSpec, Blocked, Solved};
-pub use catalogue::{CurrentParams, CurrentSpec, Currents, OPTIONS, Place, PlaneCurrent};
+pub use blockage::{BlockageSpec, ObstacleFlow, SolutionReport};
+pub use catalogue::{CurrentParams, CurrentSlot, CurrentSpec, Currents, OPTIONS, PlaneCurrent};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

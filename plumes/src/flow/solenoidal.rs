@@ -12,7 +12,7 @@
 use nalgebra::Vector2;
 
 use crate::flow::number::Number;
-use crate::path::Path;
+use crate::path::InstructionSet;
 
 /// Projector for one rectangle of `cells` of size `h`.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub(crate) struct Solenoidal {
     band: usize,
     // The contribution of each corner of a cell to each spline in it, for x and y.
     shares: [[[f64; 2]; 4]; 9],
-    path: Path,
+    path: InstructionSet,
 }
 
 /// The three splines that are not zero in a cell, or their slopes per cell, at t in [0, 1].
@@ -76,7 +76,7 @@ impl Solenoidal {
             below: vec![0.0; n * band],
             band,
             shares: shares(h),
-            path: Path::detect(),
+            path: InstructionSet::detect(),
         };
         let mut mass = [[0.0; 3]; 3];
         let mut stiff = [[0.0; 3]; 3];
@@ -137,10 +137,10 @@ impl Solenoidal {
     /// Coefficients of the stream function of the field nearest to `u` at the nodes (index i·(my + 1) + j).
     pub(crate) fn project(&self, u: &[Vector2<f64>]) -> Vec<f64> {
         match self.path {
-            Path::Portable => self.solved(u),
+            InstructionSet::Portable => self.solved(u),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 | Path::Avx512 => unsafe { self.solved_avx2(u) },
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.solved_avx2(u) },
         }
     }
 
@@ -324,7 +324,7 @@ mod tests {
                 }
             }
             let bits = |all: &[f64]| all.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-            for path in Path::all() {
+            for path in InstructionSet::all() {
                 s.path = path;
                 assert_eq!(bits(&s.project(&field)), bits(&rows), "{cells:?} {path:?}");
             }

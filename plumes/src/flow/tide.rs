@@ -21,7 +21,7 @@ use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::registry::Listed;
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::number::{Number, still, times};
 use crate::flow::water::Water;
 
@@ -81,7 +81,7 @@ impl Listed for TideSpec {
 }
 
 impl CurrentParams for TideSpec {
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
         water.tides.push(self.build(place.field)?);
         Ok(())
     }

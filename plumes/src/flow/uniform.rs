@@ -14,7 +14,7 @@ use world::ranges::{HeadingDeg, NonNegative};
 use world::registry::Listed;
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::water::Water;
 
 /// A horizontal velocity as a speed and the direction the water goes.
@@ -44,7 +44,7 @@ impl Listed for UniformSpec {
 }
 
 impl CurrentParams for UniformSpec {
-    fn join(&self, water: &mut Water, _: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
         water.uniform += self.velocity();
         Ok(())
     }

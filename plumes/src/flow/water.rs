@@ -34,8 +34,8 @@ use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer};
-use crate::flow::blockage::{BlockageSpec, Blocked};
-use crate::flow::catalogue::{CurrentSpec, Place, PlaneCurrent};
+use crate::flow::blockage::{BlockageSpec, ObstacleFlow};
+use crate::flow::catalogue::{CurrentSlot, CurrentSpec, PlaneCurrent};
 use crate::flow::channel::Channel;
 use crate::flow::eddies::{Eddies, Small};
 use crate::flow::flume::Flume;
@@ -91,14 +91,14 @@ pub struct Water {
     density: f64,
     pub(super) flume: Option<Flume>,
     pub(super) waves: Option<Waves>,
-    blocked: Option<Blocked>,
+    blocked: Option<ObstacleFlow>,
     /// Currents of no kind named above.
-    others: Vec<Other>,
+    others: Vec<ForeignCurrent>,
 }
 
 /// A current of no kind of this crate, with its name in scenarios.
 #[derive(Clone, Debug)]
-struct Other {
+struct ForeignCurrent {
     name: &'static str,
     current: Arc<dyn PlaneCurrent>,
 }
@@ -145,7 +145,7 @@ impl WaterSpec {
         let mut water = self.build(area, terrain, seed)?;
         if let Some(spec) = &self.blockage {
             let free = water.clone();
-            water.blocked = Some(Blocked::new(spec, area, &free.ground, obstacles, free.clone())?);
+            water.blocked = Some(ObstacleFlow::new(spec, area, &free.ground, obstacles, free.clone())?);
         }
         Ok(water)
     }
@@ -172,7 +172,7 @@ impl WaterSpec {
             others: Vec::new(),
         };
         let fields: Vec<String> = (0..self.currents.len()).map(|i| format!("water.currents[{i}]")).collect();
-        let place = |field| Place { field, area, terrain, seed };
+        let place = |field| CurrentSlot { field, area, terrain, seed };
         for (current, field) in self.currents.iter().zip(&fields) {
             current.join(&mut water, &place(field))?;
             water.name_others(current.name());
@@ -195,7 +195,7 @@ impl WaterSpec {
 impl Water {
     /// Adds a current that is the same at all depths.
     pub fn add(&mut self, current: Arc<dyn PlaneCurrent>) {
-        self.others.push(Other { name: "", current });
+        self.others.push(ForeignCurrent { name: "", current });
     }
 
     /// Gives those currents a name that have none yet.
@@ -258,7 +258,7 @@ impl Water {
 
     /// The solution for the obstacles, if they divert the currents.
     #[must_use]
-    pub fn blocked(&self) -> Option<&Blocked> {
+    pub fn blocked(&self) -> Option<&ObstacleFlow> {
         self.blocked.as_ref()
     }
 
@@ -323,11 +323,11 @@ fn fault(name: &str, p: Vector2<f64>, t_s: f64, v: Vector2<f64>) -> Option<Strin
 ///
 /// # Panics
 /// If it flows faster than water does. A plume in such water would take steps without end.
-fn other<N: Number>(other: &Other, p: Vector2<N>, t_s: N) -> Vector2<N> {
+fn other<N: Number>(other: &ForeignCurrent, p: Vector2<N>, t_s: N) -> Vector2<N> {
     /// Small compared with a current's scales, large compared with rounding at places of 10³ m; m and s.
     const H: f64 = 1e-3;
     let place = Vector2::new(p.x.value(), p.y.value());
-    let Other { name, current } = other;
+    let ForeignCurrent { name, current } = other;
     let (now_s, here) = (t_s.value(), current.velocity(place, t_s.value()));
     let fault = fault(name, place, now_s, here);
     assert!(fault.is_none(), "{}", fault.unwrap_or_default());

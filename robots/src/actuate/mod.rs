@@ -7,7 +7,7 @@ mod pilot;
 mod spec;
 
 pub use autopilot::Autopilot;
-pub use drives::{Allocation, Allotted, DrivePilot};
+pub use drives::{Allocation, DrivePilot, ThrusterCommands};
 pub use helm::Helm;
 pub use pilot::Pilot;
 pub use spec::{AutopilotSpec, CATALOGUE};

@@ -10,7 +10,7 @@
 //! *Deviations*: none of the papers has this rule.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
-use super::held::Held;
+use super::held::HeldCondition;
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -54,14 +54,14 @@ impl BeliefRuleParams for Params {
 #[derive(Clone, Debug)]
 pub struct CredibleArea {
     params: Params,
-    held: Held,
+    held: HeldCondition,
 }
 
 impl CredibleArea {
     /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
-        Self { params: params.clone(), held: Held::default() }
+        Self { params: params.clone(), held: HeldCondition::default() }
     }
 }
 

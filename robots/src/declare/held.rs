@@ -8,11 +8,11 @@
 
 /// Since when a condition holds.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Held {
+pub(super) struct HeldCondition {
     since_s: Option<f64>,
 }
 
-impl Held {
+impl HeldCondition {
     /// Tells whether the condition holds at `t_s` and has held since at least `for_s` before, both in s.
     pub(super) fn for_s(&mut self, holds: bool, t_s: f64, for_s: f64) -> bool {
         if !holds {

@@ -10,7 +10,7 @@
 //! maps' `doubt`.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
-use super::held::Held;
+use super::held::HeldCondition;
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -56,7 +56,7 @@ impl BeliefRuleParams for Params {
 #[derive(Clone, Debug)]
 pub struct Sure {
     params: Params,
-    held: Held,
+    held: HeldCondition,
     /// The map and the cell of the last look, and what was stated then: a map changes seldom.
     stated: Option<(u64, usize, f64)>,
 }
@@ -65,7 +65,7 @@ impl Sure {
     /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
-        Self { params: params.clone(), held: Held::default(), stated: None }
+        Self { params: params.clone(), held: HeldCondition::default(), stated: None }
     }
 
     fn probability(&mut self, belief: &Belief) -> f64 {

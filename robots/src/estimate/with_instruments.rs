@@ -6,7 +6,7 @@ mod tests {
     use crate::handoff::Estimate;
     use crate::sense::camera::{Optics, OpticsSpec};
     use crate::sense::{
-        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite, SensorsSpec,
+        AdcpSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite, SensorsSpec, Surroundings,
     };
     use nalgebra::{Vector2, Vector3};
     use world::clock::Clock;
@@ -64,7 +64,7 @@ mod tests {
             };
             let bed = Terrain::Level { depth_m: 8.0 };
             let obstacles = Default::default();
-            let said = suite.read(&Around {
+            let said = suite.read(&Surroundings {
                 clock: &clock,
                 truth: &truth,
                 flow: &Stratified,
@@ -108,7 +108,7 @@ mod tests {
                 ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, -depth_m), east))
             };
             let bed = Terrain::Level { depth_m: 8.0 };
-            let readings = suite.read(&Around {
+            let readings = suite.read(&Surroundings {
                 clock: &clock,
                 truth: &truth,
                 flow: &TwoLayers,

@@ -9,7 +9,7 @@
 //! quantisation; what is marked invalid stays as it is. A range beyond the ranging's own is no echo. Numbers that
 //! instruments of other crates write into `other` have no faults.
 
-use super::amiss::{Amiss, Instrument};
+use super::reading_fault::{Instrument, ReadingFault};
 use super::span::Span;
 use super::spec::{FaultSpec, Of};
 use crate::handoff::{Beam, ChemicalReading, RangeScan, Readings};
@@ -20,7 +20,7 @@ use world::clock::Clock;
 /// The faults of a robot's instruments.
 #[derive(Component, Clone, Debug, Default)]
 pub struct SensorFaults {
-    faults: Vec<(Span, Instrument, Amiss)>,
+    faults: Vec<(Span, Instrument, ReadingFault)>,
     scale: Option<Scale>,
     /// The last reading of each instrument. Apart, because most robots have no faults.
     last: Box<Readings>,
@@ -70,7 +70,14 @@ impl SensorFaults {
     }
 }
 
-fn alter(what: Instrument, amiss: &Amiss, lasted_s: f64, scale: Option<&Scale>, now: &mut Readings, last: &Readings) {
+fn alter(
+    what: Instrument,
+    amiss: &ReadingFault,
+    lasted_s: f64,
+    scale: Option<&Scale>,
+    now: &mut Readings,
+    last: &Readings,
+) {
     let off = amiss.off(lasted_s);
     match what {
         Instrument::Fluorometer => one(amiss, &mut now.chemical, &last.chemical, |r| {
@@ -110,11 +117,11 @@ fn alter(what: Instrument, amiss: &Amiss, lasted_s: f64, scale: Option<&Scale>, 
 }
 
 /// Alters the reading of one instrument, if it made one in this step.
-fn one<T: Clone>(amiss: &Amiss, now: &mut Option<T>, last: &Option<T>, wrong: impl FnOnce(&mut T)) {
+fn one<T: Clone>(amiss: &ReadingFault, now: &mut Option<T>, last: &Option<T>, wrong: impl FnOnce(&mut T)) {
     match (amiss, now.as_mut(), last) {
-        (Amiss::Silent, ..) => *now = None,
-        (Amiss::Stuck, Some(now), Some(last)) => now.clone_from(last),
-        (Amiss::Stuck, ..) | (_, None, _) => {}
+        (ReadingFault::Silent, ..) => *now = None,
+        (ReadingFault::Stuck, Some(now), Some(last)) => now.clone_from(last),
+        (ReadingFault::Stuck, ..) | (_, None, _) => {}
         (_, Some(now), _) => wrong(now),
     }
 }

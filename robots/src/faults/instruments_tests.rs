@@ -7,8 +7,8 @@ use super::super::{
 use crate::handoff::Readings;
 use crate::sense::camera::{Optics, OpticsSpec};
 use crate::sense::{
-    AdcpSpec, AltimeterSpec, Around, Asked, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
-    OnBoard, RangingSpec, SensorSuite, SensorsSpec, SidescanSpec,
+    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, OnBoard, RangingSpec,
+    SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
 };
 use nalgebra::{Vector2, Vector3};
 use world::clock::Clock;
@@ -62,7 +62,7 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
     let mut all = Vec::new();
     for _ in 0..STEPS {
         let p = Vector3::new(0.0, 0.1 * clock.t_s(), -depth_m);
-        let mut readings = suite.read(&Around {
+        let mut readings = suite.read(&Surroundings {
             clock: &clock,
             truth: &Truth::at_rest(Pose::level(p, north)),
             flow: &Still,
@@ -70,7 +70,7 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
             terrain: &Terrain::Level { depth_m: 8.0 },
             obstacles: &Obstacles::default(),
             optics: &optics,
-            asked: Asked::default(),
+            asked: SensorRequests::default(),
         });
         faults.alter(&clock, &mut readings);
         all.push(readings);

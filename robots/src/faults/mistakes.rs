@@ -1,7 +1,7 @@
 //! What is wrong with the faults of a robot: things that it has not, times that contradict each other.
 
-use super::amiss::Instrument;
 use super::drive_spec::DriveFault;
+use super::reading_fault::Instrument;
 use super::spec::{FaultSpec, Faulty, Of};
 use crate::handoff::{DriveUnit, NamedDrive};
 use crate::sense::SensorsSpec;

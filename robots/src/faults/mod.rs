@@ -5,12 +5,12 @@
 //! no instrument, vehicle or stream of random numbers knows of a fault, and a robot without faults runs as ever. A
 //! searcher learns of a fault only through its readings.
 
-mod amiss;
 mod drive_spec;
 mod drives;
 mod instrument_spec;
 mod instruments;
 mod mistakes;
+mod reading_fault;
 mod span;
 mod spec;
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! A fault as a scenario states it: when, of what, and how.
 
-use super::amiss::{Amiss, Instrument};
 use super::drive_spec::{DriveFault, DriveSpec, FinFault, PropellerFault};
 use super::instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault};
+use super::reading_fault::{Instrument, ReadingFault};
 use super::span::Span;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -64,7 +64,7 @@ const PROPELLER: &str = "propeller";
 /// What a fault is of.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Of<'a> {
-    Instrument(Instrument, Amiss),
+    Instrument(Instrument, ReadingFault),
     /// A drive by its name.
     Drive(&'a str, DriveFault),
 }

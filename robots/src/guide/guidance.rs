@@ -12,7 +12,7 @@ use super::dubins::{Follower, FollowerLimits, Pose};
 use super::flow_compensation::compensate;
 use super::follow_line::{FollowLine, LineLimits};
 use super::go_to_point::GoToPoint;
-use super::hover::{Hovering, Wanted};
+use super::hover::{HoverDemand, Hovering};
 use super::known::Known;
 use super::rate_filter::RateFilter;
 use super::spec::GuidanceSpec;
@@ -151,7 +151,7 @@ impl Guidance {
     }
 
     /// The command of a hovering vehicle: its velocity within the cage and the limit of its speed.
-    fn moved(&self, est: &Estimate, goal: &Goal, wanted: &Wanted, sides: &Sides) -> Command {
+    fn moved(&self, est: &Estimate, goal: &Goal, wanted: &HoverDemand, sides: &Sides) -> Command {
         let speed = wanted.velocity_m_s.norm();
         let over_ground_m_s = if speed > 0.0 {
             let course = Heading::of(wanted.velocity_m_s);

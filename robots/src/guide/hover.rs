@@ -27,7 +27,7 @@ const TAKEN_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// What a hovering vehicle is to do in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Wanted {
+pub(super) struct HoverDemand {
     /// Velocity over ground (east, north), m/s.
     pub(super) velocity_m_s: Vector2<f64>,
     /// Heading; `None` for the one that it has.
@@ -59,14 +59,14 @@ impl Hovering {
     }
 
     /// What to do at a place, at a speed (m/s).
-    pub(super) fn step(&mut self, at: Pose, speed_m_s: f64) -> Wanted {
+    pub(super) fn step(&mut self, at: Pose, speed_m_s: f64) -> HoverDemand {
         let to = |point: Vector2<f64>, reached_m: f64, heading: Option<Heading>| {
             let way = point - at.position;
             let distance_m = way.norm();
             let along = (distance_m > NEAR_M).then(|| Heading::of(way));
             let speed = speed_m_s.min(APPROACH_1_S * distance_m);
             let velocity_m_s = if distance_m > 0.0 { way * (speed / distance_m) } else { Vector2::zeros() };
-            Wanted { velocity_m_s, heading: heading.or(along), done: distance_m < reached_m }
+            HoverDemand { velocity_m_s, heading: heading.or(along), done: distance_m < reached_m }
         };
         match self.manoeuvre {
             Manoeuvre::GoToPoint { point, radius_m } => to(point, radius_m.unwrap_or(self.arrive_m), None),
@@ -85,9 +85,9 @@ impl Hovering {
                     let begun = to(from, HELD_M, None);
                     self.on_line |= begun.done;
                     if !self.on_line {
-                        return Wanted { done: false, ..begun };
+                        return HoverDemand { done: false, ..begun };
                     }
-                    Wanted {
+                    HoverDemand {
                         velocity_m_s: line.course(at.position).unit() * speed_m_s,
                         heading: Some(line.direction()),
                         done: line.finished(at.position),
@@ -96,10 +96,10 @@ impl Hovering {
                 None => to(from, self.arrive_m, None),
             },
             Manoeuvre::Course { course } => {
-                Wanted { velocity_m_s: course.unit() * speed_m_s, heading: Some(course), done: false }
+                HoverDemand { velocity_m_s: course.unit() * speed_m_s, heading: Some(course), done: false }
             }
             Manoeuvre::Direct { .. } | Manoeuvre::Steer { .. } | Manoeuvre::Slide { .. } | Manoeuvre::Drives(_) => {
-                Wanted { velocity_m_s: Vector2::zeros(), heading: None, done: false }
+                HoverDemand { velocity_m_s: Vector2::zeros(), heading: None, done: false }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What the vehicle believes. It is a type of its own so that nobody can confuse it with the truth.
 
 use super::{Belief, Capabilities, ChemicalReading, GuidanceStatus, RangeScan};
-use super::{Picture, SidescanPing, Told};
+use super::{Picture, ReplyOutcome, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use world::area::Area;
@@ -123,7 +123,7 @@ pub struct Observation {
     /// Numbers of other instruments in this tick, by name.
     pub other: Vec<(&'static str, f64)>,
     /// What a searcher outside this program was heard to say in this tick, if it was asked.
-    pub told: Option<Told>,
+    pub told: Option<ReplyOutcome>,
 }
 
 /// Whether the chemical sensor reported a detection in this tick.

@@ -4,7 +4,7 @@
 //! a flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame: it knows
 //! neither the flume's coordinates nor the flow.
 
-use super::Told;
+use super::ReplyOutcome;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 
@@ -76,7 +76,7 @@ pub struct GantryObservation {
     /// Readings.
     pub readings: GantryReadings,
     /// What a searcher outside this program was heard to say in this tick, if it was asked.
-    pub told: Option<Told>,
+    pub told: Option<ReplyOutcome>,
 }
 
 /// What a gantry's searcher is doing.

@@ -3,7 +3,6 @@
 //! A type here has public fields, constructors and simple accessors. Algorithms and state that lasts from tick to
 //! tick belong to the stages, or to [`crate::memory`] and [`crate::places`] where several stages need them.
 
-mod answer;
 mod belief;
 mod bounds;
 mod command;
@@ -21,11 +20,11 @@ mod rates;
 mod readings;
 mod readings_fault;
 mod regions;
+mod reply;
 mod setting;
 mod side;
 mod zone;
 
-pub use answer::{Answer, Consulted, HeadOrder, MoveOrder, Order, Told};
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use bounds::Bounds;
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
@@ -50,6 +49,7 @@ pub use readings::{
     LblFix, RangeScan, Readings,
 };
 pub use regions::{Region, RegionState, Regions, region_name};
+pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};
 pub use setting::Setting;
 pub use side::Side;
 pub use zone::Zone;

@@ -7,7 +7,7 @@
 //! *Deviations*: none. Where no corner may be cut, cells that are joined by any move are also joined through faces,
 //! so that the flood through faces tells what can be reached.
 
-use super::{NoPath, Revision, Room};
+use super::{FreeSpace, NoPath, Revision};
 use nalgebra::Vector3;
 
 /// The components of a room's free cells, kept until the room changes.
@@ -20,7 +20,7 @@ pub(super) struct Ends {
 
 /// Resolved ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Resolved {
+pub(super) struct ResolvedEnds {
     /// Free cell where the path begins.
     pub(super) start: usize,
     /// The start itself was not free.
@@ -35,11 +35,11 @@ impl Ends {
     /// The ends of a path in `room`; `open` tells which of its cells are free.
     pub(super) fn resolve(
         &mut self,
-        room: &Room,
+        room: &FreeSpace,
         open: impl Fn(usize) -> bool,
         start: &Vector3<f64>,
         goal: &Vector3<f64>,
-    ) -> Result<Resolved, NoPath> {
+    ) -> Result<ResolvedEnds, NoPath> {
         if self.of.as_ref() != Some(room.revision()) {
             self.label(room, &open);
         }
@@ -48,11 +48,11 @@ impl Ends {
         let label = self.labels[begin];
         let wanted = room.nearest_cell(goal);
         let end = self.nearest(room, goal, wanted, |l| l == label).ok_or(NoPath::Full)?;
-        Ok(Resolved { start: begin, leaves_solid: begin != own, goal: end, at_goal: end == wanted })
+        Ok(ResolvedEnds { start: begin, leaves_solid: begin != own, goal: end, at_goal: end == wanted })
     }
 
     /// The cell of a wanted component nearest to `p`; `own` is preferred to all others.
-    fn nearest(&self, room: &Room, p: &Vector3<f64>, own: usize, wanted: impl Fn(u32) -> bool) -> Option<usize> {
+    fn nearest(&self, room: &FreeSpace, p: &Vector3<f64>, own: usize, wanted: impl Fn(u32) -> bool) -> Option<usize> {
         if wanted(self.labels[own]) {
             return Some(own);
         }
@@ -72,7 +72,7 @@ impl Ends {
         best.1
     }
 
-    fn label(&mut self, room: &Room, open: impl Fn(usize) -> bool) {
+    fn label(&mut self, room: &FreeSpace, open: impl Fn(usize) -> bool) {
         const UNSEEN: u32 = u32::MAX;
         let n = room.lattice().n;
         let (row, layer, all) = (n[0], n[0] * n[1], n[0] * n[1] * n[2]);

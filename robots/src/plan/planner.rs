@@ -7,7 +7,7 @@
 //!
 //! *Deviations*: the paper does not say what a planner answers if it cannot reach its goal: see [`Reach`].
 
-use super::Room;
+use super::FreeSpace;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use world::units::Heading;
@@ -72,5 +72,5 @@ pub trait Planner: Debug + Send + Sync {
     ///
     /// # Errors
     /// If no cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
-    fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath>;
+    fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath>;
 }

@@ -14,7 +14,7 @@
 //! says so.
 
 use super::catalogue::PlannerParams;
-use super::{From, NoPath, Path, Planner, Reach, Room};
+use super::{FreeSpace, From, NoPath, Path, Planner, Reach};
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
@@ -144,7 +144,7 @@ impl PotentialField {
     }
 
     /// Downhill direction of the potential (not a unit vector).
-    fn downhill(&self, room: &Room, p: &Vector3<f64>, goal: &Vector3<f64>) -> Vector3<f64> {
+    fn downhill(&self, room: &FreeSpace, p: &Vector3<f64>, goal: &Vector3<f64>) -> Vector3<f64> {
         let k = &self.params;
         let to = goal - p;
         let pull = to * (k.pull.get() / to.norm().max(k.near_m.get()));
@@ -159,7 +159,7 @@ impl PotentialField {
 }
 
 /// Clearance and its slope at a point, by linear interpolation between the middles of cells.
-fn field(room: &Room, p: &Vector3<f64>) -> (f64, Vector3<f64>) {
+fn field(room: &FreeSpace, p: &Vector3<f64>) -> (f64, Vector3<f64>) {
     let g = room.lattice();
     let d = p.xy() - g.corner.xy();
     let local = [d.dot(&g.axes[0]), d.dot(&g.axes[1]), p.z - g.corner.z];
@@ -193,7 +193,7 @@ fn field(room: &Room, p: &Vector3<f64>) -> (f64, Vector3<f64>) {
 }
 
 impl Planner for PotentialField {
-    fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+    fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
         if !(0..room.lattice().len()).any(|c| room.free(c)) {
             return Err(NoPath::Full);
         }
@@ -269,7 +269,7 @@ mod tests {
         From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
     }
 
-    fn plan(room: &Room, start: From, goal: Vector3<f64>) -> Path {
+    fn plan(room: &FreeSpace, start: From, goal: Vector3<f64>) -> Path {
         PotentialField::new(&Params::default()).unwrap().plan(room, &start, &goal).unwrap()
     }
 

@@ -15,7 +15,7 @@
 use super::buckets::Buckets;
 use super::neighbours::{BEYOND, BLOCKED, Neighbours, PARTS, ones};
 use super::octile::Octile;
-use super::{Revision, Room};
+use super::{FreeSpace, Revision};
 
 /// Units of cost in the shortest side of a cell.
 const UNITS: f64 = 512.0;
@@ -73,7 +73,13 @@ impl Search {
 
     /// Cheapest way between two cells that are both free and joined, and its cost in units; `blind` leaves the
     /// heuristic out (Dijkstra's search, for tests).
-    pub(super) fn run(&mut self, room: &Room, start: usize, goal: usize, blind: bool) -> Option<(Vec<usize>, u32)> {
+    pub(super) fn run(
+        &mut self,
+        room: &FreeSpace,
+        start: usize,
+        goal: usize,
+        blind: bool,
+    ) -> Option<(Vec<usize>, u32)> {
         if self.of.as_ref() != Some(room.revision()) {
             self.take_in(room);
         }
@@ -115,7 +121,7 @@ impl Search {
         None
     }
 
-    fn take_in(&mut self, room: &Room) {
+    fn take_in(&mut self, room: &FreeSpace) {
         let lattice = room.lattice();
         let plane = room.plane();
         let border = [2, 2, if plane { 0 } else { 2 }];
@@ -142,7 +148,7 @@ impl Search {
         self.of = Some(room.revision().clone());
     }
 
-    fn padded(&self, room: &Room, cell: usize) -> usize {
+    fn padded(&self, room: &FreeSpace, cell: usize) -> usize {
         let [i, j, k] = room.lattice().place(cell);
         let up = usize::from(!room.plane());
         ((k + up) * self.n[1] + j + 1) * self.n[0] + i + 1
@@ -153,7 +159,7 @@ impl Search {
         [cell % self.n[0], row % self.n[1], row / self.n[1]]
     }
 
-    fn way(&self, room: &Room, start: usize, goal: usize) -> Vec<usize> {
+    fn way(&self, room: &FreeSpace, start: usize, goal: usize) -> Vec<usize> {
         let up = usize::from(!room.plane());
         let mut cells = Vec::new();
         let mut at = goal;

@@ -11,7 +11,7 @@
 //! corner; the path reports its tightest turn. The turn from the vehicle's own direction to the first leg is part of
 //! the path if one of the two turning circles is free; otherwise the path begins with a corner.
 
-use super::{From, Room};
+use super::{FreeSpace, From};
 use crate::plan::search::Costs;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -26,7 +26,7 @@ const STRAIGHT_RAD: f64 = 0.02;
 const SLACK: f64 = 1.005;
 
 /// Cost of a straight line: its length, with a higher price for the vertical and for small clearance.
-fn line_cost(room: &Room, costs: &Costs, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+fn line_cost(room: &FreeSpace, costs: &Costs, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     let d = b - a;
     let length = (d.xy().norm_squared() + (costs.climb * d.z) * (costs.climb * d.z)).sqrt();
     if costs.weight == 0.0 || costs.soft_m == 0.0 {
@@ -44,7 +44,7 @@ fn line_cost(room: &Room, costs: &Costs, a: &Vector3<f64>, b: &Vector3<f64>) -> 
 }
 
 /// Leaves out the points that a free straight line can bypass at no higher cost.
-pub(super) fn pull(room: &Room, costs: &Costs, points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+pub(super) fn pull(room: &FreeSpace, costs: &Costs, points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut upto = vec![0.0; points.len()];
     for k in 1..points.len() {
         upto[k] = upto[k - 1] + line_cost(room, costs, &points[k - 1], &points[k]);
@@ -98,13 +98,13 @@ fn arc(start: Vector3<f64>, centre: Vector2<f64>, angle: f64, z: f64) -> Vec<Vec
         .collect()
 }
 
-fn free(room: &Room, from: &Vector3<f64>, points: &[Vector3<f64>]) -> bool {
+fn free(room: &FreeSpace, from: &Vector3<f64>, points: &[Vector3<f64>]) -> bool {
     let mut last = from;
     points.iter().all(|p| room.line_free(std::mem::replace(&mut last, p), p))
 }
 
 /// The turn from the start's own direction towards `to` on one of the two turning circles: the shorter free one.
-fn first_turn(room: &Room, start: &From, to: &Vector3<f64>, radius_m: f64) -> Option<Vec<Vector3<f64>>> {
+fn first_turn(room: &FreeSpace, start: &From, to: &Vector3<f64>, radius_m: f64) -> Option<Vec<Vector3<f64>>> {
     let mut best: Option<(f64, Vec<Vector3<f64>>)> = None;
     for turn in [1.0, -1.0] {
         let centre = start.p_W.xy() + start.heading.turned(turn * FRAC_PI_2).unit() * radius_m;
@@ -130,7 +130,12 @@ fn first_turn(room: &Room, start: &From, to: &Vector3<f64>, radius_m: f64) -> Op
 }
 
 /// Rounds the corners; returns the path and the radius of its tightest turn, m.
-pub(super) fn round(room: &Room, start: &From, points: &[Vector3<f64>], radius_m: f64) -> (Vec<Vector3<f64>>, f64) {
+pub(super) fn round(
+    room: &FreeSpace,
+    start: &From,
+    points: &[Vector3<f64>],
+    radius_m: f64,
+) -> (Vec<Vector3<f64>>, f64) {
     let mut tightest = f64::INFINITY;
     let mut made = vec![points[0]];
     let Some(second) = points.get(1) else {

@@ -1,6 +1,6 @@
 //! Shared by the planners' tests.
 
-use super::Room;
+use super::FreeSpace;
 use crate::handoff::BeliefGrid;
 use crate::handoff::testing;
 use nalgebra::{Vector2, Vector3};
@@ -19,16 +19,16 @@ pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Ob
 }
 
 /// A room with blocks in it.
-pub(crate) fn room(n: [usize; 3], cell_m: [f64; 3], blocks: Vec<Obstacle>) -> Room {
-    let mut room = Room::new(lattice(n, cell_m), 0.4, 10.0);
+pub(crate) fn room(n: [usize; 3], cell_m: [f64; 3], blocks: Vec<Obstacle>) -> FreeSpace {
+    let mut room = FreeSpace::new(lattice(n, cell_m), 0.4, 10.0);
     let bed = Terrain::Level { depth_m: 8.0 };
     room.chart(&Obstacles(blocks), &bed, &|_, _| -4.0);
     room
 }
 
 /// A room with single cells solid at random.
-pub(crate) fn speckled(n: [usize; 3], cell_m: [f64; 3], share: f64, seed: u64) -> Room {
-    let mut room = Room::new(lattice(n, cell_m), 0.0, 0.0);
+pub(crate) fn speckled(n: [usize; 3], cell_m: [f64; 3], share: f64, seed: u64) -> FreeSpace {
+    let mut room = FreeSpace::new(lattice(n, cell_m), 0.0, 0.0);
     let mut rng = Stream::new(seed, "room", "solid");
     for cell in 0..room.lattice().len() {
         if rng.uniform() < share {

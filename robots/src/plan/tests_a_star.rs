@@ -13,13 +13,13 @@ fn from(x: f64, y: f64, z: f64) -> From {
     From { p_W: Vector3::new(x, y, z), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
 }
 
-fn free(room: &Room, path: &Path) -> bool {
+fn free(room: &FreeSpace, path: &Path) -> bool {
     let skip = usize::from(path.leaves_solid);
     path.points[skip..].windows(2).all(|w| room.line_free(&w[0], &w[1]))
 }
 
 /// A U that is open to the vehicle's side.
-fn trap() -> Room {
+fn trap() -> FreeSpace {
     room(
         [100, 100, 1],
         [1.0; 3],

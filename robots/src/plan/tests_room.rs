@@ -5,8 +5,8 @@ use crate::handoff::testing::fixed;
 use crate::plan::testing::{block, lattice};
 use proptest::prelude::*;
 
-fn room() -> Room {
-    Room::new(lattice([20, 20, 1], [1.0, 1.0, 1.0]), 0.5, 3.0)
+fn room() -> FreeSpace {
+    FreeSpace::new(lattice([20, 20, 1], [1.0, 1.0, 1.0]), 0.5, 3.0)
 }
 
 #[test]
@@ -64,7 +64,7 @@ proptest! {
     ) {
         let solid = Obstacles(vec![block("b", 4.0, 4.0, [2.0, 3.0, 8.0])]);
         let make = || {
-            let mut r = Room::new(lattice([12, 9, deep], [1.0, 1.5, 0.7]), 0.5, reach);
+            let mut r = FreeSpace::new(lattice([12, 9, deep], [1.0, 1.5, 0.7]), 0.5, reach);
             r.chart(&solid, &Terrain::Level { depth_m: 8.0 }, &|_, _| -4.0);
             r
         };
@@ -90,7 +90,7 @@ proptest! {
     fn a_line_meets_every_cell_it_samples(
         ax in 0.0..20.0, ay in 0.0..20.0, az in 0.0..5.0, bx in 0.0..20.0, by in 0.0..20.0, bz in 0.0..5.0,
     ) {
-        let r = Room::new(lattice([20, 10, 10], [1.0, 2.0, 0.5]), 0.5, 3.0);
+        let r = FreeSpace::new(lattice([20, 10, 10], [1.0, 2.0, 0.5]), 0.5, 3.0);
         let z0 = r.lattice().corner.z;
         let (a, b) = (Vector3::new(ax, ay, z0 + az), Vector3::new(bx, by, z0 + bz));
         let mut met = Vec::new();

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 const COSTS: Costs = Costs { climb: 3.0, weight: 2.0, soft_m: 4.0 };
 
 /// The cells to which a free cell has a move, and what the move costs, written out: no corner cut.
-fn steps(s: &Search, room: &Room, cell: usize) -> Vec<(usize, u32)> {
+fn steps(s: &Search, room: &FreeSpace, cell: usize) -> Vec<(usize, u32)> {
     let g = room.lattice();
     let at = g.place(cell).map(|v| v as i64);
     let mut out = Vec::new();
@@ -34,7 +34,7 @@ fn steps(s: &Search, room: &Room, cell: usize) -> Vec<(usize, u32)> {
 }
 
 /// Bellman-Ford with the same costs: relaxes until nothing changes, without queue and heuristic.
-fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
+fn slow(room: &FreeSpace, costs: Costs, start: usize, goal: usize) -> Option<u32> {
     let mut s = Search::new(costs);
     s.take_in(room);
     let mut g = vec![FAR; s.penalty.len()];
@@ -61,7 +61,7 @@ fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
     (cost != FAR).then_some(cost)
 }
 
-fn ends(room: &Room, a: [f64; 2], b: [f64; 2]) -> Option<(usize, usize)> {
+fn ends(room: &FreeSpace, a: [f64; 2], b: [f64; 2]) -> Option<(usize, usize)> {
     let g = room.lattice();
     let point = |[u, v]: [f64; 2]| {
         let (x, y) = (u * g.n[0] as f64 * g.cell_m[0], v * g.n[1] as f64 * g.cell_m[1]);
@@ -114,7 +114,7 @@ proptest! {
         x in proptest::array::uniform3(1.0..5.0), climb in 1.0..6.0,
         at in proptest::array::uniform3(1_usize..11), to in proptest::array::uniform3(0_usize..12),
     ) {
-        let r = Room::new(crate::plan::testing::lattice([12, 12, 12], x), 0.0, 0.0);
+        let r = FreeSpace::new(crate::plan::testing::lattice([12, 12, 12], x), 0.0, 0.0);
         let mut s = Search::new(Costs { climb, ..COSTS });
         s.take_in(&r);
         let target = to.map(|v| v + 1);

@@ -13,8 +13,8 @@
 //! heights. As for the Doppler log, the velocity is relative to the body's origin.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
-use super::tools::Below;
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::tools::EchoTarget;
 use crate::error::RobotError;
 use crate::handoff::AdcpReading;
 use crate::handoff::Readings;
@@ -88,7 +88,7 @@ impl SensorParams for AdcpSpec {
 }
 
 impl Sensor for Adcp {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.adcp = self.read(around.clock, around.truth, around.flow, &around.below());
     }
 }
@@ -137,7 +137,7 @@ impl Adcp {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow, below: &Below) -> Option<AdcpReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow, below: &EchoTarget) -> Option<AdcpReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -173,7 +173,7 @@ impl Adcp {
 
 /// Distance through the water along a beam axis to the surface or the bed, m; `None` out of the water or if the
 /// vehicle lies on its side.
-fn water_along(below: &Below, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
+fn water_along(below: &EchoTarget, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
     const LEAST_COS: f64 = 0.5;
     if p.z >= 0.0 {
         None

@@ -9,8 +9,8 @@
 //! height with the vehicle's tilt, here without the small noise of the tilt.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
-use super::tools::Below;
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::tools::EchoTarget;
 use crate::error::RobotError;
 use crate::handoff::AltimeterReading;
 use crate::handoff::Readings;
@@ -68,7 +68,7 @@ impl SensorParams for AltimeterSpec {
 }
 
 impl Sensor for Altimeter {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.altimeter = self.read(around.clock, around.truth, &around.below());
     }
 }
@@ -106,7 +106,7 @@ impl Altimeter {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &Below) -> Option<AltimeterReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &EchoTarget) -> Option<AltimeterReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -186,7 +186,7 @@ mod tests {
         let bed = Terrain::Level { depth_m: 8.0 };
         let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 4.0])]);
         let read = |obstacles: &Obstacles| {
-            let below = Below { terrain: &bed, obstacles };
+            let below = EchoTarget { terrain: &bed, obstacles };
             altimeter(0.0).read(&Clock::new(0.02), &t, &below).unwrap().altitude_m
         };
         assert!((read(&solids) - 1.9).abs() < 1e-9, "{}", read(&solids));

@@ -9,7 +9,7 @@
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::AttitudeReading;
 use crate::handoff::Readings;
@@ -65,7 +65,7 @@ impl SensorParams for CompassSpec {
 }
 
 impl Sensor for Compass {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.attitude = self.read(around.clock, around.truth);
     }
 }

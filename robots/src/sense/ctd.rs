@@ -12,7 +12,7 @@
 //! salt and heat of its own. The depth comes from the depth sensor; this instrument measures none.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::CtdReading;
 use crate::handoff::Readings;
@@ -61,7 +61,7 @@ impl SensorParams for CtdSpec {
 }
 
 impl Sensor for Ctd {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.ctd = self.read(around.clock, around.truth, around.flow);
     }
 }

@@ -7,7 +7,7 @@
 //! *Deviations:* the density profile causes no depth errors; the pressure from the vehicle's own motion is left out.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::DepthReading;
 use crate::handoff::Readings;
@@ -55,7 +55,7 @@ impl SensorParams for DepthSpec {
 }
 
 impl Sensor for Depth {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.depth = self.read(around.clock, around.truth, around.flow);
     }
 }

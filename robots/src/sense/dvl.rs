@@ -13,8 +13,8 @@
 //! vehicle's rotation is removed with the gyros, as vehicles do, here without the small noise of the gyros.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
-use super::tools::Below;
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::tools::EchoTarget;
 use crate::error::RobotError;
 use crate::handoff::DvlReading;
 use crate::handoff::Readings;
@@ -75,7 +75,7 @@ impl SensorParams for DvlSpec {
 }
 
 impl Sensor for Dvl {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.dvl = self.read(around.clock, around.truth, &around.below());
     }
 }
@@ -117,7 +117,7 @@ impl Dvl {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &Below) -> Option<DvlReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &EchoTarget) -> Option<DvlReading> {
         if !self.every.due(clock) {
             return None;
         }

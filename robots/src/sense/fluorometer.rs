@@ -12,7 +12,7 @@
 //! linear between two samples. Power-up time and blank drift are left out.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::ChemicalReading;
 use crate::handoff::Readings;
@@ -79,7 +79,7 @@ impl SensorParams for FluorometerSpec {
 }
 
 impl Sensor for Fluorometer {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.chemical = self.read(around.clock, around.truth, around.dye);
     }
 }

@@ -10,7 +10,7 @@
 //! left out.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::LblFix;
 use crate::handoff::Readings;
@@ -59,7 +59,7 @@ impl SensorParams for LblSpec {
 }
 
 impl Sensor for Lbl {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.lbl = self.read(around.clock, around.truth);
     }
 }

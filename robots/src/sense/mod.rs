@@ -33,5 +33,5 @@ pub use on_board::OnBoard;
 pub use probe::{Probes, ProbesSpec};
 pub use ranging::{Ranging, RangingSpec};
 pub use sidescan::{Sidescan, SidescanSpec};
-pub use suite::{Around, Asked, Fitting, Sensor, SensorParams, SensorSuite, Sensors, SensorsSpec, cost};
-pub use tools::Below;
+pub use suite::{Fitting, Sensor, SensorParams, SensorRequests, SensorSuite, Sensors, SensorsSpec, Surroundings, cost};
+pub use tools::EchoTarget;

@@ -12,7 +12,7 @@
 //! free.
 
 use super::on_board::OnBoard;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::Readings;
 use crate::handoff::{Beam, RangeScan};
@@ -105,7 +105,7 @@ impl SensorParams for RangingSpec {
 }
 
 impl Sensor for Ranging {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.ranging = self.read(around.clock, around.truth, around.obstacles, around.terrain);
     }
 }

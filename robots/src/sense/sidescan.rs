@@ -23,7 +23,7 @@
 
 use super::on_board::OnBoard;
 use super::sidescan_fan::Fan;
-use super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::Readings;
 use crate::handoff::SidescanPing;
@@ -129,7 +129,7 @@ impl SensorParams for SidescanSpec {
 }
 
 impl Sensor for Sidescan {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         readings.sidescan =
             self.read(around.clock, around.truth, around.obstacles, around.terrain, around.asked.survey);
     }

@@ -2,7 +2,7 @@
 
 use super::camera::{CameraSpec, Optics};
 use super::on_board::OnBoard;
-use super::tools::Below;
+use super::tools::EchoTarget;
 use super::{
     AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, RangingSpec,
     SidescanSpec,
@@ -56,7 +56,7 @@ impl Fitting<'_> {
 
 /// Everything that can be sensed in a step.
 #[derive(Clone, Copy)]
-pub struct Around<'a> {
+pub struct Surroundings<'a> {
     /// Time.
     pub clock: &'a Clock,
     /// The vehicle's motion.
@@ -72,21 +72,21 @@ pub struct Around<'a> {
     /// Light in the water.
     pub optics: &'a Optics,
     /// Requests of the strategy.
-    pub asked: Asked,
+    pub asked: SensorRequests,
 }
 
-impl Around<'_> {
+impl Surroundings<'_> {
     /// What an echo sounder may hear.
     #[must_use]
-    pub fn below(&self) -> Below<'_> {
-        Below { terrain: self.terrain, obstacles: self.obstacles }
+    pub fn below(&self) -> EchoTarget<'_> {
+        EchoTarget { terrain: self.terrain, obstacles: self.obstacles }
     }
 }
 
 /// An instrument. It draws from a stream of its own: [`OnBoard::stream`].
 pub trait Sensor: std::fmt::Debug + Send + Sync {
     /// Reads its surroundings, and writes its readings of this step.
-    fn sense(&mut self, around: &Around, readings: &mut Readings);
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings);
 }
 
 /// Parameters of an instrument; their name is the field of `sensors`.
@@ -162,14 +162,14 @@ pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times)
 
 /// Requests of the strategy to the instruments in the step before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Asked {
+pub struct SensorRequests {
     /// A picture.
     pub picture: bool,
     /// The vehicle is on a survey.
     pub survey: bool,
 }
 
-impl From<&Decision> for Asked {
+impl From<&Decision> for SensorRequests {
     fn from(decision: &Decision) -> Self {
         Self { picture: decision.picture, survey: decision.behaviour == Behaviour::Survey }
     }
@@ -201,7 +201,7 @@ impl SensorSuite {
     }
 
     /// The readings of all instruments in this step.
-    pub fn read(&mut self, around: &Around) -> Readings {
+    pub fn read(&mut self, around: &Surroundings) -> Readings {
         let mut readings = Readings::default();
         self.read_into(around, &mut readings);
         readings
@@ -211,7 +211,7 @@ impl SensorSuite {
     ///
     /// # Panics
     /// If an instrument of another crate gives a reading that is no number.
-    pub fn read_into(&mut self, around: &Around, readings: &mut Readings) {
+    pub fn read_into(&mut self, around: &Surroundings, readings: &mut Readings) {
         empty(readings);
         for (sensor, own) in &mut self.all {
             sensor.sense(around, readings);
@@ -276,7 +276,7 @@ mod tests {
         let t = at(0.0, 0.0, -5.0);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
-            let around = Around {
+            let around = Surroundings {
                 clock: c,
                 truth: &t,
                 flow: &Still,
@@ -284,7 +284,7 @@ mod tests {
                 terrain: &BED,
                 obstacles: &Obstacles::default(),
                 optics: &optics,
-                asked: Asked::default(),
+                asked: SensorRequests::default(),
             };
             again.read_into(&around, &mut kept);
             let fresh = suite.read(&around);

@@ -1,6 +1,6 @@
 //! Shared by the instruments' tests: a vehicle, a running clock, and the statistics of noise.
 
-use super::tools::Below;
+use super::tools::EchoTarget;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
@@ -50,7 +50,7 @@ pub(super) fn assert_normal(values: &[f64], mean: f64, std: f64) {
 }
 
 /// A bed without anything on it.
-pub(super) fn bare(terrain: &Terrain) -> Below<'_> {
+pub(super) fn bare(terrain: &Terrain) -> EchoTarget<'_> {
     static NONE: Obstacles = Obstacles(Vec::new());
-    Below { terrain, obstacles: &NONE }
+    EchoTarget { terrain, obstacles: &NONE }
 }

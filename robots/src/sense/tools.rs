@@ -13,7 +13,7 @@ pub(super) fn normal3(rng: &mut Stream, std: f64) -> Vector3<f64> {
 
 /// What an echo sounder may hear.
 #[derive(Clone, Copy, Debug)]
-pub struct Below<'a> {
+pub struct EchoTarget<'a> {
     /// The bed.
     pub terrain: &'a Terrain,
     /// Solids on the bed or above it.
@@ -22,7 +22,7 @@ pub struct Below<'a> {
 
 /// Distance from `from` (ENU, m) along the unit vector `dir` to the bed or an obstacle before it, m; `None` if the
 /// beam does not point down steeply enough (less than 60° from the vertical) to expect an echo.
-pub(super) fn range_down(below: &Below, from: &Vector3<f64>, dir: &Vector3<f64>) -> Option<f64> {
+pub(super) fn range_down(below: &EchoTarget, from: &Vector3<f64>, dir: &Vector3<f64>) -> Option<f64> {
     let terrain = below.terrain;
     const STEEPEST_TILT_COS: f64 = 0.5;
     if -dir.z < STEEPEST_TILT_COS {

@@ -14,8 +14,8 @@ use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
-    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Need, Observation, Order, Outcome,
-    Setting, Told, Vertical,
+    Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
+    Reply, ReplyOutcome, Setting, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -100,8 +100,8 @@ impl StrategyParams for ExternalSpec {
         self.fallback().map_or(Ok(()), |spec| spec.check(setting))
     }
 
-    fn consulted(&self) -> Option<Consulted> {
-        Some(Consulted { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
+    fn consulted(&self) -> Option<ExchangeTiming> {
+        Some(ExchangeTiming { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
     }
 
     fn needs(&self) -> Vec<Need> {
@@ -149,15 +149,15 @@ impl Strategy for External {
             self.outcome.get_or_insert(Outcome::Aborted);
         }
         let goal = *self.goal.get_or_insert_with(|| setting_out(seen));
-        let none = Answer::default();
+        let none = Reply::default();
         let mut answer = &none;
         match &seen.told {
-            Some(Told::Answer(told)) => {
+            Some(ReplyOutcome::Answer(told)) => {
                 self.standing_in = None;
                 answer = told;
                 self.take(told);
             }
-            Some(Told::Nothing) => match &self.late {
+            Some(ReplyOutcome::Nothing) => match &self.late {
                 Late::Hold => {}
                 Late::Fallback(_) => {
                     self.standing_in.get_or_insert(goal.id);
@@ -190,8 +190,8 @@ impl Strategy for External {
 }
 
 impl External {
-    fn take(&mut self, told: &Answer) {
-        if let (Some(Order::Move(order)), Some(last)) = (&told.order, self.goal) {
+    fn take(&mut self, told: &Reply) {
+        if let (Some(MotionOrder::Move(order)), Some(last)) = (&told.order, self.goal) {
             self.goal = Some(Goal {
                 id: order.id.unwrap_or(last.id.wrapping_add(1)),
                 manoeuvre: order.manoeuvre,

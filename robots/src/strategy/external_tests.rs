@@ -23,20 +23,20 @@ fn route() -> StrategySpec {
     StrategySpec::new(spec)
 }
 
-fn at(t_s: f64, told: Option<Told>) -> Observation {
+fn at(t_s: f64, told: Option<ReplyOutcome>) -> Observation {
     Observation { told, ..seen(t_s, Vector2::zeros(), 30.0, None) }
 }
 
-fn steer(deg: f64, id: Option<u32>) -> Option<Told> {
-    Some(Told::Answer(Box::new(Answer {
-        order: Some(Order::Move(MoveOrder {
+fn steer(deg: f64, id: Option<u32>) -> Option<ReplyOutcome> {
+    Some(ReplyOutcome::Answer(Box::new(Reply {
+        order: Some(MotionOrder::Move(MoveOrder {
             id,
             manoeuvre: Manoeuvre::Steer { heading: Heading::from_deg(deg) },
             vertical: None,
             speed_m_s: Some(1.2),
         })),
         behaviour: Some(Behaviour::Other("surge")),
-        ..Answer::default()
+        ..Reply::default()
     })))
 }
 
@@ -51,7 +51,7 @@ fn the_last_order_holds_between_answers_and_without_one() {
     assert_eq!((told.goal.id, told.goal.speed_m_s), (1, 1.2));
     assert_eq!(told.goal.vertical, Vertical::Depth(3.0));
     assert_eq!(told.behaviour.name(), "surge");
-    for told_again in [None, Some(Told::Nothing)] {
+    for told_again in [None, Some(ReplyOutcome::Nothing)] {
         let held = s.step(&at(2.0, told_again), &mut rng);
         assert_eq!((held.goal, held.outcome), (told.goal, None));
     }
@@ -65,10 +65,10 @@ fn an_order_without_a_speed_moves_a_vehicle_that_starts_at_rest() {
     let mut rng = Stream::new(1, "auv0", "strategy");
     let mut at_rest = at(0.0, None);
     at_rest.estimate.v_ground_body.x = 0.0;
-    let Some(Told::Answer(mut answer)) = steer(90.0, None) else { unreachable!("an order") };
-    let Some(Order::Move(order)) = &mut answer.order else { unreachable!("a move") };
+    let Some(ReplyOutcome::Answer(mut answer)) = steer(90.0, None) else { unreachable!("an order") };
+    let Some(MotionOrder::Move(order)) = &mut answer.order else { unreachable!("a move") };
     order.speed_m_s = None;
-    at_rest.told = Some(Told::Answer(answer));
+    at_rest.told = Some(ReplyOutcome::Answer(answer));
     let least = at_rest.able.least_speed_m_s;
     assert!(least > 0.0);
     let mut s = external(OnLate::Hold).expect("legal");
@@ -84,7 +84,7 @@ fn without_an_answer_it_can_end_its_mission() {
     let mut s = external(OnLate::Abort).expect("legal");
     let mut rng = Stream::new(1, "auv0", "strategy");
     assert_eq!(s.step(&at(0.0, steer(90.0, None)), &mut rng).outcome, None);
-    let aborted = s.step(&at(1.0, Some(Told::Nothing)), &mut rng);
+    let aborted = s.step(&at(1.0, Some(ReplyOutcome::Nothing)), &mut rng);
     assert_eq!(aborted.outcome, Some(Outcome::Aborted));
     let late = s.step(&at(2.0, steer(90.0, None)), &mut rng);
     assert_eq!(late.outcome, Some(Outcome::Aborted), "over is over");
@@ -95,7 +95,7 @@ fn a_fallback_stands_in_with_its_own_numbers_until_the_next_answer() {
     let mut s = external(OnLate::Fallback(Box::new(route()))).expect("legal");
     let mut rng = Stream::new(1, "auv0", "strategy");
     s.step(&at(0.0, steer(90.0, Some(7))), &mut rng);
-    let stood_in = s.step(&at(1.0, Some(Told::Nothing)), &mut rng);
+    let stood_in = s.step(&at(1.0, Some(ReplyOutcome::Nothing)), &mut rng);
     assert_eq!(stood_in.goal.id, 8);
     assert!(matches!(stood_in.goal.manoeuvre, Manoeuvre::GoToPoint { point, .. } if point.x == 50.0));
     assert_eq!(s.step(&at(2.0, None), &mut rng).goal, stood_in.goal);
@@ -104,7 +104,7 @@ fn a_fallback_stands_in_with_its_own_numbers_until_the_next_answer() {
     there.guidance = GuidanceStatus { goal_id: 8, done: true, aborted: false };
     let mut answered = external(OnLate::Fallback(Box::new(route()))).expect("legal");
     answered.step(&at(0.0, steer(90.0, Some(7))), &mut rng);
-    answered.step(&at(1.0, Some(Told::Nothing)), &mut rng);
+    answered.step(&at(1.0, Some(ReplyOutcome::Nothing)), &mut rng);
     let back = answered.step(&at(2.0, steer(10.0, None)), &mut rng);
     assert_eq!(back.goal.id, 9, "a new goal after the fallback's");
     let ends = [s.step(&there, &mut rng), s.step(&there, &mut rng)];

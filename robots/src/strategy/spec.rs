@@ -2,7 +2,7 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Consulted, Decision, Need, Observation, Setting, Vertical};
+use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -60,7 +60,7 @@ pub trait StrategyParams: Spec {
     }
 
     /// If a searcher outside this program decides: how often it is asked.
-    fn consulted(&self) -> Option<Consulted> {
+    fn consulted(&self) -> Option<ExchangeTiming> {
         None
     }
 

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 
 /// An object with all its sightings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct MergedObject {
     /// Believed place (east, north), m.
     pub place: Vector2<f64>,
     /// Contrast of all sightings together, standard errors.
@@ -24,7 +24,7 @@ pub struct Found {
 
 /// The objects, strongest first.
 #[must_use]
-pub fn merge(sightings: &[Object], merge_m: f64) -> Vec<Found> {
+pub fn merge(sightings: &[Object], merge_m: f64) -> Vec<MergedObject> {
     let mut left: Vec<&Object> = sightings.iter().collect();
     left.sort_by(|a, b| b.contrast.total_cmp(&a.contrast));
     let mut found = Vec::new();
@@ -34,7 +34,7 @@ pub fn merge(sightings: &[Object], merge_m: f64) -> Vec<Found> {
         left = rest;
         let weight: f64 = near.iter().map(|o| o.contrast * o.contrast).sum();
         let sum: Vector2<f64> = near.iter().map(|o| o.place * (o.contrast * o.contrast)).sum();
-        found.push(Found {
+        found.push(MergedObject {
             place: sum / weight,
             contrast: weight.sqrt(),
             sightings: near.len() as u32,

@@ -10,6 +10,6 @@ mod waterfall;
 
 pub use catalogue::CATALOGUE;
 pub use detect::{Object, detect};
-pub use merge::{Found, merge};
+pub use merge::{MergedObject, merge};
 pub use spec::DetectSpec;
 pub use waterfall::{Row, Waterfall};

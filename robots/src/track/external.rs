@@ -9,7 +9,8 @@
 use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
 use crate::handoff::{
-    Consulted, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, Order, Outcome, Told, TrackerState,
+    ExchangeTiming, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, MotionOrder, Outcome,
+    ReplyOutcome, TrackerState,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -76,8 +77,8 @@ impl GantryStrategyParams for ExternalSpec {
         }))
     }
 
-    fn consulted(&self) -> Option<Consulted> {
-        Some(Consulted { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
+    fn consulted(&self) -> Option<ExchangeTiming> {
+        Some(ExchangeTiming { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
     }
 }
 
@@ -96,8 +97,8 @@ impl GantryStrategy for External {
             self.last.target_m = seen.readings.joints.position_m;
         }
         match &seen.told {
-            Some(Told::Answer(told)) => {
-                if let Some(Order::Head(order)) = &told.order {
+            Some(ReplyOutcome::Answer(told)) => {
+                if let Some(MotionOrder::Head(order)) = &told.order {
                     self.last.id = order.id.unwrap_or(self.last.id.wrapping_add(1));
                     self.last.target_m = self.within(order.target_m);
                     let asked = order.speed_m_s.unwrap_or(self.fastest_m_s);
@@ -108,8 +109,8 @@ impl GantryStrategy for External {
                     self.stop(outcome == Outcome::Completed);
                 }
             }
-            Some(Told::Nothing) if self.on_late == OnLate::Abort => self.stop(false),
-            Some(Told::Nothing) | None => {}
+            Some(ReplyOutcome::Nothing) if self.on_late == OnLate::Abort => self.stop(false),
+            Some(ReplyOutcome::Nothing) | None => {}
         }
         self.last.clone()
     }
@@ -131,7 +132,7 @@ impl External {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{Answer, GantryReadings, HeadOrder};
+    use crate::handoff::{GantryReadings, HeadOrder, Reply};
 
     fn searcher(on_late: OnLate) -> Box<dyn GantryStrategy> {
         let layout = GantryLayout {
@@ -145,19 +146,19 @@ mod tests {
         spec.build(&layout).expect("legal")
     }
 
-    fn seen(told: Option<Told>) -> GantryObservation {
+    fn seen(told: Option<ReplyOutcome>) -> GantryObservation {
         GantryObservation { t_s: 1.0, readings: GantryReadings::default(), told }
     }
 
-    fn to(forward: f64, left: f64) -> Option<Told> {
-        Some(Told::Answer(Box::new(Answer {
-            order: Some(Order::Head(HeadOrder {
+    fn to(forward: f64, left: f64) -> Option<ReplyOutcome> {
+        Some(ReplyOutcome::Answer(Box::new(Reply {
+            order: Some(MotionOrder::Head(HeadOrder {
                 id: None,
                 target_m: Vector2::new(forward, left),
                 speed_m_s: None,
                 behaviour: GantryBehaviour::Cast,
             })),
-            ..Answer::default()
+            ..Reply::default()
         })))
     }
 
@@ -169,17 +170,18 @@ mod tests {
         let told = s.step(&seen(to(3.0, -0.2)), &mut rng);
         assert_eq!((told.id, told.target_m), (1, Vector2::new(2.0, -0.2)));
         assert_eq!(told.speed_m_s, Vector2::new(0.1, 0.2));
-        assert_eq!(s.step(&seen(Some(Told::Nothing)), &mut rng), told);
+        assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng), told);
         assert_eq!(s.step(&seen(to(1.0, 0.0)), &mut rng).id, 2);
     }
 
     #[test]
     fn it_stops_when_told_and_gives_up_without_answers_if_asked_to() {
         let mut rng = Stream::new(1, "crab0", "tracker");
-        let over = Some(Told::Answer(Box::new(Answer { outcome: Some(Outcome::Completed), ..Answer::default() })));
+        let over =
+            Some(ReplyOutcome::Answer(Box::new(Reply { outcome: Some(Outcome::Completed), ..Reply::default() })));
         let mut s = searcher(OnLate::Hold);
         assert_eq!(s.step(&seen(over), &mut rng).stopped, Some(true));
         let mut s = searcher(OnLate::Abort);
-        assert_eq!(s.step(&seen(Some(Told::Nothing)), &mut rng).stopped, Some(false));
+        assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng).stopped, Some(false));
     }
 }

@@ -4,7 +4,7 @@ use super::chemotaxis::ChemotaxisSpec;
 use super::crab_spec::CrabSpec;
 use super::external::ExternalSpec;
 use crate::error::RobotError;
-use crate::handoff::{Consulted, GantryDecision, GantryLayout, GantryObservation};
+use crate::handoff::{ExchangeTiming, GantryDecision, GantryLayout, GantryObservation};
 use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
@@ -24,7 +24,7 @@ pub trait GantryStrategyParams: Spec {
     fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError>;
 
     /// If a searcher outside this program decides: how often it is asked.
-    fn consulted(&self) -> Option<Consulted> {
+    fn consulted(&self) -> Option<ExchangeTiming> {
         None
     }
 }

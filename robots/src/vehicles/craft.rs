@@ -1,11 +1,11 @@
 //! A vehicle of any kind that a scenario can choose for a robot.
 
 use super::files::Files;
-use super::folder::{Described, of_folder, shipped};
+use super::folder::{FolderVehicle, of_folder, shipped};
 use super::kinematic::Kinematic;
 use super::kinematic_spec::Moves;
 use super::spec::VehicleSpec;
-use super::vehicle::Vehicle;
+use super::vehicle::Remus100;
 use crate::error::RobotError;
 use crate::handoff::{
     Actuation, ActuatorCommand, Capabilities, Control, NamedDrive, RateCommand, RateLimits, TurnLimit,
@@ -17,25 +17,25 @@ use world::physics::BodySpec;
 
 /// A vehicle of any kind.
 #[derive(Clone, Debug)]
-pub enum Craft {
+pub enum Vehicle {
     /// With fins, a propeller and an equation of motion.
-    Finned(Box<Vehicle>),
+    Finned(Box<Remus100>),
     /// Without dynamics.
     Kinematic(Box<Kinematic>),
     /// Of a folder.
-    Described(Box<Described>),
+    Described(Box<FolderVehicle>),
 }
 
 /// Below this speed through the water the fins of a REMUS have little effect, m/s (see its autopilot).
 const LEAST_FIN_M_S: f64 = 0.8;
-impl Craft {
+impl Vehicle {
     /// Builds the vehicle that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
     ///
     /// # Errors
     /// If a file cannot be read, or if the URDF is wrong or does not fit the vehicle.
     pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
         Ok(match spec {
-            VehicleSpec::Remus100(remus) => Self::Finned(Box::new(Vehicle::load(remus, files)?)),
+            VehicleSpec::Remus100(remus) => Self::Finned(Box::new(Remus100::load(remus, files)?)),
             VehicleSpec::Kinematic(spec) => Self::Kinematic(Box::new(Kinematic::load(spec, files)?)),
             VehicleSpec::Shipped(name) => Self::Described(Box::new(shipped(name, files)?)),
             VehicleSpec::File(folder) => Self::Described(Box::new(of_folder(folder, files)?)),

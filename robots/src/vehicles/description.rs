@@ -11,7 +11,7 @@
 use super::files::Files;
 use super::folder::urdf_of;
 use super::gantry::{CRAB_GANTRY, GantrySpec};
-use super::looks::{JointKind, LinkLook, Motion, Moved, looks, of_drives, of_fins};
+use super::looks::{DrivenJoint, JointKind, LinkLook, Motion, looks, of_drives, of_fins};
 use super::remus100::REMUS100;
 use super::spec::VehicleSpec;
 use super::urdf_parts::{UrdfText, check_tree, parse, place, pose_of, root};
@@ -33,7 +33,7 @@ pub struct Description {
     pub links: Vec<LinkLook>,
     /// The joints that its drives move; none of a vehicle without drives, or of a gantry, whose slides have the names
     /// of their joints.
-    pub moved: Vec<Moved>,
+    pub moved: Vec<DrivenJoint>,
 }
 
 /// A joint: how a link is fitted to another.
@@ -137,7 +137,11 @@ impl Description {
                     joint.axis = motion.axis;
                 }
                 joint.kind = motion.kind;
-                moved.push(Moved { joint: joint.joint.clone(), actuator: motion.actuator.clone(), unit: motion.unit });
+                moved.push(DrivenJoint {
+                    joint: joint.joint.clone(),
+                    actuator: motion.actuator.clone(),
+                    unit: motion.unit,
+                });
             }
         }
         Ok(Self {

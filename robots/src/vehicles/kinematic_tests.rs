@@ -3,7 +3,7 @@
 use super::super::files::InMemory;
 use super::super::kinematic_spec::{RadiusSpec, TurnSpec};
 use super::super::spec::RemusSpec;
-use super::super::vehicle::Vehicle;
+use super::super::vehicle::Remus100;
 use super::*;
 use nalgebra::Vector2;
 use std::path::Path;
@@ -240,7 +240,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
 #[test]
 fn its_hull_is_that_of_the_remus() {
     let car = vehicle(Moves::ThroughWater, None);
-    let remus = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+    let remus = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
     let t = start(0.0);
     assert_eq!(car.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
 }

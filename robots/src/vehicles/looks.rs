@@ -84,7 +84,7 @@ impl JointKind {
 
 /// A joint that a drive moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Moved {
+pub struct DrivenJoint {
     /// Name of the joint.
     pub joint: String,
     /// Name of the set-point, as [`Actuation::named`](crate::handoff::Actuation::named) says it.

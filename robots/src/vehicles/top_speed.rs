@@ -1,6 +1,6 @@
 //! The speed of a vehicle at full ahead.
 
-use super::vehicle::Vehicle;
+use super::vehicle::Remus100;
 use crate::handoff::ActuatorCommand;
 use nalgebra::{Matrix3, Vector3};
 use world::fields::WaterSample;
@@ -12,7 +12,7 @@ const RUN_UP_S: f64 = 60.0;
 /// Step, s.
 const STEP_S: f64 = 0.02;
 
-impl Vehicle {
+impl Remus100 {
     /// Greatest speed through still water with the propeller at `rpm`, or at its own limit, m/s: where thrust and
     /// drag balance, found by running the vehicle's own equation of motion from rest.
     #[must_use]
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn full_ahead_follows_from_thrust_and_drag() {
         let remus = RemusSpec::default();
-        let vehicle = Vehicle::load(&remus, &InMemory::default()).unwrap();
+        let vehicle = Remus100::load(&remus, &InMemory::default()).unwrap();
         let cruise = vehicle.top_speed_m_s(1000.0);
         assert!((cruise - 1.674).abs() < 0.05, "{cruise}");
         let top = vehicle.top_speed_m_s(1e6);

@@ -5,7 +5,7 @@ use super::remus100::{Coefficients, ParameterSet};
 use super::spec::RemusSpec;
 use super::urdf::{Hull, read};
 use super::urdf_parts::as_file;
-use super::vehicle::Vehicle;
+use super::vehicle::Remus100;
 use nalgebra::Vector3;
 use world::physics::Shape;
 
@@ -31,7 +31,7 @@ fn fails(from: &str, to: &str) -> String {
 
 #[test]
 fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+    let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
     let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
     assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
     for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
@@ -56,7 +56,7 @@ fn mounts_add_up_along_a_chain_of_joints() {
 #[test]
 fn a_missing_file_is_named() {
     let spec = RemusSpec { urdf: Some("none.urdf".into()), ..RemusSpec::default() };
-    let error = Vehicle::load(&spec, &InMemory::default()).expect_err("no file");
+    let error = Remus100::load(&spec, &InMemory::default()).expect_err("no file");
     assert_eq!(error.to_string(), "none.urdf: there is no such file");
 }
 
@@ -209,7 +209,7 @@ fn a_heavier_hull_sinks() {
         let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
         let files = InMemory::default().with("auv.urdf", text.as_bytes());
         let spec = RemusSpec { urdf: Some("auv.urdf".into()), ..RemusSpec::default() };
-        let mut vehicle = Vehicle::load(&spec, &files).expect("a vehicle");
+        let mut vehicle = Remus100::load(&spec, &files).expect("a vehicle");
         let command = crate::handoff::ActuatorCommand::default();
         vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
     };
@@ -247,7 +247,7 @@ fn a_mesh_beside_the_urdf_becomes_a_hull() {
     // The mesh lies beside the URDF, not beside the scenario.
     let files = InMemory::default().with("hulls/auv.urdf", text.as_bytes()).with("hulls/hull.obj", obj.as_bytes());
     let spec = RemusSpec { urdf: Some("hulls/auv.urdf".into()), ..RemusSpec::default() };
-    let vehicle = Vehicle::load(&spec, &files).expect("a vehicle with a mesh");
+    let vehicle = Remus100::load(&spec, &files).expect("a vehicle with a mesh");
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
         Vector3::zeros(),
         world::units::Heading::from_deg(0.0),

@@ -17,7 +17,7 @@ use world::physics::BodySpec;
 
 /// A vehicle and the state of its actuators; pose and velocity belong to the physics.
 #[derive(Component, Clone, Debug)]
-pub struct Vehicle {
+pub struct Remus100 {
     hull: Hull,
     equation: Equation,
     actuators: Actuators,
@@ -25,7 +25,7 @@ pub struct Vehicle {
     last: Option<(Truth, Vector3<f64>, f64)>,
 }
 
-impl Vehicle {
+impl Remus100 {
     /// Builds the vehicle that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
     ///
     /// # Errors

@@ -108,10 +108,10 @@ mod tests {
         assert_eq!(got.map_kept(), [true, false, false, true]);
     }
 
-    trait Kept {
+    trait KeptClusters {
         fn map_kept(&self) -> Vec<bool>;
     }
-    impl Kept for Vec<Fate> {
+    impl KeptClusters for Vec<Fate> {
         fn map_kept(&self) -> Vec<bool> {
             self.iter().map(|f| f.kept()).collect()
         }

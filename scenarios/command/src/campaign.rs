@@ -5,10 +5,10 @@ use super::args_cache::CacheArgs;
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
 use super::campaign_plan::{count, plan};
 use super::campaign_report;
-use super::company::Company;
 use super::exit::Exit;
-use super::onlooker::Onlooker;
+use super::lane_observers::LaneObservers;
 use super::run::RunError;
+use super::run_observer::RunObserver;
 use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use output::shown::printable;
@@ -233,8 +233,8 @@ fn rerun(args: &RerunArgs) -> Exit {
     };
     let again = || -> Result<(RunOutcome, String), RunError> {
         let mut trial = Trial::assemble(&loaded, seed)?;
-        let mut alone = Company::default();
-        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, &mut alone, stop::listen())?;
+        let mut alone = LaneObservers::default();
+        let mut onlooker = RunObserver::new(&loaded, &as_run, &out, &mut alone, stop::listen())?;
         let ended = trial.run(&mut onlooker);
         Ok((onlooker.finish(&trial, &ended, &mut alone)?, ended.digest))
     };

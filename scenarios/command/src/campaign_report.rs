@@ -5,7 +5,7 @@ use super::campaign::refused;
 use super::exit::Exit;
 use super::{say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
-use studies::campaign::report::{About, Shown, picks, write};
+use studies::campaign::report::{About, RemadeRun, picks, write};
 use studies::campaign::{Arm, Campaign, CampaignError, Manifest, RunRow, read_rows, wanted};
 
 /// Writes the report and prints its tables.
@@ -57,7 +57,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
 }
 
 /// Makes the runs anew whose tracks are shown. Ctrl-C leaves out those that have not begun.
-fn tracks(args: &ReportArgs, read: &Read, arms: &[String]) -> Vec<Shown> {
+fn tracks(args: &ReportArgs, read: &Read, arms: &[String]) -> Vec<RemadeRun> {
     let mut campaign = read.campaign.clone();
     campaign.key = args.key.get();
     if let Err(error) = read.manifest.same_key(&campaign) {

@@ -5,8 +5,8 @@ use super::exit::Exit;
 use super::say;
 use super::vehicle::capabilities;
 use rheotaxis::registry::{Group, Registry, sections};
-use rheotaxis::scenario::{Beside, CATALOG, parse};
-use robots::vehicles::{Craft, Files, SHIPPED, VehicleSpec};
+use rheotaxis::scenario::{CATALOG, FolderFiles, parse};
+use robots::vehicles::{Files, SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 
 /// Prints the sections asked for, or all of them.
@@ -35,11 +35,11 @@ pub(super) fn list(args: &ListArgs) -> Exit {
 /// Prints the vehicles that come with the program as folders, and what each can do.
 fn shipped() {
     say::line("Vehicles of folders, by `vehicle: Shipped(\"name\")`; your own by `vehicle: File(\"folder\")`");
-    let reader = Beside(Path::new(""));
+    let reader = FolderFiles(Path::new(""));
     for vehicle in SHIPPED {
         let spec = VehicleSpec::Shipped(vehicle.folder.into());
         let told = reader.vehicle(vehicle.folder, vehicle.file);
-        match (told, Craft::load(&spec, &reader)) {
+        match (told, Vehicle::load(&spec, &reader)) {
             (Ok(file), Ok(craft)) => {
                 print(vehicle.folder, &file.what, &file.source);
                 for line in capabilities(&craft.capabilities(0.0)) {

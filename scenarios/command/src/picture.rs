@@ -10,7 +10,7 @@ use output::files::{ReportError, beside_no_run, write_whole};
 use rheotaxis::assemble::WaterLight;
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
-use robots::sense::camera::{CameraModel, CameraSpec, Rendered, Scene, looking, render};
+use robots::sense::camera::{CameraModel, CameraSpec, RenderedPicture, Scene, looking, render};
 use std::path::{Path, PathBuf};
 use world::ranges::Positive;
 use world::seeds;
@@ -117,7 +117,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
 }
 
 /// The truth as a picture. Red is how much the dye changes a pixel, blue the share of a solid's light that arrives.
-fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
+fn truth(camera: &CameraModel, made: &RenderedPicture) -> RgbImage {
     let byte = |share: f32| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u8;
     let bytes = (made.seen.iter()).flat_map(|s| {
         let solid = s.obstacle.map_or(0.0, |_| s.clear);

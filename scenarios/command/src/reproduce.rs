@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
 use studies::reproduce::{
-    Plan, Reference, ReproduceError, Reproduced, Table, TimeLeft, compare, reproduce, table, wanted, write,
+    Plan, Reference, ReproduceError, RowResult, Table, TimeLeft, compare, reproduce, table, wanted, write,
 };
 
 /// Runs the rows, prints their tables and writes them.
@@ -47,7 +47,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         args,
         kept: cache::opened(&args.cache),
         left: TimeLeft::new(references.iter().map(planned), args.jobs),
-        rows: references.iter().map(Reproduced::begin).collect(),
+        rows: references.iter().map(RowResult::begin).collect(),
         tables: Vec::new(),
         references,
     };
@@ -103,7 +103,7 @@ struct Work<'a> {
     kept: Option<SpinUps>,
     references: Vec<Reference>,
     /// The rows as far as they have come.
-    rows: Vec<Reproduced>,
+    rows: Vec<RowResult>,
     /// With --keep: their tables.
     tables: Vec<Table>,
     left: TimeLeft,

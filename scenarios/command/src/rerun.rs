@@ -2,18 +2,18 @@
 
 use super::args::RunArgs;
 use super::args_control::RerunMcapArgs;
-use super::company::Company;
 use super::exit::Exit;
-use super::onlooker::Onlooker;
+use super::lane_observers::LaneObservers;
 use super::progress::Progress;
 use super::run::{RunError, refused};
+use super::run_observer::RunObserver;
 use super::{cache, say, stop};
-use output::mcap::{ReadError, Recorded, read_recording};
+use output::mcap::{ReadError, RecordedRun, read_recording};
 use rheotaxis::control::Replay;
 use rheotaxis::frame::Frame;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
-use rheotaxis::trial::{Ended, Trial, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Watch};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -60,7 +60,7 @@ fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
 }
 
 /// The scenario of a recording: that of the program if it is one of its own, for the files that belong to it.
-fn scenario(recorded: &Recorded, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
+fn scenario(recorded: &RecordedRun, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
     let (name, text) = (&recorded.scenario_name, &recorded.scenario_text);
     if base.is_none() && template(name).is_some_and(|t| t.text == text) {
         return load(Path::new(name));
@@ -71,10 +71,10 @@ fn scenario(recorded: &Recorded, base: Option<&Path>) -> Result<Loaded, Scenario
 /// Makes the run again; `None` if it did not come to its end.
 fn made(
     args: &RerunMcapArgs,
-    recorded: &Recorded,
+    recorded: &RecordedRun,
     loaded: &Loaded,
     stop: &'static AtomicBool,
-) -> Result<Option<Ended>, RunError> {
+) -> Result<Option<RunEnd>, RunError> {
     let run = RunArgs {
         cache: args.cache.clone(),
         quiet: args.quiet,
@@ -83,12 +83,12 @@ fn made(
     };
     let seed = args.key.seed(recorded.seed);
     let steps = recorded.result.as_ref().map(|(_, steps)| *steps);
-    let mut company = Company::default();
+    let mut company = LaneObservers::default();
     let mut result = Ok(None);
     match &args.out {
         Some(out) => {
             let mut lanes = Lanes::default().with_threads(0);
-            lanes.add(loaded, seed, || Onlooker::new(loaded, &run, out, &mut company, stop))?;
+            lanes.add(loaded, seed, || RunObserver::new(loaded, &run, out, &mut company, stop))?;
             replay(&mut lanes, recorded)?;
             if let (Some((_, onlooker)), Some(steps)) = (lanes.newest(), steps) {
                 onlooker.end_after(steps);
@@ -110,17 +110,17 @@ fn made(
 }
 
 fn finished(
-    onlooker: Onlooker,
+    onlooker: RunObserver,
     trial: Result<&Trial, LaneError>,
-    company: &mut Company,
-) -> Result<Option<Ended>, RunError> {
+    company: &mut LaneObservers,
+) -> Result<Option<RunEnd>, RunError> {
     let trial = trial?;
     let ended = trial.ended();
     onlooker.finish(trial, &ended, company)?;
     Ok(Some(ended))
 }
 
-fn replay<W: Watch>(lanes: &mut Lanes<W>, recorded: &Recorded) -> Result<(), RunError> {
+fn replay<W: Watch>(lanes: &mut Lanes<W>, recorded: &RecordedRun) -> Result<(), RunError> {
     let told = Replay::new(recorded.told.clone());
     if let Some((trial, _)) = lanes.newest() {
         for robot in trial.controlled() {
@@ -136,7 +136,7 @@ fn spun_up<W: Watch>(lanes: &mut Lanes<W>, args: &RerunMcapArgs) {
     }
 }
 
-fn compared(recorded: &Recorded, ended: &Ended) -> Exit {
+fn compared(recorded: &RecordedRun, ended: &RunEnd) -> Exit {
     let version = env!("CARGO_PKG_VERSION");
     let other = match recorded.version.as_str() {
         same if same == version => String::new(),

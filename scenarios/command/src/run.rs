@@ -1,9 +1,9 @@
 //! `rheotaxis run`: runs scenarios, shows their progress, and writes a folder of results for each.
 
 use super::args::RunArgs;
-use super::company::Company;
 use super::exit::Exit;
-use super::onlooker::Onlooker;
+use super::lane_observers::LaneObservers;
+use super::run_observer::RunObserver;
 use super::{cache, say, stop};
 use output::files::{ReportError, could_begin_run};
 use output::live::LiveError;
@@ -135,14 +135,14 @@ fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> 
 /// Runs scenarios with the same ocean in lanes.
 fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>, stop: &'static AtomicBool) -> Exit {
     let mut exit = Exit::Success;
-    let mut company = Company::default();
+    let mut company = LaneObservers::default();
     let mut lanes = Lanes::default().with_threads(args.threads);
     for (loaded, folder) in group {
         if !args.quiet {
             let bytes = cost::cost(&loaded.scenario).bytes();
             say::note(format_args!("{}: takes about {} of memory", loaded.name, memory(bytes)));
         }
-        let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
+        let onlooker = || RunObserver::new(loaded, args, folder, &mut company, stop);
         let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);
         let added = added.and_then(|()| controllers(&mut lanes, loaded, args));
         if let Err(error) = added {
@@ -168,7 +168,7 @@ fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>
 }
 
 /// Connects the robots of the run that was added last with their controllers.
-fn controllers(lanes: &mut Lanes<Onlooker>, loaded: &Loaded, args: &RunArgs) -> Result<(), RunError> {
+fn controllers(lanes: &mut Lanes<RunObserver>, loaded: &Loaded, args: &RunArgs) -> Result<(), RunError> {
     let Some((trial, onlooker)) = lanes.newest() else {
         return Ok(());
     };

@@ -7,7 +7,7 @@ use output::files::begin_folder;
 use robots::vision::{Verifier, VerifierSpec};
 use std::path::{Path, PathBuf};
 use studies::campaign::stats::wilson;
-use studies::segment::{Segmented, read_picture, table, write};
+use studies::segment::{SegmentedPicture, read_picture, table, write};
 
 /// Segments one picture or judges several.
 pub(super) fn segment(args: &SegmentArgs) -> Exit {
@@ -65,7 +65,7 @@ fn one(image: &Path, out: Option<&PathBuf>, spec: VerifierSpec) -> Exit {
         }
     };
     let part = |p: Option<&std::ffi::OsStr>| p.map_or("picture".to_string(), |s| s.to_string_lossy().into_owned());
-    let segmented = Segmented::new(part(image.file_name()), picture, spec);
+    let segmented = SegmentedPicture::new(part(image.file_name()), picture, spec);
     say::line(table(&segmented));
     let folder =
         out.cloned().unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-segmented", part(image.file_stem()))));

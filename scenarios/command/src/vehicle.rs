@@ -6,10 +6,12 @@ use super::say;
 use super::vehicle_fly::flown;
 use output::charts::png;
 use output::files::{beside_no_run, write_whole};
-use rheotaxis::scenario::Beside;
+use rheotaxis::scenario::FolderFiles;
 use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Does};
-use robots::vehicles::{CATALOGUE, Craft, Described, KinematicSpec, RemusSpec, SHIPPED, Shipped, VehicleSpec};
+use robots::vehicles::{
+    CATALOGUE, FolderVehicle, KinematicSpec, RemusSpec, SHIPPED, ShippedVehicle, Vehicle, VehicleSpec,
+};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, has_rudder, trials};
@@ -48,7 +50,7 @@ fn spec(folder: &Path) -> Result<VehicleSpec, Wrong> {
     let hint = match name.to_ascii_lowercase().as_str() {
         "remus100" => return Ok(VehicleSpec::Remus100(RemusSpec::default())),
         "kinematic" => return Ok(VehicleSpec::Kinematic(KinematicSpec::default())),
-        low if Shipped::named(low).is_some() => return Ok(VehicleSpec::Shipped(low.to_string())),
+        low if ShippedVehicle::named(low).is_some() => return Ok(VehicleSpec::Shipped(low.to_string())),
         "shipped" => format!("name its folder: {}", names()),
         "file" => "name your folder itself, such as my_auv".to_string(),
         _ if CATALOGUE.iter().any(|e| e.name.eq_ignore_ascii_case(&name)) => {
@@ -70,16 +72,16 @@ fn names() -> String {
 }
 
 /// Name of a vehicle for people.
-fn title(craft: &Craft) -> &str {
+fn title(craft: &Vehicle) -> &str {
     match craft {
-        Craft::Finned(_) => "REMUS 100",
-        Craft::Kinematic(_) => "Kinematic, with its default limits",
-        Craft::Described(vehicle) => vehicle.name(),
+        Vehicle::Finned(_) => "REMUS 100",
+        Vehicle::Kinematic(_) => "Kinematic, with its default limits",
+        Vehicle::Described(vehicle) => vehicle.name(),
     }
 }
 
-pub(super) fn loaded(folder: &Path) -> Result<Craft, Wrong> {
-    Craft::load(&spec(folder)?, &Beside(Path::new(""))).map_err(plainly)
+pub(super) fn loaded(folder: &Path) -> Result<Vehicle, Wrong> {
+    Vehicle::load(&spec(folder)?, &FolderFiles(Path::new(""))).map_err(plainly)
 }
 
 /// A name for files, from a folder.
@@ -92,7 +94,7 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
     for doubt in craft.told() {
         say::line(format_args!("doubt: {doubt}"));
     }
-    let Craft::Described(vehicle) = &craft else {
+    let Vehicle::Described(vehicle) = &craft else {
         say::line(title(&craft));
         for line in capabilities(&craft.capabilities(GuidanceSpec::default().tightest_turn_m())) {
             say::line(format_args!("  {line}"));
@@ -119,7 +121,7 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
 }
 
 /// What follows from its file, in numbers.
-fn print(vehicle: &Described) {
+fn print(vehicle: &FolderVehicle) {
     let plant = vehicle.plant();
     let able = vehicle.capabilities();
     let [rigid, whole] = [vehicle.mass_kg(), plant.mass[(0, 0)]];
@@ -193,7 +195,7 @@ pub(super) fn capabilities(able: &Capabilities) -> [String; 3] {
     ]
 }
 
-fn looks(vehicle: &Described) -> Looks {
+fn looks(vehicle: &FolderVehicle) -> Looks {
     Looks {
         name: vehicle.name().to_string(),
         shapes: vehicle.visuals().to_vec(),
@@ -271,7 +273,7 @@ fn steering(trials: &[Trial]) -> String {
 }
 
 fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
-    let Some(shipped) = Shipped::named(&args.name) else {
+    let Some(shipped) = ShippedVehicle::named(&args.name) else {
         return Err((
             format!("no vehicle \"{}\" comes with the program", args.name),
             Some(format!("there are {}", names())),

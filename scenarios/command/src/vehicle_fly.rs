@@ -5,9 +5,9 @@ use super::say;
 use super::vehicle::{Wrong, loaded, plainly};
 use nalgebra::Vector3;
 use output::files::write_whole;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use std::fmt::Write as _;
-use studies::trials::{Flight, Flown, fly, table};
+use studies::trials::{Flight, FlownState, fly, table};
 use world::files::read_text;
 
 /// Longest table of set-points, bytes.
@@ -15,7 +15,7 @@ const LONGEST: u64 = 64 << 20;
 
 /// Flies it and writes its states.
 pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
-    let Craft::Described(vehicle) = loaded(&args.folder)? else {
+    let Vehicle::Described(vehicle) = loaded(&args.folder)? else {
         return Err((
             "only a vehicle of a folder has drives with names to fly it by".into(),
             Some("a scenario with `strategy: OpenLoop(...)` flies it by a table".into()),
@@ -62,7 +62,7 @@ pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
     Ok(())
 }
 
-fn written(rows: &[Flown], links: &[&str]) -> String {
+fn written(rows: &[FlownState], links: &[&str]) -> String {
     let mut text = String::from(
         "t_s,east_m,north_m,up_m,q_w,q_x,q_y,q_z,ahead_m_s,left_m_s,up_m_s,roll_rad_s,pitch_down_rad_s,yaw_port_rad_s",
     );

@@ -3,7 +3,7 @@
 
 use divan::Bencher;
 use output::live::{Live, LiveMeta, LiveOptions, Plane};
-use rheotaxis::control::{Controller, Heard};
+use rheotaxis::control::{Controller, Response};
 use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Trial, Unwatched};
 use std::sync::Arc;
@@ -58,7 +58,7 @@ fn question_and_answer(bencher: Bencher<'_, '_>) {
     let mut controller = live.controller("auv0", [LONG, LONG], going).expect("it asks");
     bencher.bench_local(|| {
         let heard = controller.answer(&question);
-        assert!(matches!(heard, Heard::Answer(_)), "{heard:?}");
+        assert!(matches!(heard, Response::Answer(_)), "{heard:?}");
     });
     drop(there);
     let _closed = session.close().wait();

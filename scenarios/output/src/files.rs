@@ -115,13 +115,13 @@ pub fn csv_number(value: Option<f64>) -> String {
 
 /// Files being written into a folder; if one fails, the others are not affected.
 #[derive(Debug)]
-pub struct Kept<'a> {
+pub struct PendingFiles<'a> {
     folder: &'a Folder,
     files: Vec<PathBuf>,
     failures: Vec<ReportError>,
 }
 
-impl<'a> Kept<'a> {
+impl<'a> PendingFiles<'a> {
     /// Begins without any file.
     pub fn new(folder: &'a Folder) -> Self {
         Self { folder, files: Vec::new(), failures: Vec::new() }
@@ -207,7 +207,7 @@ mod tests {
             fs::create_dir(dir.path().join(taken)).unwrap();
         }
         let folder = Folder::begin(dir.path(), "test").unwrap();
-        let mut kept = Kept::new(&folder);
+        let mut kept = PendingFiles::new(&folder);
         for name in ["a", "b", "c", "d", "e"] {
             kept.write(name, b"x");
         }

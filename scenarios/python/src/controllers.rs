@@ -1,15 +1,15 @@
 //! Controllers in Python: functions and policies that decide for the robots and gantries of a run.
 
-use super::error::Raised;
+use super::error::FirstError;
 use crate::batch::Pilot;
 use output::results::AbnormalSummary;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
-use rheotaxis::abnormal::Abnormality;
-use rheotaxis::control::{Controller, Heard, Question, question_json, read_answer};
+use rheotaxis::control::{Controller, Question, Response, question_json, read_answer};
+use rheotaxis::incidents::IncidentKind;
 use rheotaxis::trial::Trial;
-use robots::handoff::Consulted;
+use robots::handoff::ExchangeTiming;
 
 /// A machine that has touched the bed without a pause for longer than this lies there, s.
 const AGROUND_S: f64 = 60.0;
@@ -17,23 +17,22 @@ const AGROUND_S: f64 = 60.0;
 /// A function of Python that is asked for a machine.
 struct Function {
     ask: Py<PyAny>,
-    raised: Raised,
+    raised: FirstError,
 }
 
 impl Controller for Function {
-    fn answer(&mut self, question: &Question) -> Heard {
+    fn answer(&mut self, question: &Question) -> Response {
         if !self.raised.quiet() {
-            return Heard::Gone;
+            return Response::Gone;
         }
         let text = question_json(question).to_string();
         let told = Python::attach(|py| -> PyResult<String> { self.ask.bind(py).call1((text,))?.extract() });
         match told {
-            Ok(text) => {
-                read_answer(text.as_bytes(), question.number, question.t_s).map_or_else(Heard::Nonsense, Heard::Answer)
-            }
+            Ok(text) => read_answer(text.as_bytes(), question.number, question.t_s)
+                .map_or_else(Response::Nonsense, Response::Answer),
             Err(error) => {
                 self.raised.keep(error);
-                Heard::Gone
+                Response::Gone
             }
         }
     }
@@ -60,7 +59,7 @@ fn decider(id: &str, period_s: Option<f64>, of: &Bound<'_, PyAny>) -> PyResult<D
 /// The deciders that a run was given, by machine: of a dict, or one for all machines that ask.
 pub(crate) fn given(
     controllers: Option<&Bound<'_, PyAny>>,
-    asking: &[(String, Consulted)],
+    asking: &[(String, ExchangeTiming)],
 ) -> PyResult<Vec<(String, Decider)>> {
     let Some(controllers) = controllers else {
         return Ok(Vec::new());
@@ -89,13 +88,13 @@ pub(crate) fn given(
 }
 
 /// A line for each machine that asks and has nobody to answer it; none if others were meant, which is a mistake.
-pub(crate) fn unanswered(asking: &[(String, Consulted)], deciders: &[(String, Decider)]) -> Vec<String> {
+pub(crate) fn unanswered(asking: &[(String, ExchangeTiming)], deciders: &[(String, Decider)]) -> Vec<String> {
     let has = |id: &str| deciders.iter().any(|(name, _)| name == id);
-    let alone: Vec<&(String, Consulted)> = asking.iter().filter(|(id, _)| !has(id)).collect();
+    let alone: Vec<&(String, ExchangeTiming)> = asking.iter().filter(|(id, _)| !has(id)).collect();
     if alone.len() + deciders.len() != asking.len() {
         return Vec::new();
     }
-    let line = |(id, asks): &&(String, Consulted)| {
+    let line = |(id, asks): &&(String, ExchangeTiming)| {
         format!(
             "{id} asks a controller every {} s and has none, so that its `on_late` decides: give \
              controllers={{\"{id}\": f}} (docs/doors.md), or controllers={{}} if that is meant",
@@ -106,9 +105,9 @@ pub(crate) fn unanswered(asking: &[(String, Consulted)], deciders: &[(String, De
 }
 
 /// A line for each machine that asked and lay on the bed, or at an obstacle, for long.
-pub(crate) fn aground(asking: &[(String, Consulted)], events: &[AbnormalSummary]) -> Vec<String> {
+pub(crate) fn aground(asking: &[(String, ExchangeTiming)], events: &[AbnormalSummary]) -> Vec<String> {
     let own = |event: &&AbnormalSummary| asking.iter().any(|(id, _)| *id == event.robot);
-    let long = |event: &&AbnormalSummary| event.what == Abnormality::Touched && event.lasted_s >= AGROUND_S;
+    let long = |event: &&AbnormalSummary| event.what == IncidentKind::Touched && event.lasted_s >= AGROUND_S;
     let events = events.iter().filter(own).filter(long);
     events
         .map(|event| {
@@ -121,7 +120,7 @@ pub(crate) fn aground(asking: &[(String, Consulted)], events: &[AbnormalSummary]
 }
 
 /// Lets them decide in a run.
-pub(crate) fn take_over(trial: &mut Trial, deciders: Vec<(String, Decider)>, raised: &Raised) -> PyResult<()> {
+pub(crate) fn take_over(trial: &mut Trial, deciders: Vec<(String, Decider)>, raised: &FirstError) -> PyResult<()> {
     for (id, decider) in deciders {
         let raised = raised.clone();
         let done = match decider {

@@ -4,7 +4,7 @@ use output::shown::{self, PLAIN};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use rheotaxis::control::{Consultation, Heard};
+use rheotaxis::control::{Exchange, Response};
 use rheotaxis::lanes::caught;
 use rheotaxis::scenario::{self, Fault};
 use std::ffi::CString;
@@ -118,9 +118,9 @@ pub(crate) fn other(error: impl std::fmt::Display) -> PyErr {
 
 /// What went wrong first, in a controller or with an answer of it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
+pub(crate) struct FirstError(Arc<Mutex<Option<PyErr>>>);
 
-impl Raised {
+impl FirstError {
     /// Keeps what went wrong, if it is the first.
     pub(crate) fn keep(&self, error: PyErr) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -140,8 +140,8 @@ impl Raised {
     }
 
     /// Takes an answer that the machine could not carry out for an exception of the controller that gave it.
-    pub(crate) fn look_at(&self, told: &Consultation) {
-        if let Heard::Nonsense(why) = &told.heard {
+    pub(crate) fn look_at(&self, told: &Exchange) {
+        if let Response::Nonsense(why) = &told.heard {
             let (robot, number) = (&told.robot, told.number);
             let said = format!("the answer of {robot} to question {number}: {why}");
             self.keep(PyValueError::new_err(said));

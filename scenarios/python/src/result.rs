@@ -3,27 +3,27 @@
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
 use super::error::{apart, other};
-use output::follow::Gathered;
+use output::follow::RunResults;
 use output::report::Figure;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::trial::{Ended, Trial};
+use rheotaxis::trial::{RunEnd, Trial};
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use world::files;
 
 /// What figures are drawn from. The trial is over; they look at its ocean.
-pub(crate) struct Kept {
-    pub(crate) gathered: Gathered,
+pub(crate) struct FigureSource {
+    pub(crate) gathered: RunResults,
     pub(crate) ocean: Trial,
 }
 
 /// A run that is over.
-pub(crate) struct Made {
-    pub(crate) ended: Ended,
-    pub(crate) kept: Kept,
+pub(crate) struct FinishedRun {
+    pub(crate) ended: RunEnd,
+    pub(crate) kept: FigureSource,
     pub(crate) robots: Vec<RobotColumns>,
     pub(crate) gantries: Vec<GantryColumns>,
 }
@@ -37,7 +37,7 @@ pub(crate) struct PyRunResult {
     track: Py<PyAny>,
     probes: Py<PyAny>,
     /// Locked only without the interpreter's lock; `None` of a copy, which has its figures.
-    kept: Option<Mutex<Kept>>,
+    kept: Option<Mutex<FigureSource>>,
     figures: OnceLock<Vec<Figure>>,
 }
 
@@ -63,7 +63,7 @@ type Sent = (Facts, Option<PathBuf>, Py<PyAny>, Py<PyAny>, Vec<SentFigure>);
 
 impl PyRunResult {
     /// Of a run that is over.
-    pub(crate) fn new(py: Python<'_>, made: Made) -> PyResult<Self> {
+    pub(crate) fn new(py: Python<'_>, made: FinishedRun) -> PyResult<Self> {
         let summary = &made.kept.gathered.summary;
         let track = PyDict::new(py);
         for robot in &made.robots {

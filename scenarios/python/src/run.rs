@@ -4,8 +4,8 @@ use super::cache::{Cache, opened, tell_fault};
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
 use super::controllers::{Decider, aground, given, take_over, unanswered};
-use super::error::{Raised, apart, other, scenario_error, warn_of, warn_of_run, whole};
-use super::result::{Kept, Made, PyRunResult};
+use super::error::{FirstError, apart, other, scenario_error, warn_of, warn_of_run, whole};
+use super::result::{FigureSource, FinishedRun, PyRunResult};
 use super::scenario::PyScenario;
 use super::signals::Signals;
 use output::files::begin_run;
@@ -14,7 +14,7 @@ use output::report::is_result;
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::control::Consultation;
+use rheotaxis::control::Exchange;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, Watch, consulted};
@@ -27,7 +27,7 @@ struct Watcher {
     robots: Vec<RobotColumns>,
     gantries: Vec<GantryColumns>,
     signals: Signals,
-    raised: Raised,
+    raised: FirstError,
 }
 
 impl Watch for Watcher {
@@ -54,7 +54,7 @@ impl Watch for Watcher {
     fn ping(&mut self, ping: &PingFrame) {
         self.results.ping(ping);
     }
-    fn consulted(&mut self, told: &Consultation) {
+    fn consulted(&mut self, told: &Exchange) {
         self.results.consulted(told);
         self.raised.look_at(told);
     }
@@ -64,7 +64,7 @@ impl Watch for Watcher {
 }
 
 /// What a run is asked for.
-struct Asked {
+struct RunOptions {
     seed: u64,
     files: Option<PathBuf>,
     recording: bool,
@@ -74,12 +74,12 @@ struct Asked {
 }
 
 /// Makes the run; an exception that a signal has raised comes with it.
-fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<Made> {
+fn made(loaded: &Loaded, asked: RunOptions, kept: Option<&SpinUps>) -> PyResult<FinishedRun> {
     let mut trial = Trial::assemble(loaded, asked.seed).map_err(other)?;
     if asked.threads != 1 {
         trial.simulation.ocean_mut().use_threads(asked.threads);
     }
-    let raised = Raised::default();
+    let raised = FirstError::default();
     take_over(&mut trial, asked.controllers, &raised)?;
     let mut results = Follower::new(loaded, asked.seed.into()).map_err(other)?;
     // The folder comes last: a run that cannot start must not remove the files of an earlier run.
@@ -105,8 +105,8 @@ fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<Made>
         return Err(raised);
     }
     written.map_err(other)?;
-    let kept = Kept { gathered, ocean: trial };
-    Ok(Made { ended, kept, robots: watcher.robots, gantries: watcher.gantries })
+    let kept = FigureSource { gathered, ocean: trial };
+    Ok(FinishedRun { ended, kept, robots: watcher.robots, gantries: watcher.gantries })
 }
 
 /// Most threads that a run may be asked to use.
@@ -157,7 +157,7 @@ pub(crate) fn run(
         warn_of_run(py, &unanswered(&asking, &deciders))?;
     }
     let kept = opened(py, cache)?;
-    let asked = Asked { seed: seed.0, files, recording, threads: threads.0, controllers: deciders };
+    let asked = RunOptions { seed: seed.0, files, recording, threads: threads.0, controllers: deciders };
     let made = apart(py, || made(&loaded, asked, kept.as_ref()))?;
     tell_fault(py, kept.and_then(|kept| kept.fault()))?;
     let events = &made.kept.gathered.summary.abnormal;

@@ -5,10 +5,10 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use rheotaxis::control::{Heard, Question};
+use rheotaxis::control::{Question, Response};
 use rheotaxis::lanes::{Shared, Worlds};
 use rheotaxis::scenario::{Loaded, load_text, template};
-use robots::handoff::{Answer, Manoeuvre, MoveOrder, Order};
+use robots::handoff::{Manoeuvre, MotionOrder, MoveOrder, Reply};
 use std::sync::Arc;
 use world::registry::Registry;
 use world::units::Heading;
@@ -40,10 +40,10 @@ fn channel(kinematic: bool) -> Loaded {
     load_text(&Registry::default(), "channel", &text).expect("legal")
 }
 
-fn answer(place: usize, question: &Question) -> Heard {
+fn answer(place: usize, question: &Question) -> Response {
     let heading = Heading::from_deg(((place as u64 * 77 + question.number * 50) % 360) as f64);
     let order = MoveOrder { id: None, manoeuvre: Manoeuvre::Steer { heading }, vertical: None, speed_m_s: Some(1.0) };
-    Heard::Answer(Answer { order: Some(Order::Move(order)), ..Answer::default() })
+    Response::Answer(Reply { order: Some(MotionOrder::Move(order)), ..Reply::default() })
 }
 
 #[divan::bench(args = [(true, 8, 32), (true, 256, 1), (true, 1, 32), (false, 8, 32), (false, 32, 1)], sample_count = 20)]

@@ -4,7 +4,7 @@
 
 use divan::Bencher;
 use rheotaxis::scenario::load;
-use rheotaxis::trial::{Ended, Trial};
+use rheotaxis::trial::{RunEnd, Trial};
 use std::path::Path;
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-fn run(name: &str, seed: u64) -> Ended {
+fn run(name: &str, seed: u64) -> RunEnd {
     let loaded = load(Path::new(name)).expect("a scenario of the catalogue");
     let trial = Trial::assemble(&loaded, seed).expect("that can be assembled");
     trial.finish_quietly()

@@ -1,9 +1,9 @@
 //! From a scenario to a world that ticks: everything that takes part in a run is put into its place here.
 
-use crate::apparatus::{Launch, Systems};
 use crate::error::AssembleError;
 use crate::extend::Addition;
 use crate::fleet::Fleet;
+use crate::machines::{Launch, Systems};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin};
 use crate::outbox::{Frames, Outbox};
@@ -167,7 +167,7 @@ impl Simulation {
 pub struct WaterLight(pub Box<Optics>);
 
 /// What every run has of its own beside the ocean: time, bodies, score, digest and what waits to be shown.
-pub(crate) struct Beside {
+pub(crate) struct RunParts {
     clock: Clock,
     score: Score,
     outbox: Outbox,
@@ -175,7 +175,7 @@ pub(crate) struct Beside {
     digest: Digest,
 }
 
-impl Beside {
+impl RunParts {
     /// At the beginning of a run in an ocean.
     pub(crate) fn new(scenario: &Scenario, ocean: &Ocean) -> Self {
         let dt_s = scenario.time.step_s.get();
@@ -221,7 +221,7 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
     let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
     let mut ocean = world.resource_mut::<Ocean>();
     ocean.step_at_most(scenario.time.drift_period_s.get());
-    Beside::new(scenario, world.resource()).put_into(world);
+    RunParts::new(scenario, world.resource()).put_into(world);
     world.insert_resource(WaterLight(Box::new(optics)));
     Ok(())
 }

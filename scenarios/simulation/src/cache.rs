@@ -77,7 +77,7 @@ pub enum CacheFault {
 
 /// A spin-up, and where it came from.
 #[derive(Clone, Debug)]
-pub struct Developed {
+pub struct SpinUp {
     /// The state, for other runs to take over.
     pub state: SpunUp,
     /// Whether it was kept, so that it had not to be made.
@@ -204,13 +204,13 @@ impl SpinUps {
         ocean: impl FnOnce(&R) -> Option<(&Origin, &Ocean)>,
         take_over: impl FnOnce(&mut R, &SpunUp) -> Result<(), Mismatch>,
         spin_up: impl FnOnce(&mut R) -> Option<SpunUp>,
-    ) -> Option<Developed> {
+    ) -> Option<SpinUp> {
         let (origin, ocean) = ocean(runs)?;
         let key = self.key(origin);
         if let Some(state) = key.and_then(|key| self.get(&key, origin, ocean))
             && take_over(runs, &state).is_ok()
         {
-            return Some(Developed { state, kept: true });
+            return Some(SpinUp { state, kept: true });
         }
         let begun = Instant::now();
         let state = spin_up(runs)?;
@@ -219,7 +219,7 @@ impl SpinUps {
         {
             self.put(&key, &state);
         }
-        Some(Developed { state, kept: false })
+        Some(SpinUp { state, kept: false })
     }
 }
 
@@ -229,7 +229,7 @@ impl Trial {
     ///
     /// # Panics
     /// If the run has been spun up before.
-    pub fn spin_up_with(&mut self, kept: &SpinUps, watch: &mut dyn Watch) -> Option<Developed> {
+    pub fn spin_up_with(&mut self, kept: &SpinUps, watch: &mut dyn Watch) -> Option<SpinUp> {
         let developed = kept.develop(
             self,
             |trial| Some((&trial.simulation.origin, trial.simulation.ocean())),
@@ -247,7 +247,7 @@ impl<W: Watch> Lanes<W> {
     ///
     /// # Panics
     /// If the lanes have been spun up before.
-    pub fn spin_up_with(&mut self, kept: &SpinUps) -> Option<Developed> {
+    pub fn spin_up_with(&mut self, kept: &SpinUps) -> Option<SpinUp> {
         let developed = kept.develop(self, Lanes::ocean, Lanes::take_over, Lanes::spin_up)?;
         self.tell_developed(developed.kept);
         Some(developed)

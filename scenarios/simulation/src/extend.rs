@@ -23,7 +23,7 @@
 //! });
 //! ```
 
-pub use crate::apparatus::Systems;
+pub use crate::machines::Systems;
 
 use crate::registry::topics;
 use crate::topic::Topic;
@@ -36,7 +36,7 @@ pub(crate) struct Addition(pub(crate) Box<dyn Fn(&mut Systems) + Send + Sync>);
 /// What a registry carries beside its rows.
 pub trait Extend: Sized {
     /// Adds systems to the tick of every run, and resources to its world. They run after the systems of the program
-    /// in their stage, and in every run they start anew. See [`Systems`] for the order, and [`crate::apparatus`] for
+    /// in their stage, and in every run they start anew. See [`Systems`] for the order, and [`crate::machines`] for
     /// what they may know.
     #[must_use]
     fn with_systems(self, add: impl Fn(&mut Systems) + Send + Sync + 'static) -> Self;

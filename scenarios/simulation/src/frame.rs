@@ -5,15 +5,15 @@
 //! [topics](crate::topic), which are in [`Frame::published`].
 
 mod gantry;
-mod heard;
+mod readings;
 mod robot;
 
 pub use gantry::GantryFrame;
-pub use heard::{At, Heard};
+pub use readings::{NewestReadings, TimedReading};
 pub use robot::{PictureFrame, PingFrame, RobotFrame};
 
-use crate::abnormal::Abnormal;
-use crate::topic::Published;
+use crate::incidents::Incident;
+use crate::topic::TopicValue;
 use nalgebra::Vector2;
 
 /// The run at one instant.
@@ -28,9 +28,9 @@ pub struct Frame {
     /// All gantries, in the scenario's order.
     pub gantries: Vec<GantryFrame>,
     /// All abnormal events so far, including those that are over.
-    pub abnormal: Vec<Abnormal>,
+    pub abnormal: Vec<Incident>,
     /// The newest value of each topic that was published since the previous frame, sorted by key.
-    pub published: Vec<Published>,
+    pub published: Vec<TopicValue>,
 }
 
 /// Some of the plume's filaments at one instant.

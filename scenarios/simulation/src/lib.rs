@@ -67,7 +67,7 @@
 //! | a behaviour, a rule of declaration, a source map, a planner | a row of its kind | like `own_strategy.rs` |
 //! | a system in a stage of the tick, with data of its own | [`with_systems`] | `own_system.rs` |
 //! | a value that live state, recording and summary show | [`with_topic`] | `own_topic.rs` |
-//! | a machine beside robots and gantries | a row of [`Apparatuses`](apparatus::Apparatuses) | `own_apparatus.rs` |
+//! | a machine beside robots and gantries | a row of [`Apparatuses`](machines::Apparatuses) | `own_apparatus.rs` |
 //!
 //! [`with_systems`]: extend::Extend::with_systems
 //! [`with_topic`]: extend::Extend::with_topic
@@ -80,14 +80,12 @@
 //! - [`ocean`] holds water, plume and obstacles. No searcher changes it, so [`lanes`] lets many runs share one, and
 //!   [`cache`] keeps spun-up ones on the disk.
 //! - [`control`] asks searchers outside the program.
-//! - [`auv`] and [`gantry`] are the searchers; [`apparatus`] is the trait that both implement.
+//! - [`auv`] and [`gantry`] are the searchers; [`machines`] is the trait that both implement.
 //! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
-//! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
+//! - [`score`] and [`incidents`] judge a run; [`frame`] and [`topic`] are what is seen of it.
 //! - [`registry`] lists everything that has a name; [`extend`] adds systems and topics.
 #![deny(unsafe_code)]
 
-pub mod abnormal;
-pub mod apparatus;
 pub mod assemble;
 pub mod auv;
 pub mod cache;
@@ -98,7 +96,9 @@ pub mod extend;
 pub mod fleet;
 pub mod frame;
 pub mod gantry;
+pub mod incidents;
 pub mod lanes;
+pub mod machines;
 pub mod ocean;
 pub mod outbox;
 pub mod outcome;

@@ -9,9 +9,9 @@
 //!
 //! What is not a row (systems, topics) is in [`crate::extend`].
 
-use crate::apparatus::Apparatuses;
 use crate::frame::Frame;
-use crate::topic::{Published, Topic, chunk, run};
+use crate::machines::Apparatuses;
+use crate::topic::{Topic, TopicValue, chunk, run};
 use crate::{auv, gantry};
 use serde_json::Value;
 use world::catalogue::Entry;
@@ -109,7 +109,7 @@ pub fn topics(registry: &Registry) -> Vec<Topic> {
 pub fn messages(frame: &Frame) -> Vec<(String, Value)> {
     let robot = |r| auv::message::messages(frame.t_s, r, &frame.abnormal);
     let gantry = |g| gantry::message::messages(frame.t_s, g);
-    let published = |p: &Published| {
+    let published = |p: &TopicValue| {
         let key: Vec<String> = p.key.split('/').map(chunk).collect();
         (key.join("/"), p.value.clone())
     };

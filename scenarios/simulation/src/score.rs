@@ -4,7 +4,7 @@
 //! Frames, summaries, rows of campaigns and live state read it. It depends on no frame, so it does not change with how
 //! often the run is recorded. It holds the truth: no searcher may read it.
 
-use crate::abnormal::Abnormal;
+use crate::incidents::Incident;
 use bevy_ecs::prelude::Resource;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Declaration, Outcome};
@@ -18,7 +18,7 @@ pub struct Score {
     /// Robots, then gantries, then others, each in the scenario's order.
     pub searchers: Vec<SearcherScore>,
     /// All abnormal events so far, by their beginning, in the order in which they were noticed.
-    pub abnormal: Vec<Abnormal>,
+    pub abnormal: Vec<Incident>,
     /// Whether a mission ended since somebody last asked.
     ended: bool,
 }

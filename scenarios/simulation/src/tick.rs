@@ -12,7 +12,7 @@
 
 mod in_order;
 
-use crate::apparatus::{BodiesMove, Turn};
+use crate::machines::{BodiesMove, Turn};
 use crate::ocean::system as ocean;
 use crate::outbox::{Frames, close_frame, open_frame};
 use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule, World};

@@ -15,18 +15,18 @@ pub use watch::{Unwatched, Watch};
 
 pub(crate) use progress::Progress;
 
-use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
 use crate::control::Controller;
 use crate::error::AssembleError;
 use crate::fleet::Fleet;
 use crate::frame::{Frame, PlumeFrame};
+use crate::machines::Machine;
 use crate::ocean::{Mismatch, Ocean, SpunUp};
 use crate::outbox::Outbox;
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::score::Score;
-use crate::topic::{Published, Topics};
+use crate::topic::{TopicValue, Topics};
 use nalgebra::Vector3;
 use progress::RunPhase;
 use robots::handoff::{Declaration, Outcome, Verdict};
@@ -38,7 +38,7 @@ use world::seeds::Seed;
 
 /// What is known at the end of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ended {
+pub struct RunEnd {
     /// How it ended.
     pub outcome: RunOutcome,
     /// Digest of all states of the run, of what was declared in it and of its outcome.
@@ -152,7 +152,7 @@ impl Trial {
     }
 
     /// Makes the run to its end: the spin-up, unless it is done or taken over, and the rest of the mission.
-    pub fn run(&mut self, watch: &mut dyn Watch) -> Ended {
+    pub fn run(&mut self, watch: &mut dyn Watch) -> RunEnd {
         while self.advance(watch) {}
         self.ended()
     }
@@ -208,14 +208,14 @@ impl Trial {
 
     /// The result of the run so far. Before its end the outcome is the one that it would have at the time limit.
     #[must_use]
-    pub fn ended(&self) -> Ended {
+    pub fn ended(&self) -> RunEnd {
         let world = &self.simulation.world;
         let samples = f64::from(self.progress.flow_samples.max(1));
         let outcome = match self.progress.phase {
             RunPhase::Stopped => RunOutcome::Interrupted,
             _ => self.outcome(),
         };
-        Ended {
+        RunEnd {
             outcome,
             flow_at_sources: self.progress.flow_sums.iter().map(|sum| sum / samples).collect(),
             digest: self.digest(outcome),
@@ -240,7 +240,7 @@ impl Trial {
 
     /// Makes the run to its end without an observer.
     #[must_use]
-    pub fn finish_quietly(mut self) -> Ended {
+    pub fn finish_quietly(mut self) -> RunEnd {
         self.run(&mut Unwatched)
     }
 
@@ -251,7 +251,7 @@ impl Trial {
     }
 
     /// The newest value of every key that was published, sorted by key.
-    pub fn published(&self) -> impl Iterator<Item = &Published> {
+    pub fn published(&self) -> impl Iterator<Item = &TopicValue> {
         self.simulation.world.resource::<Topics>().newest()
     }
 
@@ -259,7 +259,7 @@ impl Trial {
     #[must_use]
     pub fn apparatus(&self) -> BTreeMap<String, serde_json::Value> {
         let all = Fleet::of(&self.scenario);
-        let part = |a: &dyn Apparatus| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
+        let part = |a: &dyn Machine| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
         all.all().filter_map(part).collect()
     }
 

@@ -1,10 +1,10 @@
 //! Lanes and runs alone share what is kept.
 
 use super::kit::{all, developed, files, short};
-use rheotaxis::cache::{Developed, SpinUps};
+use rheotaxis::cache::{SpinUp, SpinUps};
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Watch};
 use std::cell::RefCell;
 use std::rc::Rc;
 use world::ranges::{HeadingDeg, Positive};
@@ -52,7 +52,7 @@ fn together(
     seed: Seed,
     kept: &SpinUps,
     listeners: &[Listener; 2],
-) -> (Option<Developed>, [Result<Ended, String>; 2]) {
+) -> (Option<SpinUp>, [Result<RunEnd, String>; 2]) {
     let mut lanes = Lanes::default();
     let mut ends = [const { None }; 2];
     for (n, loaded) in searchers.iter().enumerate() {

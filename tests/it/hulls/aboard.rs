@@ -2,18 +2,18 @@
 
 use super::kit::shipped;
 use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{Beside, load_text, template};
+use rheotaxis::scenario::{FolderFiles, load_text, template};
 use rheotaxis::trial::Trial;
 use robots::handoff::Readings;
 use robots::sense::Sensors;
-use robots::vehicles::{Craft, SHIPPED, VehicleSpec};
+use robots::vehicles::{SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 
 #[test]
 fn every_shipped_vehicle_has_a_mount_for_every_instrument() {
     for vehicle in SHIPPED {
         let spec = VehicleSpec::Shipped(vehicle.folder.into());
-        let craft = Craft::load(&spec, &Beside(Path::new(""))).expect("shipped");
+        let craft = Vehicle::load(&spec, &FolderFiles(Path::new(""))).expect("shipped");
         assert!(craft.told().is_empty(), "{}: {:?}", vehicle.folder, craft.told());
         for sensor in world::registry::Registry::default().entries::<Sensors>() {
             assert!(craft.mount(sensor.name).is_some(), "{}: {}", vehicle.folder, sensor.name);
@@ -35,7 +35,7 @@ fn an_instrument_reads_from_where_its_link_is() {
     let reads = |urdf: &str| {
         let folder = dir.path().join("hull");
         std::fs::create_dir_all(&folder).expect("a folder");
-        let file = robots::vehicles::Shipped::named("bluerov2_heavy").expect("shipped").file;
+        let file = robots::vehicles::ShippedVehicle::named("bluerov2_heavy").expect("shipped").file;
         std::fs::write(folder.join("vehicle.ron"), file).expect("a file");
         std::fs::write(folder.join("bluerov2_heavy.urdf"), urdf).expect("a file");
         let text = template("uniform_channel").expect("in the catalogue").text;

@@ -3,9 +3,9 @@
 use super::kit::{built, shipped, still};
 use crate::common;
 use nalgebra::Vector3;
-use rheotaxis::scenario::Beside;
+use rheotaxis::scenario::FolderFiles;
 use robots::handoff::DriveCommand;
-use robots::vehicles::{Described, Description, Files, InMemory, VehicleFile, VehicleSpec};
+use robots::vehicles::{Description, Files, FolderVehicle, InMemory, VehicleFile, VehicleSpec};
 use std::path::Path;
 use world::frames::{Pose, Truth};
 use world::units::Heading;
@@ -50,21 +50,21 @@ const BOX: &str = "(
 )";
 
 fn box_file() -> VehicleFile {
-    let read = Beside(Path::new("")).vehicle("box", BOX);
+    let read = FolderFiles(Path::new("")).vehicle("box", BOX);
     read.unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn boxed(kind: &str, axis: &str) -> Described {
+fn boxed(kind: &str, axis: &str) -> FolderVehicle {
     built(&box_file(), &box_urdf(kind, axis))
 }
 
 fn refused(file: &VehicleFile, urdf: &str) -> String {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    let loaded = Described::load(Path::new("it"), file, &files);
+    let loaded = FolderVehicle::load(Path::new("it"), file, &files);
     loaded.expect_err("it cannot be a vehicle").to_string()
 }
 
-fn way(vehicle: &Described, drive: usize) -> Vector3<f64> {
+fn way(vehicle: &FolderVehicle, drive: usize) -> Vector3<f64> {
     vehicle.acting().nth(drive).expect("as many drives").1
 }
 
@@ -143,7 +143,7 @@ fn pictures_turn_about_the_same_axis_and_check_prints_it() {
     std::fs::write(dir.path().join("box/box.urdf"), urdf).expect("a file");
     std::fs::write(dir.path().join("box/vehicle.ron"), BOX).expect("a file");
     let spec = VehicleSpec::File("box".into());
-    let drawn = Description::of_vehicle(&spec, &Beside(dir.path())).expect("a vehicle");
+    let drawn = Description::of_vehicle(&spec, &FolderFiles(dir.path())).expect("a vehicle");
     let joint = |name: &str| drawn.joints.iter().find(|j| j.joint == name);
     assert_eq!(joint("middle_joint").expect("it").axis, Vector3::z());
     assert_eq!(joint("left_joint").expect("it").axis, Vector3::x());

@@ -1,10 +1,10 @@
 //! Shipped vehicles to be changed, and water without surprises.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use rheotaxis::scenario::Beside;
+use rheotaxis::scenario::FolderFiles;
 use robots::handoff::{PilotSpec, ThrustersSpec};
 use robots::vehicles::{
-    Axes, Block, CurveSpec, Described, DriveSpec, Files, HydrodynamicsSpec, InMemory, Shipped, ThrusterSpec,
+    Axes, Block, CurveSpec, DriveSpec, Files, FolderVehicle, HydrodynamicsSpec, InMemory, ShippedVehicle, ThrusterSpec,
     VehicleFile,
 };
 use std::path::Path;
@@ -15,15 +15,15 @@ use world::seeds::Stream;
 
 /// A shipped vehicle's file and URDF.
 pub(super) fn shipped(name: &str) -> (VehicleFile, String) {
-    let shipped = Shipped::named(name).expect("it is shipped");
-    let file = Beside(Path::new("")).vehicle(name, shipped.file).unwrap_or_else(|e| panic!("{e}"));
+    let shipped = ShippedVehicle::named(name).expect("it is shipped");
+    let file = FolderFiles(Path::new("")).vehicle(name, shipped.file).unwrap_or_else(|e| panic!("{e}"));
     (file, shipped.urdf.1.to_string())
 }
 
 /// The vehicle of a file and a URDF.
-pub(super) fn built(file: &VehicleFile, urdf: &str) -> Described {
+pub(super) fn built(file: &VehicleFile, urdf: &str) -> FolderVehicle {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    Described::load(Path::new("it"), file, &files).unwrap_or_else(|e| panic!("{e}"))
+    FolderVehicle::load(Path::new("it"), file, &files).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A thruster whose input is its thrust, at once.
@@ -77,7 +77,7 @@ fn positive(rng: &mut Stream, force: f64, arm_m: f64) -> Matrix6<f64> {
 }
 
 /// A hull within the limits of `check`, about which it has no doubt of energy.
-pub(super) fn random_hull(rng: &mut Stream) -> Described {
+pub(super) fn random_hull(rng: &mut Stream) -> FolderVehicle {
     let size = math::exp(between(rng, -2.0, 1.5));
     let kg = 200.0 * size * size * size * between(rng, 0.3, 3.0);
     let arms = [0, 1, 2].map(|_| size * between(rng, 0.1, 0.5));

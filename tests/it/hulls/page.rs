@@ -1,8 +1,8 @@
 //! `docs/vehicles.md` as printed: its commands run, and what they write can search.
 
 use crate::common;
-use rheotaxis::scenario::{Beside, template};
-use robots::vehicles::{Craft, SHIPPED, VehicleSpec};
+use rheotaxis::scenario::{FolderFiles, template};
+use robots::vehicles::{SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 use studies::trials::{Trial, trials};
 
@@ -152,7 +152,7 @@ fn the_figures_of_the_shipped_vehicles_are_those_of_their_trials() {
                 "Remus100" => VehicleSpec::default(),
                 folder => VehicleSpec::Shipped(folder.to_string()),
             };
-            trials(&Craft::load(&spec, &Beside(Path::new(""))).expect("a vehicle"))
+            trials(&Vehicle::load(&spec, &FolderFiles(Path::new(""))).expect("a vehicle"))
         };
         let all: Vec<_> = (names.iter()).map(|name| scope.spawn(move || one(name))).collect();
         all.into_iter().map(|t| t.join().expect("trials")).collect()

@@ -1,7 +1,7 @@
 //! Vehicles as others publish them: frames without mass, files of another kind, marks of the encoding.
 
-use rheotaxis::scenario::Beside;
-use robots::vehicles::{Craft, Described, VehicleSpec};
+use rheotaxis::scenario::FolderFiles;
+use robots::vehicles::{FolderVehicle, Vehicle, VehicleSpec};
 
 const VEHICLE: &str = r#"(
     name: "Box", what: "A box with three thrusters.", source: "own", urdf: "box.urdf",
@@ -34,14 +34,14 @@ const URDF: &str = r#"<?xml version="1.0"?>
 "#;
 
 /// A vehicle of a folder with these two texts.
-fn load(vehicle: &str, urdf: &str) -> Result<Described, String> {
+fn load(vehicle: &str, urdf: &str) -> Result<FolderVehicle, String> {
     let dir = tempfile::tempdir().expect("a folder");
     let at = dir.path().join("box");
     std::fs::create_dir(&at).expect("a folder");
     std::fs::write(at.join("vehicle.ron"), vehicle).expect("a file");
     std::fs::write(at.join("box.urdf"), urdf).expect("a file");
-    match Craft::load(&VehicleSpec::File("box".into()), &Beside(dir.path())) {
-        Ok(Craft::Described(vehicle)) => Ok(*vehicle),
+    match Vehicle::load(&VehicleSpec::File("box".into()), &FolderFiles(dir.path())) {
+        Ok(Vehicle::Described(vehicle)) => Ok(*vehicle),
         Ok(_) => panic!("a vehicle of a folder"),
         Err(e) => Err(e.to_string()),
     }

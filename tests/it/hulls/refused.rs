@@ -1,12 +1,12 @@
 //! What cannot be a vehicle is refused with file and element; what is doubtful is told.
 
-use rheotaxis::scenario::Beside;
-use robots::vehicles::{Craft, Shipped, VehicleSpec};
+use rheotaxis::scenario::FolderFiles;
+use robots::vehicles::{ShippedVehicle, Vehicle, VehicleSpec};
 use std::path::Path;
 
 /// The LAUV's folder with its texts changed: its error, or what is told of it.
 fn changed(ron: &[(&str, &str)], urdf: &[(&str, &str)]) -> Result<Vec<String>, String> {
-    let lauv = Shipped::named("lauv").expect("it is shipped");
+    let lauv = ShippedVehicle::named("lauv").expect("it is shipped");
     let dir = tempfile::tempdir().expect("a folder");
     let with = |text: &str, changes: &[(&str, &str)]| {
         let mut text = text.to_string();
@@ -21,7 +21,7 @@ fn changed(ron: &[(&str, &str)], urdf: &[(&str, &str)]) -> Result<Vec<String>, S
     std::fs::write(at("vehicle.ron"), with(lauv.file, ron)).expect("a file");
     std::fs::write(at(lauv.urdf.0), with(lauv.urdf.1, urdf)).expect("a file");
     let said = |text: String| text.replace(&dir.path().display().to_string(), "");
-    Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path()))
+    Vehicle::load(&VehicleSpec::File("my_auv".into()), &FolderFiles(dir.path()))
         .map(|craft| craft.told().to_vec())
         .map_err(|e| said(e.to_string()))
 }
@@ -51,20 +51,20 @@ fn mistakes_of_form_are_told_with_line_and_column() {
 fn a_folder_without_its_files_is_told() {
     let dir = tempfile::tempdir().expect("a folder");
     let load = |name: &str| {
-        Craft::load(&VehicleSpec::File(name.into()), &Beside(dir.path())).expect_err("nothing there").to_string()
+        Vehicle::load(&VehicleSpec::File(name.into()), &FolderFiles(dir.path())).expect_err("nothing there").to_string()
     };
     says(&load("none"), &["none/vehicle.ron: ", "No such file"]);
     std::fs::create_dir(dir.path().join("half")).expect("a folder");
-    let lauv = Shipped::named("lauv").expect("it is shipped");
+    let lauv = ShippedVehicle::named("lauv").expect("it is shipped");
     std::fs::write(dir.path().join("half/vehicle.ron"), lauv.file).expect("a file");
     says(&load("half"), &["half/lauv.urdf: ", "No such file"]);
-    let shipped = Craft::load(&VehicleSpec::Shipped("lauf".into()), &Beside(Path::new("")));
+    let shipped = Vehicle::load(&VehicleSpec::Shipped("lauf".into()), &FolderFiles(Path::new("")));
     says(&shipped.expect_err("no such vehicle").to_string(), &["no vehicle \"lauf\" comes with the program", "lauv"]);
 }
 
 #[test]
 fn masses_that_no_body_has_are_refused() {
-    let urdf = Shipped::named("lauv").expect("shipped").urdf.1;
+    let urdf = ShippedVehicle::named("lauv").expect("shipped").urdf.1;
     let mass = urdf.split("<mass value=\"").nth(1).expect("a mass");
     let mass = format!("<mass value=\"{}\"", mass.split('"').next().expect("a number"));
     says(&refused(&[], &[(&mass, "<mass value=\"0\"")]), &["my_auv/lauv.urdf", "no link has a <mass> > 0"]);
@@ -108,7 +108,7 @@ fn drives_on_links_that_are_not_there_are_refused() {
 fn a_mesh_of_many_triangles_is_refused_before_it_is_read() {
     // A binary STL begins with 80 bytes and the number of its triangles.
     let dir = tempfile::tempdir().expect("a folder");
-    let lauv = Shipped::named("lauv").expect("it is shipped");
+    let lauv = ShippedVehicle::named("lauv").expect("it is shipped");
     std::fs::create_dir(dir.path().join("my_auv")).expect("a folder");
     let at = |name: &str| dir.path().join("my_auv").join(name);
     let collision = lauv.urdf.1.find("<collision").expect("a shape");
@@ -121,14 +121,15 @@ fn a_mesh_of_many_triangles_is_refused_before_it_is_read() {
     let mut stl = vec![0u8; 80];
     stl.extend(100_000_000u32.to_le_bytes());
     std::fs::write(at("hull.stl"), &stl).expect("a file");
-    let error =
-        Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path())).expect_err("not a mesh").to_string();
+    let error = Vehicle::load(&VehicleSpec::File("my_auv".into()), &FolderFiles(dir.path()))
+        .expect_err("not a mesh")
+        .to_string();
     says(&error, &["my_auv/lauv.urdf", "mesh \"hull.stl\""]);
     // A file as long as so many triangles need, without the disk for it.
     let file = std::fs::File::create(at("hull.stl")).expect("a file");
     file.set_len(84 + 50 * 100_000_000).expect("a long file");
     let error =
-        Craft::load(&VehicleSpec::File("my_auv".into()), &Beside(dir.path())).expect_err("too long").to_string();
+        Vehicle::load(&VehicleSpec::File("my_auv".into()), &FolderFiles(dir.path())).expect_err("too long").to_string();
     says(&error, &["my_auv/lauv.urdf", "mesh \"hull.stl\"", "longer"]);
 }
 

@@ -2,17 +2,17 @@
 
 use crate::common;
 use nalgebra::{Vector2, Vector3};
-use rheotaxis::scenario::{Beside, template};
+use rheotaxis::scenario::{FolderFiles, template};
 use robots::actuate::DrivePilot;
 use robots::handoff::{Attitude, Command, Control, Estimate, FlowEstimate, Setpoint, Vertical};
-use robots::vehicles::{Craft, Shipped, VehicleSpec};
+use robots::vehicles::{ShippedVehicle, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::units::Heading;
 
 /// A minute of the channel with a BlueROV2 Heavy whose thrusters have this curve.
 fn flown(curve: Option<&str>) -> serde_json::Value {
     let dir = tempfile::tempdir().expect("a folder");
-    let shipped = Shipped::named("bluerov2_heavy").expect("shipped");
+    let shipped = ShippedVehicle::named("bluerov2_heavy").expect("shipped");
     let mut file = shipped.file.to_string();
     if let Some(curve) = curve {
         while let Some(at) = file.find("Table([") {
@@ -60,7 +60,7 @@ fn thrusters_at_their_limits_are_told_of() {
 #[test]
 fn a_torpedo_is_never_steered_slower_than_its_fins_can_steer_it() {
     let spec = VehicleSpec::Shipped("lauv".into());
-    let craft = Craft::load(&spec, &Beside(Path::new(""))).expect("shipped");
+    let craft = Vehicle::load(&spec, &FolderFiles(Path::new(""))).expect("shipped");
     let Control::Drives(plant) = craft.control() else {
         panic!("a vehicle of a folder");
     };

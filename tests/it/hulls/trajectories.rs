@@ -5,7 +5,7 @@
 use super::kit::{built, newtons, shipped, still};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use robots::handoff::DriveCommand;
-use robots::vehicles::{Described, DriveSpec};
+use robots::vehicles::{DriveSpec, FolderVehicle};
 use world::frames::{Pose, Truth};
 
 const DT_S: f64 = 0.02;
@@ -26,7 +26,7 @@ fn pose(row: &[f64]) -> Pose {
 }
 
 /// Flies a vehicle from the first row, with set-points by time; greatest distance (m) and angle (degrees).
-fn apart(vehicle: &mut Described, text: &str, set: impl Fn(f64) -> Vec<f64>) -> (f64, f64) {
+fn apart(vehicle: &mut FolderVehicle, text: &str, set: impl Fn(f64) -> Vec<f64>) -> (f64, f64) {
     let rows = rows(text);
     let first = &rows[0];
     let mut truth = Truth::at_rest(pose(first));
@@ -47,7 +47,7 @@ fn apart(vehicle: &mut Described, text: &str, set: impl Fn(f64) -> Vec<f64>) -> 
     (metres, degrees)
 }
 
-fn bluerov() -> Described {
+fn bluerov() -> FolderVehicle {
     let (mut file, urdf) = shipped("bluerov2_heavy");
     for drive in &mut file.drives {
         let DriveSpec::Thruster(thruster) = drive else {
@@ -59,7 +59,7 @@ fn bluerov() -> Described {
 }
 
 /// The hull alone, with a thruster along its axis and two beside it.
-fn lauv() -> Described {
+fn lauv() -> FolderVehicle {
     let (mut file, urdf) = shipped("lauv");
     let link = |name: &str, y: f64| {
         format!(

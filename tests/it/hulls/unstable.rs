@@ -1,13 +1,13 @@
 //! Forces that no step can follow are told, refused, or end in an error, never in numbers that are none.
 
 use crate::common;
-use rheotaxis::scenario::Beside;
-use robots::vehicles::{Craft, Shipped, VehicleSpec};
+use rheotaxis::scenario::FolderFiles;
+use robots::vehicles::{ShippedVehicle, Vehicle, VehicleSpec};
 use std::path::Path;
 
 /// A LAUV's folder `lauv` with its `vehicle.ron` changed, and a scenario with it.
 fn folder(changes: &[(&str, &str)]) -> tempfile::TempDir {
-    let lauv = Shipped::named("lauv").expect("it is shipped");
+    let lauv = ShippedVehicle::named("lauv").expect("it is shipped");
     let dir = tempfile::tempdir().expect("a folder");
     let mut text = lauv.file.to_string();
     for (from, to) in changes {
@@ -81,7 +81,7 @@ fn drag(times: f64) -> String {
 fn damping_beyond_that_of_hulls_is_doubted() {
     let told = |times: f64| {
         let dir = folder(&[(DRAG, &drag(times))]);
-        let craft = Craft::load(&VehicleSpec::File("lauv".into()), &Beside(dir.path()));
+        let craft = Vehicle::load(&VehicleSpec::File("lauv".into()), &FolderFiles(dir.path()));
         craft.expect("legal").told().join("; ")
     };
     assert_eq!(told(10.0), "");

@@ -4,7 +4,7 @@ use nalgebra::{Vector2, Vector3};
 use robots::actuate::{AutopilotSpec, Pilot};
 use robots::guide::{DubinsPath, Guidance, GuidanceSpec, Pose as Turned};
 use robots::handoff::{Attitude, Estimate, FlowEstimate, Goal, Manoeuvre, Vertical};
-use robots::vehicles::{Craft, InMemory, KinematicSpec, Moves, RadiusSpec, TurnSpec, VehicleSpec};
+use robots::vehicles::{InMemory, KinematicSpec, Moves, RadiusSpec, TurnSpec, Vehicle, VehicleSpec};
 use world::area::Area;
 use world::fields::Flow;
 use world::frames::{Pose, Truth};
@@ -30,7 +30,7 @@ fn sail(moves: Moves, current: Vector3<f64>, end: Turned) -> (f64, Truth) {
         turn: TurnSpec::Radius(RadiusSpec { radius_m: Positive::new(RADIUS_M) }),
         ..KinematicSpec::default()
     });
-    let mut craft = Craft::load(&spec, &InMemory::default()).expect("built in");
+    let mut craft = Vehicle::load(&spec, &InMemory::default()).expect("built in");
     let mut pilot = Pilot::new(&AutopilotSpec::default(), &craft.control(), 2.0);
     let mut guidance = Guidance::new(&GuidanceSpec::default()).carried(craft.is_carried());
     let area = Area { centre: Vector2::zeros(), length_m: 2000.0, width_m: 2000.0, axis: Heading::from_deg(0.0) };

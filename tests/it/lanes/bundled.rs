@@ -8,7 +8,7 @@ use rheotaxis::trial::Trial;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use studies::campaign::{CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run};
-use studies::reproduce::{Plan, Reproduced, reproduce, wanted};
+use studies::reproduce::{Plan, RowResult, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
 
@@ -97,7 +97,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
         let plan = Plan { n: 1, first_seed: 5, key: Key::public(), until_half_width: None, jobs: 1 };
         let id = reference.row.id.clone();
         let stop = AtomicBool::new(false);
-        let row = Reproduced::begin(&reference);
+        let row = RowResult::begin(&reference);
         let done = reproduce(&reference, row, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         assert_eq!(done.runs.len(), reference.arms.len());
         let runs: Vec<_> = (reference.arms.iter()).map(|(_, loaded)| (loaded, Seed::from(5))).collect();

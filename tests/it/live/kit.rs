@@ -5,7 +5,7 @@ use crate::waits::{PATIENCE, until};
 
 use nalgebra::{Vector2, Vector3};
 use output::live::{Live, LiveMeta, LiveOptions, Scene};
-use rheotaxis::frame::{Frame, Heard, PlumeFrame, RobotFrame, WaterFrame};
+use rheotaxis::frame::{Frame, NewestReadings, PlumeFrame, RobotFrame, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
 use robots::handoff::{
@@ -106,7 +106,7 @@ pub(super) fn frame(step: u64) -> Frame {
         command: Some(Command::Steer(Setpoint { heading, water_speed_m_s: 2.0, vertical })),
         keeps_height: true,
         actuators: Actuation::default(),
-        heard: Heard { ranging: Some(super::readings::ping_ahead()), ..Heard::default() },
+        heard: NewestReadings { ranging: Some(super::readings::ping_ahead()), ..NewestReadings::default() },
         zone: Arc::new(Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0)),
         chemical: Some(ChemicalReading { volts: 1.0, of_full_scale: 0.2, detected: true }),
         detected: true,

@@ -3,14 +3,14 @@
 use super::kit::frame;
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector3};
-use rheotaxis::frame::{At, PictureFrame, PingFrame};
+use rheotaxis::frame::{PictureFrame, PingFrame, TimedReading};
 use robots::handoff::{Beam, Picture, RangeScan, SidescanPing};
 use std::sync::Arc;
 
 /// A ping with an echo 3 m ahead of the instrument and a free beam.
-pub(super) fn ping_ahead() -> At<RangeScan> {
+pub(super) fn ping_ahead() -> TimedReading<RangeScan> {
     let beam = |echo_m| Beam { dir_B: Vector3::x(), echo_m };
-    At {
+    TimedReading {
         t_s: 0.5,
         value: RangeScan {
             p_BS: Vector3::new(0.5, 0.0, 0.0),

@@ -8,7 +8,7 @@ use crate::common::root;
 use crate::waits::{PATIENCE, until};
 use nalgebra::Vector3;
 use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};
-use rheotaxis::frame::{At, Frame};
+use rheotaxis::frame::{Frame, TimedReading};
 use rheotaxis::scenario;
 use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, Beam, DepthReading, DvlReading, RangeScan};
 use std::collections::{BTreeMap, BTreeSet};
@@ -43,8 +43,8 @@ fn start(run: &str, domain: u32) -> Live {
 
 /// A state with readings of all instruments and a path.
 fn told(step: u64) -> Frame {
-    fn at<T>(value: T) -> Option<At<T>> {
-        Some(At { t_s: 0.25, value })
+    fn at<T>(value: T) -> Option<TimedReading<T>> {
+        Some(TimedReading { t_s: 0.25, value })
     }
     let mut frame = frame(step);
     let robot = &mut frame.robots[0];

@@ -3,7 +3,7 @@
 use super::kit::broken;
 use crate::common::root;
 use output::live::topics;
-use rheotaxis::control::{Heard, Question, read_answer};
+use rheotaxis::control::{Question, Response, read_answer};
 use rheotaxis::frame::Frame;
 use rheotaxis::registry::{Registry, messages};
 use rheotaxis::scenario::{Loaded, load, load_text, template};
@@ -101,7 +101,7 @@ fn answered(loaded: &Loaded, robot: &str, answers: Vec<Value>) -> Checking {
     let answer = move |asked: &Question| {
         let text = next.next().expect("without end").to_string();
         let read = read_answer(text.as_bytes(), asked.number, asked.t_s);
-        read.map_or_else(|why| panic!("{text}: {why}"), Heard::Answer)
+        read.map_or_else(|why| panic!("{text}: {why}"), Response::Answer)
     };
     trial.control(robot, answer).expect("it asks");
     trial.run(&mut checking);

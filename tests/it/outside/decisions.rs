@@ -2,10 +2,10 @@
 
 use super::kit::{Run, asking, channel, client, controller, external};
 use crate::waits::PATIENCE;
-use rheotaxis::control::{Heard, Question, Seen, consultation_json};
+use rheotaxis::control::{Question, QuestionContent, Response, consultation_json};
 use rheotaxis::scenario::load_text;
 use rheotaxis::trial::{Trial, Watch};
-use robots::handoff::Answer;
+use robots::handoff::Reply;
 use serde_json::{Value, json};
 use world::registry::Registry;
 use world::seeds::{Seed, Stream};
@@ -21,7 +21,7 @@ const EACH_STEP: &str = "External(period_s: 0.02, deadline_s: 20, on_late: Abort
 struct Answers(Vec<Value>);
 
 impl Watch for Answers {
-    fn consulted(&mut self, told: &rheotaxis::control::Consultation) {
+    fn consulted(&mut self, told: &rheotaxis::control::Exchange) {
         self.0.push(consultation_json(told)["answer"].clone());
     }
 }
@@ -39,8 +39,8 @@ fn recorded(limit_s: f64) -> (Vec<Value>, String) {
     let mut planner = robot.strategy.build(&setting).expect("legal");
     let mut rng = Stream::new(Seed::from(1), "auv0", "strategy");
     let decide = move |question: &Question| match &question.seen {
-        Seen::Robot(seen, _) => Heard::Answer(Answer::from(&planner.step(seen, &mut rng))),
-        Seen::Gantry(..) => Heard::Absent,
+        QuestionContent::Robot(seen, _) => Response::Answer(Reply::from(&planner.step(seen, &mut rng))),
+        QuestionContent::Gantry(..) => Response::Absent,
     };
     trial.control("auv0", decide).expect("it asks");
     let mut answers = Answers::default();

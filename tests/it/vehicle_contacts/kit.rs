@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, RemusSpec, Vehicle};
+use robots::vehicles::{InMemory, Remus100, RemusSpec};
 use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -70,14 +70,14 @@ pub(super) fn nu(t: &Truth) -> Vector6<f64> {
     join(flip(t.v_WB_B), flip(t.w_WB_B))
 }
 
-pub(super) fn mass(vehicle: &Vehicle) -> Matrix6<f64> {
+pub(super) fn mass(vehicle: &Remus100) -> Matrix6<f64> {
     vehicle.coefficients().rigid_mass() + vehicle.coefficients().added_mass()
 }
 
 /// Hulls in still water among solids.
 pub(super) struct Water {
     pub(super) physics: Physics,
-    pub(super) hulls: Vec<(Vehicle, BodyId)>,
+    pub(super) hulls: Vec<(Remus100, BodyId)>,
     pub(super) command: ActuatorCommand,
 }
 
@@ -89,7 +89,7 @@ impl Water {
         }
         let hulls = (starts.iter())
             .map(|start| {
-                let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default());
+                let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default());
                 let vehicle = vehicle.expect("built-in vehicle");
                 let id = physics.add_body(vehicle.body_spec("auv", *start));
                 (vehicle, id)
@@ -130,7 +130,7 @@ impl Water {
 
     /// Kinetic energy with the water's, and that of the low centre of gravity, J.
     pub(super) fn energy(&self) -> f64 {
-        let of = |(vehicle, id): &(Vehicle, BodyId)| {
+        let of = |(vehicle, id): &(Remus100, BodyId)| {
             let (t, c) = (self.physics.truth(*id), vehicle.coefficients());
             let upright = (t.pose.R_WB * Vector3::z()).z;
             0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t))) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)

@@ -56,7 +56,7 @@ impl Folder {
         let path = list_path(dir, command);
         let listed = untaken(dir, &path, own)?;
         let names: BTreeSet<&str> = listed.iter().map(String::as_str).collect();
-        clear_abandoned(dir, |name| names.contains(name));
+        clear_abandoned(dir, |name| names.contains(name) || path.file_name().is_some_and(|list| list == name));
         let removed = remove(dir, listed)?;
         let mut file = Output::create(&path)?;
         let head =

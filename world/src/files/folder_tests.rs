@@ -140,10 +140,12 @@ fn what_a_killed_run_was_writing_goes_with_its_files() {
     let under_way = half.temporary().to_owned();
     // Of a process that is no more.
     fs::write(dir.path().join("map.svg.17-3.tmp"), "half").unwrap();
+    fs::write(dir.path().join("run-files.txt.17-0.tmp"), "half").unwrap();
     fs::write(dir.path().join("thesis.svg.17-3.tmp"), "mine").unwrap();
     drop(folder);
     drop(Folder::begin(dir.path(), "run").unwrap());
     assert!(under_way.exists(), "somebody writes it");
     assert!(!dir.path().join("map.svg.17-3.tmp").exists());
+    assert!(!dir.path().join("run-files.txt.17-0.tmp").exists());
     assert!(dir.path().join("thesis.svg.17-3.tmp").exists());
 }

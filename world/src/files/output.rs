@@ -271,11 +271,12 @@ fn replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file completely or not at all.
+/// Writes a file completely or not at all. What killed processes have left of it goes.
 ///
 /// # Errors
 /// If it cannot be written; what was there before then stays.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
+    clear_abandoned(folder_of(path), |name| path.file_name().is_some_and(|whole| whole == name));
     written(path, bytes)?.finish()
 }
 

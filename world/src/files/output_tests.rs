@@ -166,4 +166,9 @@ fn what_killed_processes_left_is_cleared_and_nothing_else() {
     assert!(stay.iter().all(|name| at(name).exists()));
     assert_eq!(count(dir.path()), 1 + stay.len());
     half.finish().unwrap();
+    // A single file clears what is left of it.
+    fs::write(at("a.csv.7-7.tmp"), "").unwrap();
+    write(&at("a.csv"), b"whole").unwrap();
+    assert!(!at("a.csv.7-7.tmp").exists());
+    assert!(stay[1..].iter().all(|name| at(name).exists()));
 }

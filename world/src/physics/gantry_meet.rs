@@ -4,7 +4,7 @@ use super::convert::pose;
 use super::course::Course;
 use super::gantry::{Gantry, JointState};
 use super::gantry_report::Solid;
-use super::gaps::Placed;
+use super::gaps::PlacedShape;
 use super::solid::Physics;
 use crate::frames::Pose;
 use nalgebra::{Matrix2, Matrix6, Vector3};
@@ -40,7 +40,7 @@ impl Physics {
         gantry: &Gantry,
         joints_m: [f64; 2],
         slides: usize,
-    ) -> Vec<Placed> {
+    ) -> Vec<PlacedShape> {
         let way = (gantry.along_B.iter().zip(joints_m)).take(slides);
         let way: Vector3<f64> = way.map(|(along, q)| along * q).sum();
         let at = pose(&Pose { p_WB: gantry.base.point(way), R_WB: gantry.base.R_WB });
@@ -49,7 +49,7 @@ impl Physics {
             .map(|&handle| {
                 let collider = &self.world.colliders[handle];
                 let local = collider.position_wrt_parent().copied();
-                Placed::new(at * local.unwrap_or(r::Pose::IDENTITY), collider.shared_shape())
+                PlacedShape::new(at * local.unwrap_or(r::Pose::IDENTITY), collider.shared_shape())
             })
             .collect()
     }

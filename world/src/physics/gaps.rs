@@ -42,7 +42,7 @@ impl Point {
 
 /// A shape at its place.
 #[derive(Clone)]
-pub(super) struct Placed {
+pub(super) struct PlacedShape {
     pose: r::Pose,
     shape: SharedShape,
     /// The shape from which distances are measured, and the distance of the surface from it, m.
@@ -53,7 +53,7 @@ pub(super) struct Placed {
     bounds: Aabb,
 }
 
-impl Placed {
+impl PlacedShape {
     /// Something fixed, or a part of a gantry.
     pub(super) fn new(pose: r::Pose, shape: &SharedShape) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl Placed {
     }
 
     /// The nearest point, if it is within `reach_m`.
-    pub(super) fn nearest(&self, other: &Placed, reach_m: f64) -> Option<Point> {
+    pub(super) fn nearest(&self, other: &PlacedShape, reach_m: f64) -> Option<Point> {
         if !self.bounds.loosened(reach_m).intersects(&other.bounds) {
             return None;
         }
@@ -99,7 +99,7 @@ impl Placed {
     }
 
     /// All points within `reach_m`, including `nearest`.
-    pub(super) fn points(&self, other: &Placed, nearest: Point, reach_m: f64) -> Vec<Point> {
+    pub(super) fn points(&self, other: &PlacedShape, nearest: Point, reach_m: f64) -> Vec<Point> {
         let skin_m = self.skin_m + other.skin_m;
         let mut manifolds: Vec<ContactManifold<(), ()>> = Vec::new();
         DefaultQueryDispatcher

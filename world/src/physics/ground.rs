@@ -18,7 +18,7 @@ const MARGIN_M: f64 = 60.0;
 const CELL_M: f64 = 5.0;
 
 /// One fixed solid.
-pub(super) struct Fixed {
+pub(super) struct FixedSolid {
     pub(super) pose: r::Pose,
     pub(super) shape: SharedShape,
     bounds: Aabb,
@@ -38,7 +38,7 @@ pub struct Bed {
     heights: Arc<Heights>,
 }
 
-impl Fixed {
+impl FixedSolid {
     pub(super) fn new(pose_W: r::Pose, shape: SharedShape) -> Self {
         let bounds = shape.compute_aabb(&pose_W);
         Self { pose: pose_W, shape, bounds, heights: None, name: String::new(), collider: ColliderHandle::invalid() }
@@ -163,7 +163,7 @@ mod tests {
         let area =
             Area { centre: Vector2::new(30.0, -20.0), length_m: 400.0, width_m: 200.0, axis: Heading::from_deg(340.0) };
         let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let bed = Fixed::bed(&Bed::new(&terrain, &area));
+        let bed = FixedSolid::bed(&Bed::new(&terrain, &area));
         for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
             let from = Vector3::new(x, y, -1.0);
             let hit = bed.ray(&from, &-Vector3::z(), 100.0).expect("bed below");

@@ -15,7 +15,7 @@
 
 use super::convert::pose;
 use super::course::{Course, Who, note};
-use super::gaps::{Placed, Point};
+use super::gaps::{PlacedShape, Point};
 use super::impulses::{Row, solve};
 use super::solid::{FRICTION, Physics};
 use nalgebra::{Matrix6, Vector3, Vector6};
@@ -33,7 +33,7 @@ const UNDO_M_S: f64 = 0.5;
 
 /// A shape that may be touched.
 struct Thing {
-    placed: Placed,
+    placed: PlacedShape,
     /// Index among the courses, and the slide of a gantry; `None` is fixed.
     on: Option<(usize, usize)>,
 }
@@ -100,7 +100,7 @@ impl Physics {
     }
 
     /// Ensures that what touches at the end of the step no longer approaches.
-    fn settle(&self, courses: &mut [Course], still: &[Placed]) {
+    fn settle(&self, courses: &mut [Course], still: &[PlacedShape]) {
         let things = self.things(courses);
         let near = self.near(courses, &things, still, 0.0);
         let rows = self.rows(courses, &things, still, &near, TOUCH_M);
@@ -152,8 +152,8 @@ impl Physics {
     }
 
     /// Fixed things.
-    fn still(&self) -> Vec<Placed> {
-        let fixed = self.fixed.iter().map(|f| Placed::new(f.pose, &f.shape));
+    fn still(&self) -> Vec<PlacedShape> {
+        let fixed = self.fixed.iter().map(|f| PlacedShape::new(f.pose, &f.shape));
         let bases = (self.gantries.iter()).flat_map(|g| self.shapes_of(g.base_handle, g, [0.0; 2], 0));
         fixed.chain(bases).collect()
     }
@@ -165,12 +165,10 @@ impl Physics {
             match course.who {
                 Who::Body(i) => {
                     let at = pose(&course.pose(&self.bodies[i].p_BG));
-                    things.extend(
-                        self.bodies[i]
-                            .parts
-                            .iter()
-                            .map(|(local, shape)| Thing { placed: Placed::body(at * *local, shape), on: Some((m, 0)) }),
-                    );
+                    things.extend(self.bodies[i].parts.iter().map(|(local, shape)| Thing {
+                        placed: PlacedShape::body(at * *local, shape),
+                        on: Some((m, 0)),
+                    }));
                 }
                 Who::Gantry(i) => {
                     let g = &self.gantries[i];
@@ -186,7 +184,7 @@ impl Physics {
 
     /// Pairs that could meet within `left_s` and of which one is a body. The second index continues through the fixed
     /// things.
-    fn near(&self, courses: &[Course], things: &[Thing], still: &[Placed], left_s: f64) -> Vec<Near> {
+    fn near(&self, courses: &[Course], things: &[Thing], still: &[PlacedShape], left_s: f64) -> Vec<Near> {
         let speeds: Vec<f64> = courses.iter().map(|c| self.fastest_m_s(c)).collect();
         let speed = |thing: &Thing| thing.on.map_or(0.0, |(m, _)| speeds[m]);
         let body = |thing: &Thing| thing.on.is_some_and(|(m, _)| matches!(courses[m].who, Who::Body(_)));
@@ -214,7 +212,14 @@ impl Physics {
         near
     }
 
-    fn rows(&self, courses: &[Course], things: &[Thing], still: &[Placed], near: &[Near], reach_m: f64) -> Vec<Row> {
+    fn rows(
+        &self,
+        courses: &[Course],
+        things: &[Thing],
+        still: &[PlacedShape],
+        near: &[Near],
+        reach_m: f64,
+    ) -> Vec<Row> {
         let mut rows = Vec::new();
         for n in near.iter().filter(|n| n.nearest.gap_m <= reach_m) {
             let [a, b] = n.things;

@@ -13,7 +13,7 @@
 
 use super::convert::{pose, vector};
 use super::gantry::Gantry;
-use super::ground::{Bed, Fixed};
+use super::ground::{Bed, FixedSolid};
 use super::rapier_alone::Twin;
 use super::shape::Shape;
 use crate::area::Area;
@@ -132,7 +132,7 @@ impl Body {
 
     /// Whether anything fixed can matter in this step. While the body stays in a sphere that is known to be clear,
     /// nothing is searched.
-    fn is_near(&mut self, fixed: &[Fixed], dt_s: f64) -> bool {
+    fn is_near(&mut self, fixed: &[FixedSolid], dt_s: f64) -> bool {
         let (p, near_m) = (self.truth.pose.p_WB, self.near_m(dt_s));
         let (middle, radius_m) = self.clear;
         if (p - middle).norm() + near_m < radius_m || !fixed.iter().any(|f| f.meets(&self.swept())) {
@@ -154,7 +154,7 @@ pub struct Physics {
     pub(super) world: Box<r::PhysicsWorld>,
     pub(super) bodies: Vec<Body>,
     pub(super) gantries: Vec<Gantry>,
-    pub(super) fixed: Vec<Fixed>,
+    pub(super) fixed: Vec<FixedSolid>,
 }
 
 impl Physics {
@@ -188,21 +188,21 @@ impl Physics {
 
     /// Makes a bed solid.
     pub fn add_bed(&mut self, bed: &Bed) {
-        self.add_solid("bed", Fixed::bed(bed));
+        self.add_solid("bed", FixedSolid::bed(bed));
     }
 
     /// Makes a fixed shape solid.
     pub fn add_fixed(&mut self, at: &Pose, shape: r::SharedShape) {
-        self.add_solid("a fixed shape", Fixed::new(pose(at), shape));
+        self.add_solid("a fixed shape", FixedSolid::new(pose(at), shape));
     }
 
     /// Makes an obstacle solid.
     pub fn add_obstacle(&mut self, obstacle: &Obstacle) {
-        let fixed = Fixed::new(pose(&obstacle.pose), obstacle.shape.clone());
+        let fixed = FixedSolid::new(pose(&obstacle.pose), obstacle.shape.clone());
         self.add_solid(&obstacle.id, fixed);
     }
 
-    fn add_solid(&mut self, name: &str, mut fixed: Fixed) {
+    fn add_solid(&mut self, name: &str, mut fixed: FixedSolid) {
         let collider = r::ColliderBuilder::new(fixed.shape.clone()).position(fixed.pose).friction(FRICTION);
         for body in &mut self.bodies {
             body.clear.1 = 0.0;

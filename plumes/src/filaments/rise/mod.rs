@@ -8,10 +8,10 @@
 //! *Deviations*: within a step the rise comes after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal.
 //! 5, 506; first order in the step).
 
-mod abreast;
 mod cube_root;
 mod element;
 mod profile;
+mod simd;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -23,12 +23,12 @@ use super::rows::Rows;
 use super::size::Size;
 use super::store::Store;
 use crate::error::PlumeError;
-use crate::path::Path;
+use crate::path::InstructionSet;
 use crate::release::Source;
-use abreast::{ABREAST, Rising};
 pub(super) use element::{Element, Thread};
 use nalgebra::Vector3;
 pub(super) use profile::Profile;
+use simd::{ABREAST, RisingLanes};
 use std::ops::Range;
 use world::fields::Flow;
 
@@ -130,7 +130,7 @@ impl Store {
     }
 
     /// Lets the filaments of a band rise through a step, or from their release on.
-    pub(super) fn rise(&mut self, path: Path, range: Range<usize>, span: Span) {
+    pub(super) fn rise(&mut self, path: InstructionSet, range: Range<usize>, span: Span) {
         for from in range.clone().step_by(ABREAST) {
             // The last few one by one.
             if from + ABREAST <= range.end {
@@ -145,14 +145,14 @@ impl Store {
     }
 
     /// The same for some filaments from a place on.
-    fn rise_abreast<const N: usize>(&mut self, path: Path, from: usize, span: Span) {
+    fn rise_abreast<const N: usize>(&mut self, path: InstructionSet, from: usize, span: Span) {
         let Some(Rise { thread, profile, elements, .. }) = &mut self.rise else {
             return;
         };
         let Some(some) = elements[from..].first_chunk_mut() else {
             return;
         };
-        let mut rising = Rising::<N> {
+        let mut rising = RisingLanes::<N> {
             elements: *some,
             z_m: std::array::from_fn(|l| f64::from(self.z[from + l])),
             dt_s: std::array::from_fn(|l| span.to_s - self.born_s[from + l].max(span.from_s)),

@@ -1,8 +1,8 @@
 //! The element against known solutions.
 
-use super::abreast::Rising;
 use super::element::{Around, Element, Thread};
-use crate::path::Path;
+use super::simd::RisingLanes;
+use crate::path::InstructionSet;
 use crate::release::BuoyancySpec;
 use world::math;
 use world::ranges::Finite;
@@ -161,8 +161,8 @@ fn elements_rise_side_by_side_as_each_alone() {
         });
         assert_eq!(alone[1], (z[1], some[1]));
         assert_ne!(alone[0], (z[0], some[0]));
-        for path in Path::all() {
-            let mut beside = Rising { elements: some, z_m: z, dt_s };
+        for path in InstructionSet::all() {
+            let mut beside = RisingLanes { elements: some, z_m: z, dt_s };
             beside.rise(path, &thread, at);
             for (l, alone) in alone.iter().enumerate() {
                 let risen = (beside.z_m[l], beside.elements[l]);

@@ -5,7 +5,7 @@ use super::super::tests_water::{Given, basin, source};
 use super::element::Element;
 use crate::flow::GridShape;
 use crate::flow::tests_water::{duck, duck_area, duck_bed};
-use crate::path::Path;
+use crate::path::InstructionSet;
 use crate::release::{BuoyancySpec, SourceSpec};
 use nalgebra::Vector3;
 use world::bits::{Reader, Writer};
@@ -141,18 +141,18 @@ fn rising_filaments_are_the_same_on_every_way() {
         let felt: Vec<u64> = (0..s.x.len()).step_by(97).map(|n| p.at(&beside(n)).to_bits()).collect();
         format!("{:?} {:?} {felt:?}", s.z, elements(p))
     };
-    let mut first = fresh(Path::Portable, 1);
+    let mut first = fresh(InstructionSet::Portable, 1);
     develop(&mut first, 0.0, 400.0);
     let mut bytes = Writer::default();
     first.keep(&mut bytes);
-    let mut recalled = fresh(Path::Portable, 1);
+    let mut recalled = fresh(InstructionSet::Portable, 1);
     recalled.recall(&water, &mut Reader::new(&bytes.into_bytes())).unwrap();
     assert_eq!(state(&recalled), state(&first));
     develop(&mut first, 400.0, 600.0);
     develop(&mut recalled, 400.0, 600.0);
     let want = state(&first);
     assert!(state(&recalled) == want, "kept");
-    for path in Path::all() {
+    for path in InstructionSet::all() {
         let mut other = fresh(path, 2);
         develop(&mut other, 0.0, 400.0);
         develop(&mut other, 400.0, 600.0);

@@ -19,7 +19,7 @@ use world::obstacles::Obstacles;
 
 use super::cells::{Cells, Faces};
 use super::field::{self, Between};
-use super::solve::{Projector, Solved};
+use super::solve::{Projector, SolutionReport};
 use super::spec::BlockageSpec;
 use crate::error::PlumeError;
 use crate::flow::ground::{Floor, Ground};
@@ -33,7 +33,7 @@ type Sample = (Vector3<f64>, Matrix3<f64>, Vector3<f64>);
 
 /// Water that flows round obstacles.
 #[derive(Clone, Debug)]
-pub struct Blocked {
+pub struct ObstacleFlow {
     cells: Arc<Cells>,
     // `None` once steady water has been solved.
     projector: Option<Arc<Projector>>,
@@ -44,7 +44,7 @@ pub struct Blocked {
     fields: [Arc<Faces<f32>>; 3],
     first: u64,
     period_s: f64,
-    solved: Solved,
+    solved: SolutionReport,
     // Stokes' drift of the waves, led round obstacles as the currents are. It carries filaments, not hulls.
     drift: Option<Arc<Faces<f32>>>,
     // Mean depth of each column, m: that of its four corners.
@@ -52,7 +52,7 @@ pub struct Blocked {
     still_bed: bool,
 }
 
-impl Blocked {
+impl ObstacleFlow {
     pub(crate) fn new(
         spec: &BlockageSpec,
         area: &Area,
@@ -72,7 +72,7 @@ impl Blocked {
             fields: [(); 3].map(|()| Arc::new(Faces::default())),
             first: 0,
             period_s: spec.period_s.get(),
-            solved: Solved { open_cells: 0, cells: 0, steps: 0, divergence: 0.0 },
+            solved: SolutionReport { open_cells: 0, cells: 0, steps: 0, divergence: 0.0 },
             projector: Some(Arc::new(projector)),
             cells: Arc::new(cells),
             drift: None,
@@ -94,7 +94,7 @@ impl Blocked {
 
     /// The last solution: cells, steps, divergence left.
     #[must_use]
-    pub fn solved(&self) -> Solved {
+    pub fn solved(&self) -> SolutionReport {
         self.solved
     }
 

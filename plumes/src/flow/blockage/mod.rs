@@ -11,7 +11,7 @@ pub(crate) mod tests;
 #[cfg(test)]
 mod tests_flow;
 
-pub use blocked::Blocked;
+pub use blocked::ObstacleFlow;
 pub(crate) use cells::Cells;
-pub use solve::Solved;
+pub use solve::SolutionReport;
 pub use spec::BlockageSpec;

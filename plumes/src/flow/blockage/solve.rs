@@ -26,7 +26,7 @@ const MOST_STEPS: usize = 300;
 
 /// Report on a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solved {
+pub struct SolutionReport {
     /// Number of open cells.
     pub open_cells: usize,
     /// Number of all cells.
@@ -101,7 +101,7 @@ impl Projector {
     ///
     /// # Panics
     /// If the fluxes are not finite or the equation cannot be solved.
-    pub(super) fn project(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &mut Vec<f64>) -> Solved {
+    pub(super) fn project(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &mut Vec<f64>) -> SolutionReport {
         for (flux, through) in
             [(&mut flux.x, &self.through.x), (&mut flux.y, &self.through.y), (&mut flux.s, &self.through.s)]
         {
@@ -154,7 +154,7 @@ impl Projector {
             steps += 1;
         }
         self.correct(cells, flux, phi);
-        Solved { open_cells: cells.open_count(), cells: cells.open.len(), steps, divergence: left }
+        SolutionReport { open_cells: cells.open_count(), cells: cells.open.len(), steps, divergence: left }
     }
 
     /// Fastest current through any face, m/s.

@@ -16,14 +16,14 @@
 //! depends on single eddies, such as a tracker's rate of success, differs between stretches by more than an interval
 //! over seeds says; with `own` each run draws a stretch. The patches move with the depth mean at all heights.
 
-use super::drawn::Drawn;
-use super::present::{Now, Patch, Turned};
+use super::eddy_field::{ChannelAxes, EddyField, Patch};
+use super::lazy_stretch::LazyStretch;
 use super::small::{self, Small, SmallSpec};
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape};
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
-use crate::path::Path;
+use crate::path::InstructionSet;
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -65,9 +65,9 @@ pub struct Eddies {
     /// T, s.
     period_s: f64,
     seed: Seed,
-    path: Path,
+    path: InstructionSet,
     shape: Shape,
-    stretch: Arc<Drawn>,
+    stretch: Arc<LazyStretch>,
     small: Option<Arc<Small>>,
 }
 
@@ -119,8 +119,8 @@ impl EddiesSpec {
             u_star_m_s: channel.u_star_m_s,
             period_s: pi * pi / 8.0 * energy / dissipation,
             seed,
-            path: Path::detect(),
-            stretch: Arc::new(Drawn::new(shape, self.own.then_some(seed))),
+            path: InstructionSet::detect(),
+            stretch: Arc::new(LazyStretch::new(shape, self.own.then_some(seed))),
             small: small.map(Arc::new),
             shape,
         })
@@ -229,7 +229,7 @@ impl Eddies {
     ///
     /// [`Flow::carry`]: world::fields::Flow::carry
     pub fn carry(&self, t_s: f64, dt_s: &[f32], datum: Vector2<f64>, [x, y, z]: [&mut [f32]; 3]) {
-        let turned = Turned {
+        let turned = ChannelAxes {
             centre: (self.centre - datum).map(|v| v as f32),
             along: self.along.map(|v| v as f32),
             left: self.left.map(|v| v as f32),
@@ -247,7 +247,7 @@ impl Eddies {
         &self.shape
     }
 
-    fn now(&self, t_s: f64) -> Now<'_> {
+    fn now(&self, t_s: f64) -> EddyField<'_> {
         let h = self.shape.spacing();
         let age = t_s / self.period_s;
         let life = age.floor();
@@ -264,7 +264,7 @@ impl Eddies {
                 weight: (weight * self.u_star_m_s) as f32,
             }
         };
-        Now {
+        EddyField {
             nodes: self.stretch.nodes(),
             across: self.shape.across,
             up: self.shape.up,

@@ -7,7 +7,7 @@
 //! *Deviations*: none. The arithmetic is written once, without fused multiply-add, and compiled for each version of
 //! `path`, with the same bits.
 
-use crate::path::Path;
+use crate::path::InstructionSet;
 use world::math;
 
 /// Complex coefficients or values of four lines side by side: their real parts, and their imaginary parts.
@@ -19,7 +19,7 @@ pub(super) struct Fourier {
     turns: Vec<[f64; 2]>,
     /// Pairs of places that change their values before the first stage.
     swaps: Vec<[usize; 2]>,
-    path: Path,
+    path: InstructionSet,
 }
 
 impl Fourier {
@@ -36,27 +36,27 @@ impl Fourier {
         Self {
             turns: turns.map(turn).collect(),
             swaps: (0..n).map(|i| [i, place(i)]).filter(|[i, j]| i < j).collect(),
-            path: Path::detect(),
+            path: InstructionSet::detect(),
         }
     }
 
     /// x_m = Σ_j c_j e^(2πi jm/n) of four lines, in place.
     pub(super) fn sum(&self, c: &mut [Four]) {
         match self.path {
-            Path::Portable => self.summed(c),
+            InstructionSet::Portable => self.summed(c),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 | Path::Avx512 => unsafe { self.summed_avx2(c) },
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.summed_avx2(c) },
         }
     }
 
     /// Adds coefficients, each line times a factor, to others.
     pub(super) fn add_times(&self, to: &mut [Four], from: &[Four], factors: [f64; 4]) {
         match self.path {
-            Path::Portable => add_times(to, from, factors),
+            InstructionSet::Portable => add_times(to, from, factors),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 | Path::Avx512 => unsafe { add_times_avx2(to, from, factors) },
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { add_times_avx2(to, from, factors) },
         }
     }
 
@@ -125,7 +125,7 @@ mod tests {
         fourier.sum(&mut fast);
         let mut more = fast.clone();
         add_times(&mut more, &c, [0.3, -0.7, 0.0, 2.0]);
-        for path in Path::all() {
+        for path in InstructionSet::all() {
             let mut again = c.clone();
             fourier.path = path;
             fourier.sum(&mut again);

@@ -1,9 +1,9 @@
 //! Resolved turbulence of a channel: its spectrum, one long stretch of it, and how it moves and decays.
 
-mod drawn;
+mod eddy_field;
 mod field;
 mod fourier;
-mod present;
+mod lazy_stretch;
 mod small;
 mod spectrum;
 mod stretch;

@@ -6,7 +6,7 @@ use world::registry::Listed;
 
 use super::LayeredSpec;
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, CurrentScales, InterfaceScale, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentScales, CurrentSlot, InterfaceScale};
 use crate::flow::water::Water;
 
 impl Listed for LayeredSpec {
@@ -18,7 +18,7 @@ impl Listed for LayeredSpec {
 }
 
 impl CurrentParams for LayeredSpec {
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
         if water.layered.is_some() {
             return place.wrong(
                 "only one Layered current can fix the water's layers; add the second one's layers to the first",

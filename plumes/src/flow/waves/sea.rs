@@ -39,7 +39,7 @@ use world::seeds::{Seed, Stream};
 use super::airy::{Airy, wave_number};
 use super::spectrum::SpectrumSpec;
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::water::Water;
 
 /// Waves on the surface.
@@ -97,7 +97,7 @@ impl Listed for WavesSpec {
 }
 
 impl CurrentParams for WavesSpec {
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
         if water.waves.is_some() {
             return place.wrong("only one Waves can move the surface; add the second one's trains to the first");
         }

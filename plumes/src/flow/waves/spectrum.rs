@@ -60,7 +60,7 @@ const fn enough() -> u32 {
 
 /// One wave of the sea.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drawn {
+pub(super) struct SeaComponent {
     pub(super) amplitude_m: f64,
     pub(super) omega: f64,
     /// Anticlockwise from `heading_deg`, rad.
@@ -83,7 +83,7 @@ fn density(f: f64, peakedness: f64) -> f64 {
 
 impl SpectrumSpec {
     /// The waves, drawn.
-    pub(super) fn draw(&self, rng: &mut Stream) -> Vec<Drawn> {
+    pub(super) fn draw(&self, rng: &mut Stream) -> Vec<SeaComponent> {
         let n = self.components as usize;
         let amplitude_m = self.significant_height_m.get() / (8.0 * n as f64).sqrt();
         let peak = TAU / self.peak_period_s.get();
@@ -92,7 +92,7 @@ impl SpectrumSpec {
         let mean = means(n, self.peakedness.get());
         mean.into_iter()
             .enumerate()
-            .map(|(i, f)| Drawn {
+            .map(|(i, f)| SeaComponent {
                 amplitude_m,
                 omega: peak * f,
                 turned: turns.quantile((first + i as f64 * 0.618_033_988_75).fract()),
@@ -170,7 +170,7 @@ mod tests {
         }
     }
 
-    fn drawn(components: u32) -> Vec<Drawn> {
+    fn drawn(components: u32) -> Vec<SeaComponent> {
         spec(components).draw(&mut Stream::new(3, "test", "sea"))
     }
 

@@ -70,7 +70,7 @@ pub(super) struct Litre {
 
 /// The water around.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Around {
+pub(super) struct Ambient {
     pub(super) density_kg_m3: f64,
     salinity: f64,
     temperature_c: f64,
@@ -78,7 +78,7 @@ pub(super) struct Around {
 
 impl CompositionSpec {
     /// The release and the water around it, checked; errors name the field.
-    pub(super) fn litre(&self, density_kg_m3: f64) -> Result<(Litre, Around), (String, String)> {
+    pub(super) fn litre(&self, density_kg_m3: f64) -> Result<(Litre, Ambient), (String, String)> {
         let around_c = self.around_c.get();
         let salinity = seawater::salinity(density_kg_m3, around_c);
         let least = seawater::density(0.0, around_c);
@@ -91,7 +91,7 @@ impl CompositionSpec {
         }
         // Of the equation of state, so that no difference remains when everything is mixed.
         let density_kg_m3 = seawater::density(salinity, around_c);
-        let around = Around { density_kg_m3, salinity, temperature_c: around_c };
+        let around = Ambient { density_kg_m3, salinity, temperature_c: around_c };
         let mut litre = Litre {
             solutes: self.solutes.iter().map(|s| (s.what, s.g_l.get())).collect(),
             water_g: 0.0,
@@ -181,7 +181,7 @@ impl Litre {
 
     /// Mass by which the litre is heavier than what it displaces, g, once it is mixed into `dilution` litres. Divided by
     /// the dilution, it is the excess of density in kg/m³.
-    pub(super) fn excess_g(&self, around: &Around, dilution: f64) -> f64 {
+    pub(super) fn excess_g(&self, around: &Ambient, dilution: f64) -> f64 {
         let added_g = (dilution - 1.0) * around.density_kg_m3;
         let water_g = self.water_g + added_g;
         let mixed = |a: f64, b: f64| (a * self.water_g + b * added_g) / water_g;
@@ -200,7 +200,7 @@ impl Litre {
 mod tests {
     use super::*;
 
-    fn brine(alcohol: Solute) -> (Litre, Around) {
+    fn brine(alcohol: Solute) -> (Litre, Ambient) {
         let spec = CompositionSpec {
             solutes: vec![DissolvedSpec { what: Solute::SodiumChloride, g_l: Positive::new(47.0) }],
             neutral_with: Some(alcohol),

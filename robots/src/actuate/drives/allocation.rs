@@ -31,7 +31,7 @@ pub struct Allocation {
 
 /// What thrusters are to do.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Allotted {
+pub struct ThrusterCommands {
     /// Thrust of each, N.
     pub thrusts_n: Vec<f64>,
     /// Whether one is at its limit.
@@ -49,7 +49,7 @@ impl Allocation {
 
     /// The thrusts whose force and moment come nearest to what is wanted.
     #[must_use]
-    pub fn share(&self, wanted: &Vector6<f64>) -> Allotted {
+    pub fn share(&self, wanted: &Vector6<f64>) -> ThrusterCommands {
         let n = self.limits.len();
         let target = DVector::from_iterator(6, (0..6).map(|i| self.weights[i] * wanted[i]));
         // −1 at the lower limit, 1 at the upper one, 0 free.
@@ -82,7 +82,7 @@ impl Allocation {
         let thrusts_n: Vec<f64> =
             (thrusts.iter().zip(limits)).map(|(f, [least, most])| f.clamp(*least, *most)).collect();
         let saturated = held.iter().any(|h| *h != 0);
-        Allotted { thrusts_n, saturated }
+        ThrusterCommands { thrusts_n, saturated }
     }
 
     /// Least squares of the free ones, with the others at their limits.

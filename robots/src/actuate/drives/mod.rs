@@ -6,7 +6,7 @@ mod thrusters;
 mod torpedo;
 mod torpedo_gains;
 
-pub use allocation::{Allocation, Allotted};
+pub use allocation::{Allocation, ThrusterCommands};
 use glider::GliderPilot;
 use thrusters::ThrusterPilot;
 use torpedo::TorpedoPilot;

@@ -8,7 +8,7 @@
 //! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 
 use super::super::on_board::OnBoard;
-use super::super::suite::{Around, Fitting, Sensor, SensorParams};
+use super::super::suite::{Fitting, Sensor, SensorParams, Surroundings};
 use super::model::{CameraModel, CameraSpec, turned};
 use super::render::render;
 use super::scene::Scene;
@@ -57,7 +57,7 @@ impl SensorParams for CameraSpec {
 }
 
 impl Sensor for Camera {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         let scene =
             Scene { terrain: around.terrain, obstacles: around.obstacles, dye: around.dye, optics: around.optics };
         readings.picture = self.read(around.clock, around.truth, &scene, around.asked.picture);

@@ -46,6 +46,6 @@ pub use dye::{Dye, DyeSpec};
 pub use instrument::Camera;
 pub use light::{Light, LightSpec};
 pub use model::{CameraModel, CameraSpec, LampSpec, looking, turned};
-pub use render::{Rendered, Seen, render};
+pub use render::{PixelTruth, RenderedPicture, render};
 pub use scene::{Optics, OpticsSpec, Scene};
 pub use sensor::SensorSpec;

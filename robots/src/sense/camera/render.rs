@@ -10,7 +10,7 @@
 use super::bands::{GREEN, Rgb, each, see};
 use super::model::CameraModel;
 use super::scene::{End, Kind, Scene};
-use super::sensor::Exposed;
+use super::sensor::ExposedSensor;
 use super::volume::{Lamp, Volume};
 use image::RgbImage;
 use world::frames::Pose;
@@ -18,7 +18,7 @@ use world::math;
 
 /// The truth about a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct PixelTruth {
     /// How much the dye changes the pixel's light: the greatest change of a colour, as a share of the greater of its
     /// values with and without dye, 0–1. Above some 0.1 a person could see it.
     pub plume: f32,
@@ -34,18 +34,18 @@ pub struct Seen {
 
 /// A picture with the truth about it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rendered {
+pub struct RenderedPicture {
     /// The picture.
     pub image: RgbImage,
     /// The truth, row by row from the top left.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<PixelTruth>,
     /// Radiance before the sensor, cd/m², in the same order.
     pub radiance: Vec<[f32; 3]>,
 }
 
 /// Takes a picture of `scene` with a camera of the pose `pose_WC`; the sensor's noise depends only on `noise`.
 #[must_use]
-pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> Rendered {
+pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> RenderedPicture {
     let lamp = camera.lamp.as_ref().map(|l| Lamp::new(l, pose_WC));
     let volume = Volume::new(camera, pose_WC, scene, lamp.as_ref());
     let (o, from) = (scene.optics, pose_WC.p_WB);
@@ -76,7 +76,7 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
                 sum[i] += got[i];
             }
             radiance.push(got.map(|v| v as f32));
-            seen.push(Seen {
+            seen.push(PixelTruth {
                 plume: change(&water, &dyed),
                 opacity: (1.0 - veil.passes[GREEN]) as f32,
                 obstacle: obstacle(&end),
@@ -85,10 +85,10 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
             });
         }
     }
-    let exposed = Exposed::new(&camera.sensor, sum.map(|s| s / n as f64), noise);
+    let exposed = ExposedSensor::new(&camera.sensor, sum.map(|s| s / n as f64), noise);
     let bytes = (radiance.iter().enumerate()).flat_map(|(k, l)| exposed.pixel(k as u64, l.map(f64::from))).collect();
     let image = RgbImage::from_raw(camera.width, camera.height, bytes).expect("three bytes were made for each pixel");
-    Rendered { image, seen, radiance }
+    RenderedPicture { image, seen, radiance }
 }
 
 fn change(water: &Rgb, dyed: &Rgb) -> f32 {

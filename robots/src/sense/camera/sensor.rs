@@ -68,7 +68,7 @@ impl Default for SensorSpec {
 }
 
 /// A sensor set for one picture.
-pub(super) struct Exposed {
+pub(super) struct ExposedSensor {
     /// Electrons for 1 cd/m².
     electrons: f64,
     /// Share of full scale for one electron, by colour.
@@ -83,7 +83,7 @@ pub(super) struct Exposed {
 /// Steps of the transfer curve's table.
 const STEPS: usize = 4096;
 
-impl Exposed {
+impl ExposedSensor {
     /// Sets exposure, gain and white balance for a picture of the mean radiance `mean` (cd/m²).
     pub(super) fn new(spec: &SensorSpec, mean: Rgb, key: u64) -> Self {
         let n = spec.f_number.get();
@@ -179,7 +179,7 @@ mod tests {
             saturation: NonNegative::new(1.0),
             ..SensorSpec::default()
         };
-        let exposed = Exposed::new(&spec, [1.0; 3], 3);
+        let exposed = ExposedSensor::new(&spec, [1.0; 3], 3);
         // Electrons for L: π/16 · 1e4 · 0.01 · L; bytes are converted back with the curve's inverse.
         for radiance in [50.0, 150.0, 300.0] {
             let electrons = PI / 16.0 * 100.0 * radiance;
@@ -212,7 +212,7 @@ mod tests {
     fn automatic_exposure_brings_the_mean_to_its_target_as_far_as_it_can() {
         let spec = SensorSpec::default();
         let level = |l: f64| {
-            let e = Exposed::new(&spec, [l; 3], 0);
+            let e = ExposedSensor::new(&spec, [l; 3], 0);
             l * e.electrons * e.scale[1]
         };
         assert!((level(100.0) - 0.2).abs() < 1e-12 && (level(5.0) - 0.2).abs() < 1e-12);

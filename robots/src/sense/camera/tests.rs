@@ -75,12 +75,12 @@ fn level() -> Pose {
     looking(Vector3::new(0.0, 0.0, -5.0), 0.0, 0.0)
 }
 
-fn take(optics: &Optics, terrain: &Terrain, obstacles: &Obstacles, dye: &dyn Concentration) -> Rendered {
+fn take(optics: &Optics, terrain: &Terrain, obstacles: &Obstacles, dye: &dyn Concentration) -> RenderedPicture {
     let scene = Scene { terrain, obstacles, dye, optics };
     render(&camera(), &level(), &scene, 9)
 }
 
-fn middle(made: &Rendered) -> Rgb {
+fn middle(made: &RenderedPicture) -> Rgb {
     made.radiance[15 * 41 + 20].map(f64::from)
 }
 

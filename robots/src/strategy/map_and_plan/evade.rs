@@ -11,7 +11,7 @@
 //! vehicle that does not move although it should backs off: propeller astern, rudder amidships.
 
 use crate::handoff::{Capabilities, Manoeuvre, Observation};
-use crate::plan::Room;
+use crate::plan::FreeSpace;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -84,7 +84,7 @@ impl Evade {
     /// turns of `radius_m`; if none is free, the one that is free for longest.
     pub(super) fn course(
         &self,
-        room: &Room,
+        room: &FreeSpace,
         at: &Vector3<f64>,
         heading: Heading,
         wish: Heading,
@@ -109,7 +109,7 @@ impl Evade {
     }
 
     /// How far it looks, m: no farther than the vehicle needs to turn round and leave the room.
-    fn look_m(&self, room: &Room, radius_m: f64) -> f64 {
+    fn look_m(&self, room: &FreeSpace, radius_m: f64) -> f64 {
         let g = room.lattice();
         let across_m: f64 = (0..2).map(|a| g.n[a] as f64 * g.cell_m[a]).sum();
         let round_m = std::f64::consts::PI * radius_m;
@@ -119,7 +119,7 @@ impl Evade {
     /// How far the vehicle gets, turning to a course and then going straight on, m; at most as far as it looks.
     fn free_m(
         &self,
-        room: &Room,
+        room: &FreeSpace,
         at: &Vector3<f64>,
         heading: Heading,
         course: Heading,

@@ -12,7 +12,7 @@ use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
 use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
-use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Revision, Room};
+use crate::plan::{Follow, FreeSpace, From, NoPath, Path, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
@@ -45,7 +45,7 @@ pub(super) struct Steering {
 /// State of the pilot.
 #[derive(Debug)]
 pub(super) struct Pilot {
-    room: Room,
+    room: FreeSpace,
     planner: Box<dyn Planner>,
     bed: Terrain,
     vertical: Vertical,
@@ -72,7 +72,7 @@ impl Pilot {
         spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
-        let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach().1);
+        let mut room = FreeSpace::new(cells, spec.hull_m.get(), spec.planner.reach().1);
         room.chart(&setting.chart, &setting.bed, &|x, y| level(vertical, &setting.bed, x, y));
         let lattice = room.lattice();
         if !(0..lattice.len()).any(|cell| room.free(cell)) {
@@ -120,7 +120,7 @@ impl Pilot {
     }
 
     /// The map of obstacles.
-    pub(super) fn room(&self) -> &Room {
+    pub(super) fn room(&self) -> &FreeSpace {
         &self.room
     }
 

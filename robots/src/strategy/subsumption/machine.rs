@@ -27,7 +27,7 @@ use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
 use super::eyes::Eyes;
-use super::plume::Asked;
+use super::plume::PlumeRequests;
 use super::spec::SubsumptionSpec;
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
@@ -168,7 +168,7 @@ impl Subsumption {
 
     /// From the lowest layer up: which layers ask, which are suppressed or inhibited, and which one controls the
     /// vehicle.
-    fn arbitrate(&mut self, seen: &Observation, asked: &Asked, above: Option<Ask>) -> Option<Ask> {
+    fn arbitrate(&mut self, seen: &Observation, asked: &PlumeRequests, above: Option<Ask>) -> Option<Ask> {
         let (homing, surveying) = (self.homing, self.surveying);
         let declaring = self.declaring.is_some();
         let Layers { order, avoid, .. } = &mut self.layers;
@@ -266,7 +266,7 @@ impl Subsumption {
         {
             arrived = self.under_avoid;
         }
-        let (mut asked, mut above) = (Asked::default(), None);
+        let (mut asked, mut above) = (PlumeRequests::default(), None);
         if self.homing {
             above = self.go_home(seen, arrived, rng);
             if above.is_none() {

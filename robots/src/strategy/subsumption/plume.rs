@@ -10,7 +10,7 @@ use world::seeds::Stream;
 
 /// What they ask for in a tick.
 #[derive(Debug, Default)]
-pub(super) struct Asked {
+pub(super) struct PlumeRequests {
     pub(super) find: Option<Ask>,
     pub(super) maintain: Option<Ask>,
     pub(super) reacquire: Option<Ask>,
@@ -70,9 +70,9 @@ impl PlumeLayers {
         arrived: Option<Kind>,
         memory: &mut PlumeMemory,
         rng: &mut Stream,
-    ) -> Asked {
+    ) -> PlumeRequests {
         let at = |kind| arrived == Some(kind);
-        let mut asked = Asked::default();
+        let mut asked = PlumeRequests::default();
         if detected || self.maintain.active() {
             let here = at(Kind::Maintain);
             let (stride, contact) = self.maintain.step(seen, detected, here, memory, rng);

@@ -96,14 +96,14 @@ impl Holds {
 
 /// The lines or points from which a place is looked at.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Flown {
+pub(super) enum ViewPlan {
     /// Along lines.
     Lines(Passes),
     /// Over points.
     Points(Holds),
 }
 
-impl Flown {
+impl ViewPlan {
     /// None.
     pub(super) fn nothing() -> Self {
         Self::Lines(Passes::default())
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn each_point_is_reached_held_and_left_with_its_pictures() {
-        let mut flown = Flown::Points(holds(&[[5.0, 0.0], [5.0, 4.0]]));
+        let mut flown = ViewPlan::Points(holds(&[[5.0, 0.0], [5.0, 4.0]]));
         let mut o = seen(0.0, Vector2::zeros(), 0.0, None);
         let wanted = Some(Vertical::Altitude(2.0));
         for (number, north) in [0.0, 4.0].into_iter().enumerate() {
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn without_pictures_a_point_is_left_all_the_same() {
-        let mut flown = Flown::Points(holds(&[[5.0, 0.0]]));
+        let mut flown = ViewPlan::Points(holds(&[[5.0, 0.0]]));
         let mut o = seen(0.0, Vector2::zeros(), 0.0, None);
         assert!(matches!(flown.step(&o, true), Stride::Start(_)));
         assert!(matches!(flown.step(&o, true), Stride::Start(_)));

@@ -20,7 +20,7 @@ use crate::behave::Passes;
 use crate::handoff::{Observation, PictureEvidence};
 use crate::places::{MARGIN_M, inside};
 use crate::vision::Verifier;
-use crate::vision::place::{AddUpSpec, Answer, Place, SeenClarity, Stand, Weighed};
+use crate::vision::place::{AddUpSpec, PlaceEvidence, PlacePictures, PlaceVerdict, SeenClarity, Stand};
 use nalgebra::{Vector2, Vector3};
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
@@ -57,11 +57,11 @@ impl Looks {
     }
 
     /// What the camera says; `None` if it never reported.
-    pub(super) fn answer(&self) -> Option<Answer> {
+    pub(super) fn answer(&self) -> Option<PlaceVerdict> {
         match self {
             Self::Single(_, saw) => saw.map(|yes| match yes {
-                true => Answer::Verified,
-                false => Answer::Rejected,
+                true => PlaceVerdict::Verified,
+                false => PlaceVerdict::Rejected,
             }),
             Self::Added(a) => a.place.as_ref().and_then(|p| {
                 let [pictures, useless] = p.pictures();
@@ -74,7 +74,7 @@ impl Looks {
     pub(super) fn enough(&self) -> bool {
         match self {
             Self::Single(_, saw) => *saw == Some(true),
-            Self::Added(_) => self.answer().is_some_and(|a| a != Answer::CannotTell),
+            Self::Added(_) => self.answer().is_some_and(|a| a != PlaceVerdict::CannotTell),
         }
     }
 }
@@ -84,10 +84,10 @@ impl Looks {
 pub(super) struct Added {
     spec: AddUpSpec,
     highest_m: f64,
-    place: Option<Place>,
+    place: Option<PlacePictures>,
     told: Vector2<f64>,
     along: Heading,
-    weighed: Option<Weighed>,
+    weighed: Option<PlaceEvidence>,
     /// Sum of the jumps since the survey began, and mean of that sum over the fixes.
     jumped: Vector2<f64>,
     fixes: (f64, Vector2<f64>),
@@ -133,7 +133,7 @@ impl Added {
         let down_flow = flow.unwrap_or_else(|| along.opposite());
         *self = Self::new(&self.spec, self.highest_m);
         (self.told, self.along, self.held) = (told, along, held);
-        self.place = Some(Place::new(&self.spec, told, down_flow));
+        self.place = Some(PlacePictures::new(&self.spec, told, down_flow));
     }
 
     /// Height of the lines, m.
@@ -212,7 +212,7 @@ impl Added {
         if self.lines >= self.spec.most_lines {
             return None;
         }
-        self.choose(self.place.as_ref().and_then(Place::clarity));
+        self.choose(self.place.as_ref().and_then(PlacePictures::clarity));
         let along = match self.lines % 2 {
             0 => self.along,
             _ => self.along.opposite(),
@@ -229,9 +229,9 @@ impl Added {
         if self.lines >= self.spec.most_lines {
             return None;
         }
-        self.choose(self.place.as_ref().and_then(Place::clarity));
+        self.choose(self.place.as_ref().and_then(PlacePictures::clarity));
         self.lines += 1;
-        let unseen = self.place.as_ref().map_or_else(Vec::new, Place::unseen);
+        let unseen = self.place.as_ref().map_or_else(Vec::new, PlacePictures::unseen);
         let within_m = self.spec.within_m.get() + FARTHER_M;
         let best = best_point(&unseen, self.middle(), within_m, self.shown_m());
         // A camera that looks ahead shows the point from farther back.
@@ -284,7 +284,7 @@ impl Added {
     /// The likeliest place of the source as the vehicle believes now, if the pictures verify one.
     pub(super) fn found(&self) -> Option<Vector2<f64>> {
         let weighed = self.weighed.as_ref()?;
-        let best = weighed.best.filter(|_| weighed.answer == Answer::Verified)?;
+        let best = weighed.best.filter(|_| weighed.answer == PlaceVerdict::Verified)?;
         // From where the pictures lie to the mean of the fixes.
         Some(best + self.fixes.1)
     }

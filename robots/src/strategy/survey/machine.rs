@@ -16,7 +16,7 @@
 //! during a survey. A picture that verifies the source ends the camera's passes. If the declared place and the
 //! sidescan's differ, the declaration keeps its own and carries the other.
 
-use super::holds::{Flown, Holding, Holds};
+use super::holds::{Holding, Holds, ViewPlan};
 use super::looks::Looks;
 use super::spec::{AfterDeclaration, SurveySpec, Verify};
 use crate::behave::Passes;
@@ -25,7 +25,7 @@ use crate::error::RobotError;
 use crate::handoff::{Behaviour, Declaration, Observation, Verdict, Vertical};
 use crate::places::{MARGIN_M, inside};
 use crate::survey::{Object, Waterfall, detect, merge};
-use crate::vision::place::Answer;
+use crate::vision::place::PlaceVerdict;
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_2;
 use world::units::Heading;
@@ -61,7 +61,7 @@ pub struct PostDeclaration {
     phase: SurveyPhase,
     declaration: Option<Declaration>,
     along: Heading,
-    flown: Flown,
+    flown: ViewPlan,
     /// Whether the places were told, and are not declared by the vehicle itself.
     told: bool,
     /// The line being imaged and its picture.
@@ -90,7 +90,7 @@ impl PostDeclaration {
             phase: SurveyPhase::None,
             declaration: None,
             along: Heading::from_deg(0.0),
-            flown: Flown::nothing(),
+            flown: ViewPlan::nothing(),
             told: false,
             line: None,
             objects: Vec::new(),
@@ -147,23 +147,23 @@ impl PostDeclaration {
         self.phase = phase;
         let holding = self.holding(seen).filter(|_| phase == SurveyPhase::Camera);
         self.flown = match (offsets, holding) {
-            (None, _) => Flown::nothing(),
+            (None, _) => ViewPlan::nothing(),
             (Some((offsets, half_m)), None) => {
                 let area = &seen.area;
-                Flown::Lines(Passes::over(place, self.along, &offsets, half_m, area))
+                ViewPlan::Lines(Passes::over(place, self.along, &offsets, half_m, area))
             }
             (Some((offsets, _)), Some(holding)) => {
                 let right = self.along.turned(FRAC_PI_2).unit();
                 let points = offsets.iter().map(|o| place + right * *o);
                 let points = points.map(|p| inside(&seen.area, p, MARGIN_M)).collect();
-                Flown::Points(Holds::new(points, holding))
+                ViewPlan::Points(Holds::new(points, holding))
             }
         };
         if phase == SurveyPhase::Camera
             && let Some(Looks::Added(added)) = &mut self.looks
         {
             added.begin(place, self.along, seen, holding.is_some());
-            self.flown = Flown::nothing();
+            self.flown = ViewPlan::nothing();
             self.fly_on(seen);
         }
     }
@@ -187,11 +187,11 @@ impl PostDeclaration {
             return false;
         };
         let next = match holding {
-            None => added.next_line(half_m, seen).map(Flown::Lines),
-            Some(holding) => (added.next_point(seen)).map(|point| Flown::Points(Holds::new(vec![point], holding))),
+            None => added.next_line(half_m, seen).map(ViewPlan::Lines),
+            Some(holding) => (added.next_point(seen)).map(|point| ViewPlan::Points(Holds::new(vec![point], holding))),
         };
         let some = next.is_some();
-        self.flown = next.unwrap_or_else(Flown::nothing);
+        self.flown = next.unwrap_or_else(ViewPlan::nothing);
         some
     }
 
@@ -349,18 +349,18 @@ impl PostDeclaration {
             return Verdict::Unchecked;
         };
         let by_sidescan = self.by_sidescan.map(|yes| match yes {
-            true => Answer::Verified,
-            false => Answer::Rejected,
+            true => PlaceVerdict::Verified,
+            false => PlaceVerdict::Rejected,
         });
         let by_camera = self.looks.as_ref().and_then(Looks::answer);
-        let says: &[Option<Answer>] = match spec.verify {
+        let says: &[Option<PlaceVerdict>] = match spec.verify {
             Verify::Sidescan => &[by_sidescan],
             Verify::Camera => &[by_camera],
             Verify::Either | Verify::Both => &[by_sidescan, by_camera],
         };
-        let some = |a: Answer| says.contains(&Some(a));
-        let (yes, no) = (some(Answer::Verified), some(Answer::Rejected));
-        let open = some(Answer::CannotTell);
+        let some = |a: PlaceVerdict| says.contains(&Some(a));
+        let (yes, no) = (some(PlaceVerdict::Verified), some(PlaceVerdict::Rejected));
+        let open = some(PlaceVerdict::CannotTell);
         match spec.verify {
             Verify::Both if no => Verdict::Rejected,
             Verify::Both if open => Verdict::CannotTell,

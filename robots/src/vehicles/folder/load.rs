@@ -8,10 +8,10 @@
 //! *Deviations:* none.
 
 use super::blocks::Damping;
-use super::described::{Described, Rates};
 use super::doubts::{resists, symmetric, trim};
 use super::fitted::drives;
-use super::given::{Given, given};
+use super::folder_vehicle::{FolderVehicle, Rates};
+use super::hull_blocks::{HullBlocks, given};
 use super::plant;
 use super::spec::VehicleFile;
 use crate::error::RobotError;
@@ -26,7 +26,7 @@ use std::path::Path;
 /// Shortest time in which the motion of a hull decays, s; those that come with the program take ten times as long.
 const QUICKEST_S: f64 = 1e-3;
 
-impl Described {
+impl FolderVehicle {
     /// Builds a vehicle from the text of its `vehicle.ron`, which stands in a folder of `files`.
     ///
     /// # Errors
@@ -113,7 +113,7 @@ fn rigid(shell: &Shell) -> Result<Mass, String> {
     Ok(Mass::about_centre(kg, flip(p_BG), &(half_turn * inertia * half_turn)))
 }
 
-fn hull(given: &Given, mass: &Mass, shell: &Shell, told: &mut Vec<String>) -> Result<(Body, Damping), String> {
+fn hull(given: &HullBlocks, mass: &Mass, shell: &Shell, told: &mut Vec<String>) -> Result<(Body, Damping), String> {
     let Some(volume_m3) = given.volume_m3 else {
         return Err("hydrodynamics.volume_m3: is missing; give the displaced volume, m3".into());
     };

@@ -1,7 +1,7 @@
 //! Opens the folder of a vehicle: a user's own, or one of those that are in the program itself.
 
 use super::VehicleFile;
-use super::described::Described;
+use super::folder_vehicle::FolderVehicle;
 use crate::error::RobotError;
 use crate::vehicles::files::Files;
 use crate::vehicles::urdf_parts::UrdfText;
@@ -10,7 +10,7 @@ use world::encoding;
 
 /// A vehicle that comes with the program.
 #[derive(Clone, Copy, Debug)]
-pub struct Shipped {
+pub struct ShippedVehicle {
     /// Name of its folder.
     pub folder: &'static str,
     /// Its `vehicle.ron`.
@@ -21,7 +21,7 @@ pub struct Shipped {
 
 macro_rules! shipped {
     ($($folder:literal),*) => {
-        &[$(Shipped {
+        &[$(ShippedVehicle {
             folder: $folder,
             file: include_str!(concat!("../../../vehicles/", $folder, "/vehicle.ron")),
             urdf: (
@@ -33,9 +33,9 @@ macro_rules! shipped {
 }
 
 /// All of them.
-pub const SHIPPED: &[Shipped] = shipped!["bluerov2", "bluerov2_heavy", "lauv", "glider", "surface_craft"];
+pub const SHIPPED: &[ShippedVehicle] = shipped!["bluerov2", "bluerov2_heavy", "lauv", "glider", "surface_craft"];
 
-impl Shipped {
+impl ShippedVehicle {
     /// The one of a name.
     #[must_use]
     pub fn named(folder: &str) -> Option<&'static Self> {
@@ -45,7 +45,7 @@ impl Shipped {
 
 /// A shipped vehicle's folder as files, read by the reader of others.
 pub(in crate::vehicles) struct BuiltIn<'a> {
-    pub(in crate::vehicles) shipped: &'static Shipped,
+    pub(in crate::vehicles) shipped: &'static ShippedVehicle,
     pub(in crate::vehicles) reader: &'a dyn Files,
 }
 
@@ -85,19 +85,19 @@ fn file_of(folder: &Path, files: &dyn Files) -> Result<VehicleFile, RobotError> 
 }
 
 /// The vehicle of a folder.
-pub(in crate::vehicles) fn of_folder(folder: &str, files: &dyn Files) -> Result<Described, RobotError> {
+pub(in crate::vehicles) fn of_folder(folder: &str, files: &dyn Files) -> Result<FolderVehicle, RobotError> {
     let folder = Path::new(folder);
-    Described::load(folder, &file_of(folder, files)?, files)
+    FolderVehicle::load(folder, &file_of(folder, files)?, files)
 }
 
 /// One that comes with the program.
-pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Described, RobotError> {
+pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<FolderVehicle, RobotError> {
     of_folder(name, &built_in(name, files)?)
 }
 
 /// The files of one that comes with the program.
 fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotError> {
-    let Some(shipped) = Shipped::named(name) else {
+    let Some(shipped) = ShippedVehicle::named(name) else {
         let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
         return Err(RobotError::Invalid {
             field: "vehicle".into(),

@@ -52,7 +52,7 @@ pub(super) const REACH_M: f64 = 3.6;
 /// What pictures say about a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Answer {
+pub enum PlaceVerdict {
     /// A source is there.
     Verified,
     /// None is.
@@ -70,21 +70,21 @@ pub(super) struct Limits {
 
 /// The evidence of all pictures of a place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Weighed {
+pub struct PlaceEvidence {
     /// Natural logarithm of the Bayes factor: positive speaks for a source.
     pub log_factor: f64,
     /// What follows.
-    pub answer: Answer,
+    pub answer: PlaceVerdict,
     /// The likeliest place of the source (east, north), m.
     pub best: Option<Vector2<f64>>,
     /// Places with the logarithm of their likelihood ratio.
     pub places: Vec<(Vector2<f64>, f64)>,
 }
 
-impl Weighed {
+impl PlaceEvidence {
     /// Nothing is known: of `places` none is likelier than another.
     fn blank(places: Vec<(Vector2<f64>, f64)>) -> Self {
-        Self { log_factor: 0.0, answer: Answer::CannotTell, best: None, places }
+        Self { log_factor: 0.0, answer: PlaceVerdict::CannotTell, best: None, places }
     }
 }
 
@@ -95,10 +95,10 @@ pub(super) fn weigh(
     within_m: f64,
     down_flow: Heading,
     limits: Limits,
-) -> Weighed {
+) -> PlaceEvidence {
     let mut places = tried(place, within_m);
     let Some(mosaic) = mosaic else {
-        return Weighed::blank(places);
+        return PlaceEvidence::blank(places);
     };
     let boxes = mosaic.boxes();
     let spread = spread(&boxes);
@@ -127,13 +127,13 @@ pub(super) fn weigh(
     let log_factor = log_mean(places.iter().map(|(_, log)| *log));
     let best = (places.iter().copied()).reduce(|a, b| if b.1 > a.1 { b } else { a });
     let answer = if log_factor >= limits.verify_at {
-        Answer::Verified
+        PlaceVerdict::Verified
     } else if log_factor <= -limits.reject_at {
-        Answer::Rejected
+        PlaceVerdict::Rejected
     } else {
-        Answer::CannotTell
+        PlaceVerdict::CannotTell
     };
-    Weighed { log_factor, answer, best: best.filter(|(_, log)| *log > 0.0).map(|(p, _)| p), places }
+    PlaceEvidence { log_factor, answer, best: best.filter(|(_, log)| *log > 0.0).map(|(p, _)| p), places }
 }
 
 /// What of the template no picture shows, for a source at each of `places`: where it is, and the likelihood ratio of

@@ -8,7 +8,7 @@
 //! `shift_m` against the navigation.
 
 use super::clarity::SeenClarity;
-use super::evidence::{Limits, REACH_M, Weighed, unseen, weigh};
+use super::evidence::{Limits, PlaceEvidence, REACH_M, unseen, weigh};
 use super::ground::{Patch, Stand};
 use super::mosaic::Mosaic;
 use super::photometry::Useless;
@@ -23,7 +23,7 @@ const MOST: usize = 400;
 
 /// The pictures of a place.
 #[derive(Clone, Debug)]
-pub struct Place {
+pub struct PlacePictures {
     spec: AddUpSpec,
     place: Vector2<f64>,
     down_flow: Heading,
@@ -35,7 +35,7 @@ pub struct Place {
     clarity: Option<SeenClarity>,
 }
 
-impl Place {
+impl PlacePictures {
     /// A place (east, north, m) of which there are no pictures yet, in water that goes along `down_flow`.
     #[must_use]
     pub fn new(spec: &AddUpSpec, place: Vector2<f64>, down_flow: Heading) -> Self {
@@ -115,7 +115,7 @@ impl Place {
 
     /// What the pictures say.
     #[must_use]
-    pub fn weigh(&self) -> Weighed {
+    pub fn weigh(&self) -> PlaceEvidence {
         let limits = Limits { verify_at: self.spec.verify_at.get(), reject_at: self.spec.reject_at.get() };
         let (place, within_m) = (self.place, self.spec.within_m.get());
         weigh(self.mosaic().as_ref(), place, within_m, self.down_flow, limits)

@@ -31,7 +31,7 @@ pub struct Stand {
 
 /// A cell of the bed as one picture shows it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seen {
+pub(super) struct GroundCell {
     /// Column and row of the cell: east and north in units of its side.
     pub(super) at: [i32; 2],
     /// Number of pixels.
@@ -46,7 +46,7 @@ pub(super) struct Seen {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Patch {
     /// Its cells, in order of row and column.
-    pub(super) cells: Vec<Seen>,
+    pub(super) cells: Vec<GroundCell>,
     /// Standard deviation of a pixel's noise in the two contrasts.
     pub(super) noise: [f64; 2],
     /// Height of the camera above the bed, m.
@@ -95,9 +95,9 @@ impl Patch {
 }
 
 /// Spread of the cells' brightness, without that of the noise, and the noise of a cell.
-fn texture(cells: &[Seen], c: &Contrasts) -> [f64; 2] {
+fn texture(cells: &[GroundCell], c: &Contrasts) -> [f64; 2] {
     let full = 0.5 * median(cells.iter().map(|s| s.pixels).collect());
-    let whole: Vec<&Seen> = cells.iter().filter(|s| s.pixels >= full).collect();
+    let whole: Vec<&GroundCell> = cells.iter().filter(|s| s.pixels >= full).collect();
     let middle = median(whole.iter().map(|s| s.mean[0]).collect());
     let spread = 1.4826 * median(whole.iter().map(|s| (s.mean[0] - middle).abs()).collect());
     let pixels = median(whole.iter().map(|s| s.pixels).collect()).max(1.0);
@@ -119,9 +119,9 @@ impl Cells {
         }
     }
 
-    fn done(self) -> Vec<Seen> {
+    fn done(self) -> Vec<GroundCell> {
         (self.0.into_iter())
-            .map(|([north, east], (n, way, sums))| Seen {
+            .map(|([north, east], (n, way, sums))| GroundCell {
                 at: [east, north],
                 pixels: n,
                 mean: sums.map(|s| s / n),

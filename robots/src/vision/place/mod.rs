@@ -10,8 +10,8 @@ mod register;
 mod spec;
 
 pub use clarity::SeenClarity;
-pub use evidence::{Answer, Weighed};
-pub use gathered::Place;
+pub use evidence::{PlaceEvidence, PlaceVerdict};
+pub use gathered::PlacePictures;
 pub use ground::Stand;
 pub use mosaic::Mosaic;
 pub use photometry::Useless;

@@ -9,7 +9,7 @@
 //! [`SURE`] times the spread of chance, of which as many cells as four share one piece of news. Otherwise the
 //! navigation alone is followed.
 
-use super::ground::{Patch, Seen};
+use super::ground::{GroundCell, Patch};
 use std::collections::BTreeMap;
 
 /// Least correlation over the spread of chance, and by itself.
@@ -59,7 +59,7 @@ impl Known {
                 if shift.iter().any(|s| s.abs() > reach_cells) {
                     continue;
                 }
-                let known = |s: &Seen| {
+                let known = |s: &GroundCell| {
                     let (x, y) = (s.at[0] + shift[0] - x0, s.at[1] + shift[1] - y0);
                     table[y as usize * width + x as usize]
                 };
@@ -113,7 +113,7 @@ mod tests {
         for y in 0..PICTURE {
             for x in 0..PICTURE {
                 let v = ground[((from[1] + y) * GROUND + from[0] + x) as usize];
-                cells.push(Seen {
+                cells.push(GroundCell {
                     at: [from[0] + x + off[0], from[1] + y + off[1]],
                     pixels: 4.0,
                     mean: [v + noise * r.normal(), 0.0],

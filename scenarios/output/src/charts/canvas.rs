@@ -1,8 +1,8 @@
 //! A sheet for drawing, as SVG text.
 
 use super::far::{self, Frame};
+use super::label_box::LabelBox;
 use super::panel::Panel;
-use super::room::Room;
 use super::thin::thinned;
 use crate::decimal::push_decimal;
 use std::fmt::Write as _;
@@ -103,7 +103,7 @@ pub struct Canvas {
     // The visible part of the sheet. Shapes far outside it are cut off, because the rasteriser cannot handle them.
     shows: Option<Frame>,
     /// Space that texts, keys and marks occupy.
-    taken: Vec<Room>,
+    taken: Vec<LabelBox>,
 }
 
 impl Canvas {
@@ -203,12 +203,12 @@ impl Canvas {
     }
 
     /// Reserves space that labels must keep free.
-    pub fn keep_free(&mut self, room: Room) {
+    pub fn keep_free(&mut self, room: LabelBox) {
         self.taken.push(room);
     }
 
     /// The area of a label that would cover other things or lie outside the panel, px².
-    fn in_the_way(&self, room: &Room, panel: &Panel) -> f64 {
+    fn in_the_way(&self, room: &LabelBox, panel: &Panel) -> f64 {
         let on_others: f64 = self.taken.iter().map(|t| room.shared(t)).sum();
         on_others + room.outside(panel)
     }
@@ -223,7 +223,8 @@ impl Canvas {
         panel: &Panel,
         may_be_left_out: bool,
     ) {
-        let hidden = |(at, anchor): &([f64; 2], Anchor)| self.in_the_way(&Room::of_text(*at, size, *anchor, s), panel);
+        let hidden =
+            |(at, anchor): &([f64; 2], Anchor)| self.in_the_way(&LabelBox::of_text(*at, size, *anchor, s), panel);
         let free = places.iter().find(|p| hidden(p) == 0.0).copied();
         let least = || places.iter().copied().min_by(|a, b| hidden(a).total_cmp(&hidden(b)));
         let chosen = if may_be_left_out { free } else { free.or_else(least) };
@@ -234,7 +235,7 @@ impl Canvas {
 
     /// Space occupied so far.
     #[cfg(test)]
-    pub fn taken(&self) -> &[Room] {
+    pub fn taken(&self) -> &[LabelBox] {
         &self.taken
     }
 
@@ -245,7 +246,7 @@ impl Canvas {
     }
 
     fn label(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str, more: &str) {
-        self.taken.push(Room::of_text(at, size, anchor, s));
+        self.taken.push(LabelBox::of_text(at, size, anchor, s));
         self.write_text(at, size, anchor, s, more);
     }
 

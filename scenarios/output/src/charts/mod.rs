@@ -7,11 +7,11 @@ pub mod contours;
 mod elements;
 pub mod far;
 mod glyphs;
+pub mod label_box;
 mod paint;
 pub mod palette;
 pub mod panel;
 mod raster;
-pub mod room;
 mod thin;
 
 pub use canvas::escaped;

@@ -5,9 +5,9 @@ use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
 use super::thinned::thinned;
 use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::label_box::LabelBox;
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
 use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
-use crate::charts::room::Room;
 use crate::results::{RobotTrack, RunReport, TrackRow};
 use nalgebra::Vector2;
 use robots::handoff::region_name;
@@ -120,11 +120,11 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     if let Some(r) = t.rows.first() {
         let p = panel.at([r.p[0], r.p[1]]);
         start(c, p);
-        c.keep_free(Room::round(p, 6.0));
+        c.keep_free(LabelBox::round(p, 6.0));
     }
     for (d, at) in t.declarations.iter().zip(t.declared()) {
         let p = panel.at(at);
-        c.keep_free(Room::round(p, 8.0));
+        c.keep_free(LabelBox::round(p, 8.0));
         if d.at_edge() {
             plume_at_edge(c, p);
             continue;
@@ -245,7 +245,7 @@ pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     for s in run.sources {
         let p = panel.at([s.position.x, s.position.y]);
         true_source(c, p);
-        c.keep_free(Room::round(p, 9.0));
+        c.keep_free(LabelBox::round(p, 9.0));
     }
 }
 
@@ -260,9 +260,9 @@ pub(super) fn source_names(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
 pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
     let (_, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
-    c.keep_free(Room { left: x - 7.0, top: y - 19.0, right: x + px + 7.0, bottom: y + 7.0 });
+    c.keep_free(LabelBox { left: x - 7.0, top: y - 19.0, right: x + px + 7.0, bottom: y + 7.0 });
     let x = panel.right() - 20.0;
-    c.keep_free(Room { left: x - 13.0, top: panel.top + 7.0, right: x + 13.0, bottom: panel.top + 60.0 });
+    c.keep_free(LabelBox { left: x - 13.0, top: panel.top + 7.0, right: x + 13.0, bottom: panel.top + 60.0 });
 }
 
 /// Length of the scale bar, in units of the panel and in px.

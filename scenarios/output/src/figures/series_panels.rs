@@ -1,9 +1,9 @@
 //! The panels of the time series.
 
 use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::label_box::{LabelBox, width_of};
 use crate::charts::palette::{self, DETECTION, GREY, INK};
 use crate::charts::panel::{Panel, range_of};
-use crate::charts::room::{Room, width_of};
 use crate::results::{RobotTrack, TrackRow};
 use robots::handoff::Behaviour;
 
@@ -97,7 +97,7 @@ impl Panel {
             c.rimmed([x, self.top + 13.0], 10.0, Anchor::End, words);
             let y = self.top + 9.5;
             c.line([x - width - 24.0, y], [x - width - 8.0, y], &Style::line(colour, 2.4));
-            c.keep_free(Room { left: x - width - 27.0, top: self.top, right: x, bottom: self.top + 17.0 });
+            c.keep_free(LabelBox { left: x - width - 27.0, top: self.top, right: x, bottom: self.top + 17.0 });
             x -= width + 40.0;
         }
     }

@@ -6,11 +6,11 @@ use super::map_layers as layers;
 use super::map_section;
 use super::series_panels::event;
 use crate::charts::canvas::{Anchor, Canvas};
+use crate::charts::label_box::LabelBox;
 use crate::charts::palette::DECLARED;
 use crate::charts::panel::Panel;
-use crate::charts::room::Room;
 use crate::results::{
-    BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
+    BeliefTrack, Echoes, ObstacleOutline, RunReport, SourceTruth, SummaryBuilder, SummaryEnd, Totals, TrackTable,
 };
 use crate::sample::{area, frames, info, plume, robots, scored, source, terrain};
 use nalgebra::{Vector2, Vector3};
@@ -37,7 +37,7 @@ pub(super) fn reported<T>(
         builder.observe(f);
         table.push(f).unwrap();
     }
-    let end = RunEnd {
+    let end = SummaryEnd {
         outcome: RunOutcome::Found,
         error: None,
         digest: "00ff".into(),
@@ -118,7 +118,7 @@ fn panel(width: f64, height: f64) -> Panel {
 }
 
 /// Labels placed after `before` that cover something that was already there, or each other.
-fn clashes(before: usize, c: &Canvas) -> Vec<(Room, Room)> {
+fn clashes(before: usize, c: &Canvas) -> Vec<(LabelBox, LabelBox)> {
     let all = c.taken();
     let pairs = (before..all.len()).flat_map(|k| (0..k).map(move |j| (k, j)));
     pairs.map(|(k, j)| (all[k], all[j])).filter(|(a, b)| a.shared(b) > 0.0).collect()
@@ -136,7 +136,7 @@ fn events_of_a_series_keep_off_its_key_and_each_other() {
     }
     assert_eq!(c.taken().len(), before + 9);
     assert_eq!(clashes(before, &c), []);
-    let inside = |r: &Room| r.outside(&panel) == 0.0;
+    let inside = |r: &LabelBox| r.outside(&panel) == 0.0;
     assert!(c.taken()[before..].iter().all(inside));
 }
 
@@ -284,8 +284,8 @@ fn a_label_without_a_free_place_is_left_out_or_hides_least() {
     let panel = panel(100.0, 40.0);
     let mut c = Canvas::new(300.0, 100.0);
     let places = [([100.0, 60.0], Anchor::Start), ([100.0, 75.0], Anchor::Start)];
-    c.keep_free(Room::round([110.0, 58.0], 6.0));
-    c.keep_free(Room::round([140.0, 72.0], 2.0));
+    c.keep_free(LabelBox::round([110.0, 58.0], 6.0));
+    c.keep_free(LabelBox::round([140.0, 72.0], 2.0));
     let before = c.taken().len();
     c.label_at(&places, 10.0, "declared", &panel, true);
     assert_eq!(c.taken().len(), before);

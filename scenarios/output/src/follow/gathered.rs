@@ -6,8 +6,8 @@ use crate::figures as draw;
 use crate::files::{ReportError, guarded};
 use crate::report::{Figure, figures, film, write_all};
 use crate::results::{
-    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd, RunReport,
-    SourceTruth, Summary, Totals, Track,
+    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunReport, SourceTruth,
+    Summary, SummaryEnd, Totals, Track,
 };
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -15,15 +15,15 @@ use rheotaxis::frame::PlumeFrame;
 use rheotaxis::ocean::Ocean;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial};
+use rheotaxis::trial::{RunEnd, Trial};
 use std::time::Duration;
 use world::files::Folder;
 
-/// Pixels of a [still](Gathered::still) along its longer side, at most: a page with nine is still easy to send.
+/// Pixels of a [still](RunResults::still) along its longer side, at most: a page with nine is still easy to send.
 const STILL_PX: u32 = 1000;
 
 /// The results of a run that is over. Figures need its ocean as well, at the end of the run.
-pub struct Gathered {
+pub struct RunResults {
     /// The summary, as in `summary.json`.
     pub summary: Summary,
     /// The true sources.
@@ -43,18 +43,24 @@ pub struct Gathered {
 }
 
 /// Whose results they are.
-pub(super) struct Whose {
+pub(super) struct ResultsOwner {
     pub(super) loaded: Loaded,
     pub(super) out: Option<Folder>,
     pub(super) spin_up_kept: bool,
 }
 
-impl Gathered {
+impl RunResults {
     /// From what was gathered; `walls` are the times that spin-up and mission took.
-    pub(super) fn of(mut gathered: Gatherer, whose: Whose, trial: &Trial, ended: &Ended, walls: [Duration; 2]) -> Self {
+    pub(super) fn of(
+        mut gathered: Gatherer,
+        whose: ResultsOwner,
+        trial: &Trial,
+        ended: &RunEnd,
+        walls: [Duration; 2],
+    ) -> Self {
         let scenario = &whose.loaded.scenario;
         let sources = SourceTruth::of(trial, ended);
-        let end = RunEnd {
+        let end = SummaryEnd {
             outcome: match gathered.failure {
                 Some(_) => RunOutcome::Failed,
                 None => ended.outcome,
@@ -164,7 +170,7 @@ impl Gathered {
     }
 }
 
-fn totals(trial: &Trial, ended: &Ended, [spin_up, mission]: [Duration; 2]) -> Totals {
+fn totals(trial: &Trial, ended: &RunEnd, [spin_up, mission]: [Duration; 2]) -> Totals {
     let plume = trial.simulation.ocean().plume();
     Totals {
         mission_s: ended.t_s,

@@ -7,7 +7,7 @@ use crate::results::{
     BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo, SummaryBuilder, TrackTable,
 };
 use crate::scene::Scene;
-use rheotaxis::control::Consultation;
+use rheotaxis::control::Exchange;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::{Loaded, RecordSpec};
@@ -15,11 +15,11 @@ use std::sync::Arc;
 use world::files::Folder;
 
 /// One thing that a run has shown.
-pub(super) enum Seen {
+pub(super) enum RunEvent {
     Frame(Arc<Frame>),
     Plume(PlumeFrame),
     Water(WaterFrame),
-    Consulted(Consultation),
+    Consulted(Exchange),
     Picture(PictureFrame),
     Ping(PingFrame),
 }
@@ -95,14 +95,14 @@ impl Gatherer {
     }
 
     /// Takes one thing in.
-    pub(super) fn take(&mut self, seen: Seen) {
+    pub(super) fn take(&mut self, seen: RunEvent) {
         match seen {
-            Seen::Frame(frame) => self.frame(&frame),
-            Seen::Plume(plume) => self.plume(&plume),
-            Seen::Water(water) => self.record(|r| r.water(&water)),
-            Seen::Consulted(told) => self.record(|r| r.consulted(&told)),
-            Seen::Picture(picture) => self.picture(&picture),
-            Seen::Ping(ping) => self.ping(&ping),
+            RunEvent::Frame(frame) => self.frame(&frame),
+            RunEvent::Plume(plume) => self.plume(&plume),
+            RunEvent::Water(water) => self.record(|r| r.water(&water)),
+            RunEvent::Consulted(told) => self.record(|r| r.consulted(&told)),
+            RunEvent::Picture(picture) => self.picture(&picture),
+            RunEvent::Ping(ping) => self.ping(&ping),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::results::{GantryInfo, RobotInfo};
 use rheotaxis::error::AssembleError;
-use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
+use rheotaxis::scenario::{FolderFiles, GantryBlock, Loaded};
 use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
 use world::ranges::Finite;
@@ -34,7 +34,7 @@ pub(super) fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, AssembleError
         .max_by(f64::total_cmp);
     let info = |block: &GantryBlock| {
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir))
+        let gantry = Gantry::load(&block.gantry, &FolderFiles(&loaded.base_dir))
             .map_err(|source| AssembleError::Robot { id: id.clone(), source })?;
         let range_v = block.probes.range_v.map(Finite::get);
         let layout = gantry.layout(block.probes.rate_hz.get(), range_v);

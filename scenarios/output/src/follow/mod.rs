@@ -5,25 +5,25 @@
     reason = "wall times are shown to people and stand in the summary; none enters the run"
 )]
 
-mod desk;
 mod gathered;
 mod gatherer;
 mod machines;
+mod worker;
 
-pub use gathered::Gathered;
+pub use gathered::RunResults;
 
 use crate::files::ReportError;
 use crate::results::{RobotInfo, RunInfo};
 use crate::scene::Scene;
-use desk::Desk;
-use gatherer::{Gatherer, Seen};
-use rheotaxis::control::Consultation;
+use gatherer::{Gatherer, RunEvent};
+use rheotaxis::control::Exchange;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial, Watch};
+use rheotaxis::trial::{RunEnd, Trial, Watch};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use worker::GatherWorker;
 use world::files::Folder;
 use world::seeds::Seed;
 
@@ -36,7 +36,7 @@ pub struct Follower {
     out: Option<Folder>,
     /// Whether there is a recording, for which the flow is looked at.
     recording: bool,
-    desk: Desk,
+    desk: GatherWorker,
     begun: Instant,
     mission_begun: Instant,
     spin_up_kept: bool,
@@ -61,7 +61,7 @@ impl Follower {
         let now = Instant::now();
         Ok(Self {
             robots: gatherer.robots.clone(),
-            desk: Desk::Here(Box::new(gatherer)),
+            desk: GatherWorker::Here(Box::new(gatherer)),
             begun: now,
             mission_begun: now,
             spin_up_kept: false,
@@ -85,7 +85,7 @@ impl Follower {
         // First, so that a scene that cannot be made leaves no file behind.
         let scene = recording.then(|| self.scene().map_err(Box::new));
         let scene = scene.transpose()?;
-        let Desk::Here(gatherer) = &mut self.desk else {
+        let GatherWorker::Here(gatherer) = &mut self.desk else {
             panic!("files are opened before the run");
         };
         let record = &self.loaded.scenario.record;
@@ -133,20 +133,20 @@ impl Follower {
         self.desk.well()
     }
 
-    /// The results of the run at its end. A recording is closed; the other files are written by [`Gathered::write`].
+    /// The results of the run at its end. A recording is closed; the other files are written by [`RunResults::write`].
     ///
     /// # Panics
     /// As the thread [beside the run](Self::beside) has, if it has.
     #[must_use]
-    pub fn finish(self, trial: &Trial, ended: &Ended) -> Gathered {
+    pub fn finish(self, trial: &Trial, ended: &RunEnd) -> RunResults {
         let walls: [Duration; 2] = [self.mission_begun - self.begun, self.mission_begun.elapsed()];
         let mut gatherer = self.desk.finish();
         if let Some(recorder) = gatherer.recorder.take() {
             let closed = recorder.finish(&ended.digest, ended.steps).map(drop);
             gatherer.note(closed);
         }
-        let run = gathered::Whose { loaded: self.loaded, out: self.out, spin_up_kept: self.spin_up_kept };
-        Gathered::of(*gatherer, run, trial, ended, walls)
+        let run = gathered::ResultsOwner { loaded: self.loaded, out: self.out, spin_up_kept: self.spin_up_kept };
+        RunResults::of(*gatherer, run, trial, ended, walls)
     }
 }
 
@@ -162,29 +162,29 @@ impl Watch for Follower {
     }
 
     fn frame(&mut self, frame: &Arc<Frame>) {
-        self.desk.take(Seen::Frame(Arc::clone(frame)));
+        self.desk.take(RunEvent::Frame(Arc::clone(frame)));
     }
 
     fn plume(&mut self, plume: &PlumeFrame) {
-        self.desk.take(Seen::Plume(plume.clone()));
+        self.desk.take(RunEvent::Plume(plume.clone()));
     }
 
     fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
         if self.recording {
-            self.desk.take(Seen::Water(look()));
+            self.desk.take(RunEvent::Water(look()));
         }
     }
 
-    fn consulted(&mut self, told: &Consultation) {
-        self.desk.take(Seen::Consulted(told.clone()));
+    fn consulted(&mut self, told: &Exchange) {
+        self.desk.take(RunEvent::Consulted(told.clone()));
     }
 
     fn picture(&mut self, picture: &PictureFrame) {
-        self.desk.take(Seen::Picture(picture.clone()));
+        self.desk.take(RunEvent::Picture(picture.clone()));
     }
 
     fn ping(&mut self, ping: &PingFrame) {
-        self.desk.take(Seen::Ping(ping.clone()));
+        self.desk.take(RunEvent::Ping(ping.clone()));
     }
 
     fn go_on(&mut self, _t_s: f64) -> bool {

@@ -21,14 +21,14 @@ const QUEUE: &str = "transport/link/tx/queue/size/data";
 const BATCHES: usize = 16;
 
 /// An open session, and what the user is told of it.
-pub(super) struct Opened {
+pub(super) struct OpenedSession {
     pub(super) session: Session,
-    pub(super) told: Told,
+    pub(super) told: Notices,
 }
 
 /// Lines for the user, if necessary.
 #[derive(Debug, Default)]
-pub(super) struct Told {
+pub(super) struct Notices {
     /// That a port other than the default one was taken.
     pub(super) notice: Option<String>,
     /// That anybody who comes from another machine can control the run.
@@ -36,7 +36,7 @@ pub(super) struct Told {
 }
 
 /// Opens the session of a run.
-pub(super) fn opened(options: &LiveOptions, from_env: Option<PathBuf>) -> Result<Opened, LiveError> {
+pub(super) fn opened(options: &LiveOptions, from_env: Option<PathBuf>) -> Result<OpenedSession, LiveError> {
     let file = options.config_file.clone().or(from_env);
     if file.is_none() && options.listen.is_none() {
         let first = DEFAULT_PORT..=DEFAULT_PORT + SPARE_PORTS;
@@ -58,13 +58,13 @@ pub(super) fn opened(options: &LiveOptions, from_env: Option<PathBuf>) -> Result
             _ => LiveError::Open { why: plain(&e) },
         }
     })?;
-    let told = Told { notice: None, warning };
-    Ok(Opened { session, told })
+    let told = Notices { notice: None, warning };
+    Ok(OpenedSession { session, told })
 }
 
 /// Without configuration and endpoint: the first of these ports that zenoh gets, or any that the system has. zenoh
 /// itself takes the port, and tries the next one if another process was faster: runs that start together do not meet.
-fn at_a_free_port(ports: RangeInclusive<u16>, ros2: bool) -> Result<Opened, LiveError> {
+fn at_a_free_port(ports: RangeInclusive<u16>, ros2: bool) -> Result<OpenedSession, LiveError> {
     let (first, last) = (*ports.start(), *ports.end());
     // To ask costs less than to open a session in vain; it decides nothing.
     let perhaps_free = |port: &u16| TcpListener::bind(("127.0.0.1", *port)).is_ok();
@@ -87,8 +87,8 @@ fn at_a_free_port(ports: RangeInclusive<u16>, ros2: bool) -> Result<Opened, Live
             ),
             _ => format!("port {first} is already in use: zenoh listens on {end}{joins}"),
         };
-        let told = Told { notice: (port != first).then_some(notice), warning: None };
-        return Ok(Opened { session, told });
+        let told = Notices { notice: (port != first).then_some(notice), warning: None };
+        return Ok(OpenedSession { session, told });
     }
     Err(LiveError::Open { why: "the system has no free port on 127.0.0.1".to_owned() })
 }
@@ -183,7 +183,7 @@ mod tests {
     fn where_all_its_ports_are_taken_a_run_has_another_and_says_so() {
         let others = TcpListener::bind("127.0.0.1:0").unwrap();
         let taken = others.local_addr().unwrap().port();
-        let Opened { session, told } = at_a_free_port(taken..=taken, true).unwrap();
+        let OpenedSession { session, told } = at_a_free_port(taken..=taken, true).unwrap();
         let end = endpoint(&session);
         assert!(end.starts_with("tcp/127.0.0.1:") && port(&end) != Some(taken));
         assert_eq!(

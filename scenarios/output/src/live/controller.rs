@@ -12,7 +12,7 @@ use super::LiveError;
 use super::config::plain;
 use super::ros2::RosCommands;
 use super::session::Open;
-use rheotaxis::control::{Controller, Heard, Question, question_json, read_answer};
+use rheotaxis::control::{Controller, Question, Response, question_json, read_answer};
 use std::sync::Arc;
 use std::time::Duration;
 use zenoh::Wait;
@@ -90,24 +90,24 @@ impl LiveController {
     }
 
     /// The stream of replies has ended without one.
-    fn silent(&self) -> Heard {
+    fn silent(&self) -> Response {
         let mut left = FAREWELL;
         while !left.is_zero() {
             if !self.is_there() {
-                return Heard::Gone;
+                return Response::Gone;
             }
             std::thread::sleep(NAP);
             left = left.saturating_sub(NAP);
         }
-        Heard::Nonsense("it gave no reply".to_string())
+        Response::Nonsense("it gave no reply".to_string())
     }
 }
 
 impl Controller for LiveController {
-    fn answer(&mut self, question: &Question) -> Heard {
+    fn answer(&mut self, question: &Question) -> Response {
         let patience = std::mem::take(&mut self.patience);
         if !self.wait_until_there(patience) {
-            return Heard::Absent;
+            return Response::Absent;
         }
         if !self.is_there()
             && let Some(ros) = &mut self.ros
@@ -116,7 +116,7 @@ impl Controller for LiveController {
         }
         let asked = question_json(question).to_string();
         let Ok(replies) = self.querier.get().payload(asked).wait() else {
-            return Heard::Gone;
+            return Response::Gone;
         };
         loop {
             match replies.recv_timeout(NAP) {
@@ -125,23 +125,23 @@ impl Controller for LiveController {
                         Ok(sample) => {
                             let text = sample.payload().to_bytes();
                             read_answer(&text, question.number, question.t_s)
-                                .map_or_else(Heard::Nonsense, Heard::Answer)
+                                .map_or_else(Response::Nonsense, Response::Answer)
                         }
                         Err(error) => {
                             let said = error.payload().to_bytes();
                             let said = String::from_utf8_lossy(&said);
                             match said.as_ref() {
-                                "Timeout" => Heard::Late,
+                                "Timeout" => Response::Late,
                                 said => {
                                     let said: String = said.chars().take(200).collect();
-                                    Heard::Nonsense(format!("it replied with an error: {said}"))
+                                    Response::Nonsense(format!("it replied with an error: {said}"))
                                 }
                             }
                         }
                     };
                 }
                 Ok(None) if (self.going)() => {}
-                Ok(None) => return Heard::Late,
+                Ok(None) => return Response::Late,
                 Err(_) => return self.silent(),
             }
         }

@@ -36,7 +36,7 @@ pub(super) fn warning(config: &Config, options: &LiveOptions) -> Result<Option<S
 
 /// The ways by which others than users of this machine come without saying who they are.
 fn ways(config: &Config) -> Vec<String> {
-    let said = Said::of(config);
+    let said = SessionConfig::of(config);
     if said.at("access_control/enabled") == true && said.at("access_control/default_permission") != "allow" {
         return Vec::new();
     }
@@ -61,12 +61,12 @@ fn ways(config: &Config) -> Vec<String> {
 }
 
 /// A configuration, and the mode of its session.
-struct Said<'a> {
+struct SessionConfig<'a> {
     config: &'a Config,
     mode: String,
 }
 
-impl<'a> Said<'a> {
+impl<'a> SessionConfig<'a> {
     fn of(config: &'a Config) -> Self {
         let mut said = Self { config, mode: String::new() };
         // zenoh's own default.

@@ -2,7 +2,7 @@
 
 use super::Payload;
 use super::message::Message;
-use super::slots::Numbered;
+use super::slots::CountedValue;
 use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
@@ -17,8 +17,8 @@ const QUALITY: u8 = 85;
 const MOST_BYTES: usize = 900_000;
 
 /// The newest picture of a vehicle; `None` if it cannot be a JPEG, which is limited to 65 535 pixels a side.
-pub(super) fn picture(newest: &Numbered<PictureFrame>) -> Option<Message> {
-    let Numbered { taken, value } = newest;
+pub(super) fn picture(newest: &CountedValue<PictureFrame>) -> Option<Message> {
+    let CountedValue { taken, value } = newest;
     let (p, e) = (&value.picture, &value.estimate);
     let (width, height, file) = fitting(&p.image)?;
     let R_WB = e.attitude.R_WB();
@@ -54,8 +54,8 @@ fn jpeg(image: &RgbImage) -> Option<Vec<u8>> {
 }
 
 /// The newest ping of a vehicle.
-pub(super) fn ping(newest: &Numbered<PingFrame>) -> Message {
-    let Numbered { taken, value } = newest;
+pub(super) fn ping(newest: &CountedValue<PingFrame>) -> Message {
+    let CountedValue { taken, value } = newest;
     let (p, e) = (&value.ping, &value.estimate);
     let header = json!({
         "t_s": value.t_s, "taken": taken, "port": p.port_db.len(), "starboard": p.starboard_db.len(),
@@ -103,7 +103,7 @@ mod tests {
     #[test]
     fn the_camera_is_where_the_vehicle_believes_it() {
         let estimate = frame(0).robots[0].estimate;
-        let newest = Numbered {
+        let newest = CountedValue {
             taken: 3,
             value: PictureFrame {
                 t_s: 1.0,
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_ping_has_port_before_starboard() {
-        let ping = ping(&Numbered {
+        let ping = ping(&CountedValue {
             taken: 1,
             value: PingFrame {
                 t_s: 1.0,

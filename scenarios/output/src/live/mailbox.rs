@@ -4,7 +4,7 @@
 //! waits for a subscriber. Nothing accumulates.
 
 use super::LiveCounts;
-use super::slots::{Gate, Newest, Numbered};
+use super::slots::{CountedValue, Gate, Newest};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -28,9 +28,9 @@ pub(super) struct Rest {
     pub(super) plume: Option<PlumeFrame>,
     pub(super) water: Option<WaterFrame>,
     /// The newest picture of each vehicle.
-    pub(super) pictures: Vec<Numbered<PictureFrame>>,
+    pub(super) pictures: Vec<CountedValue<PictureFrame>>,
     /// The newest ping of each vehicle.
-    pub(super) pings: Vec<Numbered<PingFrame>>,
+    pub(super) pings: Vec<CountedValue<PingFrame>>,
 }
 
 #[derive(Debug)]
@@ -252,7 +252,7 @@ impl Mailbox {
 mod tests {
     use super::super::message::tests::{frame, published};
     use super::*;
-    use rheotaxis::frame::At;
+    use rheotaxis::frame::TimedReading;
     use robots::handoff::DepthReading;
 
     fn hour_between_states() -> Mailbox {
@@ -282,7 +282,7 @@ mod tests {
         let mut detected = frame(0);
         detected.robots[0].detected = true;
         detected.gantries[0].decision.working.spike[0] = true;
-        detected.robots[0].heard.depth = Some(At { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
+        detected.robots[0].heard.depth = Some(TimedReading { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };

@@ -102,7 +102,7 @@ pub(super) mod tests {
     use crate::sample_gantry as sample;
     use nalgebra::{Vector2, Vector3};
     use rheotaxis::frame::{GantryFrame, RobotFrame};
-    use rheotaxis::topic::Published;
+    use rheotaxis::topic::TopicValue;
     use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan};
     use world::frames::{Pose, Truth};
     use world::units::Heading;
@@ -156,9 +156,9 @@ pub(super) mod tests {
     }
 
     /// A value of a topic of another crate.
-    pub(crate) fn published(key: &str, t_s: f64) -> Published {
+    pub(crate) fn published(key: &str, t_s: f64) -> TopicValue {
         const TOPIC: Topic = Topic::json("own", "own/<id>", "always", "A test.", &[]);
-        Published { topic: TOPIC, key: key.to_owned(), t_s, value: json!({ "t_s": t_s }) }
+        TopicValue { topic: TOPIC, key: key.to_owned(), t_s, value: json!({ "t_s": t_s }) }
     }
 
     #[test]

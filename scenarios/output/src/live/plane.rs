@@ -56,15 +56,15 @@ struct Step {
     s: Option<f64>,
     /// When it ends, once it has begun, s.
     until_s: Option<f64>,
-    answer: Answer,
+    answer: PlaneReply,
 }
 
 /// What tells somebody how the run stands, or why a command was not obeyed.
 type Tell = dyn FnOnce(Result<Value, String>) + Send;
 
-struct Answer(Box<Tell>);
+struct PlaneReply(Box<Tell>);
 
-impl fmt::Debug for Answer {
+impl fmt::Debug for PlaneReply {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Answer")
     }
@@ -143,7 +143,7 @@ impl Plane {
         if name == "step" && self.allowed && !state.ended {
             match parameter.map(|text| positive("s", text)).transpose() {
                 Ok(s) => {
-                    state.ask(s, Answer(Box::new(answer)));
+                    state.ask(s, PlaneReply(Box::new(answer)));
                     self.changed.notify_all();
                 }
                 Err(why) => {
@@ -214,7 +214,7 @@ impl Plane {
 
 impl State {
     /// Asks for a step, which begins when those before it are done.
-    fn ask(&mut self, s: Option<f64>, answer: Answer) {
+    fn ask(&mut self, s: Option<f64>, answer: PlaneReply) {
         self.asked.push_back(Step { s, until_s: None, answer });
         if self.asked.len() == 1 {
             self.begin();
@@ -230,7 +230,7 @@ impl State {
     }
 
     /// Who waits for the step that is done now, if one is.
-    fn step_done(&mut self) -> Option<Answer> {
+    fn step_done(&mut self) -> Option<PlaneReply> {
         let step = self.asked.front()?;
         if step.until_s.is_some_and(|until_s| self.t_s < until_s - SAME_S) {
             return None;

@@ -1,6 +1,6 @@
 //! The thread that owns the zenoh session, and the handle that the run has.
 
-use super::config::{Opened, Told, endpoint, opened, plain};
+use super::config::{Notices, OpenedSession, endpoint, opened, plain};
 use super::controller::{Going, LiveController};
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
@@ -57,7 +57,7 @@ impl Drop for Open {
 }
 
 /// What the thread reports when it is running: where clients connect, its session, and what the user is told.
-type Up = Result<(String, LiveSession, Told), LiveError>;
+type Up = Result<(String, LiveSession, Notices), LiveError>;
 
 impl Live {
     /// Opens a zenoh session in its own thread and publishes what is known beforehand.
@@ -70,7 +70,7 @@ impl Live {
         let from_env = std::env::var_os("ZENOH_CONFIG").map(PathBuf::from);
         let asked = options.clone();
         let open = move || {
-            let Opened { session, told } = opened(&asked, from_env)?;
+            let OpenedSession { session, told } = opened(&asked, from_env)?;
             Ok((Arc::new(Open(session)), told))
         };
         Self::publishing(options, meta, open)
@@ -84,7 +84,7 @@ impl Live {
         match session.0.upgrade() {
             Some(open) => {
                 options.check()?;
-                Self::publishing(options, meta, move || Ok((open, Told::default())))
+                Self::publishing(options, meta, move || Ok((open, Notices::default())))
             }
             None => Self::start(options, meta),
         }
@@ -99,7 +99,7 @@ impl Live {
     fn publishing(
         options: &LiveOptions,
         meta: LiveMeta,
-        open: impl FnOnce() -> Result<(Arc<Open>, Told), LiveError> + Send + 'static,
+        open: impl FnOnce() -> Result<(Arc<Open>, Notices), LiveError> + Send + 'static,
     ) -> Result<Self, LiveError> {
         let mailbox = Arc::new(Mailbox::new(options.state_period, options.plume_period));
         let (up, is_up) = sync_channel::<Up>(1);
@@ -232,7 +232,7 @@ impl Drop for Live {
 
 /// Main function of the thread.
 fn publish(
-    open: impl FnOnce() -> Result<(Arc<Open>, Told), LiveError>,
+    open: impl FnOnce() -> Result<(Arc<Open>, Notices), LiveError>,
     options: &LiveOptions,
     meta: Vec<Message>,
     mailbox: &Mailbox,

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 /// A value from a vehicle, and how many values it has delivered.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Numbered<T> {
+pub(super) struct CountedValue<T> {
     pub(super) taken: u64,
     pub(super) value: T,
 }
@@ -13,7 +13,7 @@ pub(super) struct Numbered<T> {
 /// The newest value of each vehicle.
 #[derive(Debug)]
 pub(super) struct Newest<T> {
-    waiting: BTreeMap<String, Numbered<T>>,
+    waiting: BTreeMap<String, CountedValue<T>>,
     taken: BTreeMap<String, u64>,
 }
 
@@ -30,7 +30,7 @@ impl<T> Newest<T> {
         let count = self.taken.entry(robot.to_owned()).or_default();
         *count += 1;
         let taken = *count;
-        (self.waiting).insert(robot.to_owned(), Numbered { taken, value });
+        (self.waiting).insert(robot.to_owned(), CountedValue { taken, value });
         first
     }
 
@@ -40,7 +40,7 @@ impl<T> Newest<T> {
     }
 
     /// The waiting values, in the order of the vehicles' ids.
-    pub(super) fn take(&mut self) -> Vec<Numbered<T>> {
+    pub(super) fn take(&mut self) -> Vec<CountedValue<T>> {
         std::mem::take(&mut self.waiting).into_values().collect()
     }
 }

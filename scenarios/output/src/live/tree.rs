@@ -13,13 +13,13 @@ use zenoh::{Result, Session, Wait};
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig};
 
 /// The newest message of every key, to answer queries.
-type Kept = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Message)>>>;
+type KeptMessages = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Message)>>>;
 
 /// One run's part of the tree, alive until dropped.
 pub(super) struct Tree<'a> {
     session: &'a Session,
     base: String,
-    kept: Kept,
+    kept: KeptMessages,
     // Kept because others see that they exist.
     meta: Vec<AdvancedPublisher<'static>>,
     _asked: Queryable<()>,
@@ -30,7 +30,7 @@ impl<'a> Tree<'a> {
     /// Declares the run. A subscriber that sees the token can already ask for all of `meta`.
     pub(super) fn grow(session: &'a Session, options: &LiveOptions, meta: Vec<Message>) -> Result<Self> {
         let base = format!("rheotaxis/{}", options.run_id);
-        let kept = Kept::default();
+        let kept = KeptMessages::default();
         let asked = session
             .declare_queryable(format!("{base}/**"))
             .complete(true)
@@ -76,12 +76,17 @@ impl<'a> Tree<'a> {
 }
 
 /// Before it is sent: who subscribes in between, and then asks for what was said, hears it at least once.
-fn keep(kept: &Kept, key: OwnedKeyExpr, message: Message) {
+fn keep(kept: &KeptMessages, key: OwnedKeyExpr, message: Message) {
     kept.lock().unwrap_or_else(PoisonError::into_inner).insert(message.key.clone(), (key, message));
 }
 
 /// Publishes once with a cache of one, which advanced subscribers find whenever they come.
-fn keep_published(session: &Session, base: &str, kept: &Kept, message: Message) -> Result<AdvancedPublisher<'static>> {
+fn keep_published(
+    session: &Session,
+    base: &str,
+    kept: &KeptMessages,
+    message: Message,
+) -> Result<AdvancedPublisher<'static>> {
     let key = OwnedKeyExpr::new(format!("{base}/{}", message.key))?;
     let publisher = session
         .declare_publisher(key.clone())
@@ -97,7 +102,7 @@ fn keep_published(session: &Session, base: &str, kept: &Kept, message: Message) 
     Ok(publisher)
 }
 
-fn answer(kept: &Kept, query: &Query) {
+fn answer(kept: &KeptMessages, query: &Query) {
     // Copied, so that a slow receiver of the answer does not hold the lock.
     let answers: Vec<(OwnedKeyExpr, Message)> = kept
         .lock()

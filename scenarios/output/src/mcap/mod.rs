@@ -4,4 +4,4 @@ mod file;
 mod read;
 
 pub use file::{FLUSH_NS, McapFile, RecordError};
-pub use read::{CONTROL, ReadError, Recorded, read_recording};
+pub use read::{CONTROL, ReadError, RecordedRun, read_recording};

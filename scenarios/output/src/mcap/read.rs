@@ -6,7 +6,7 @@
 use ::mcap::records::{Record, op};
 use ::mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use ::mcap::{MAGIC, McapError, parse_record};
-use rheotaxis::control::{Consultation, read_consultation};
+use rheotaxis::control::{Exchange, read_consultation};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use world::files;
@@ -23,7 +23,7 @@ pub const CONTROL: &str = "control";
 
 /// What a recording says of its run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Recorded {
+pub struct RecordedRun {
     /// Name of the scenario.
     pub scenario_name: String,
     /// The scenario as written (RON).
@@ -35,7 +35,7 @@ pub struct Recorded {
     /// Digest and ticks of the run; `None` if the recording broke off.
     pub result: Option<(String, u64)>,
     /// What searchers outside the program were asked and answered.
-    pub told: Vec<Consultation>,
+    pub told: Vec<Exchange>,
 }
 
 /// Why a recording cannot be read.
@@ -63,14 +63,14 @@ pub enum ReadError {
 ///
 /// # Errors
 /// If the file cannot be read, or lacks what a run is made from.
-pub fn read_recording(path: &Path) -> Result<Recorded, ReadError> {
+pub fn read_recording(path: &Path) -> Result<RecordedRun, ReadError> {
     let bytes =
         files::read(path, LONGEST).map_err(|e| ReadError::File { path: path.to_owned(), why: e.to_string() })?;
     let content = |why: String| ReadError::Content { path: path.to_owned(), why };
     recorded(&bytes).map_err(content)
 }
 
-fn recorded(bytes: &[u8]) -> Result<Recorded, String> {
+fn recorded(bytes: &[u8]) -> Result<RecordedRun, String> {
     let mut reading = Reading::default();
     each(bytes, |opcode, data| reading.take(opcode, data))?;
     let mut run = reading.run;
@@ -115,7 +115,7 @@ fn each(bytes: &[u8], mut take: impl FnMut(u8, &[u8]) -> Result<(), String>) -> 
 /// What has been read.
 #[derive(Default)]
 struct Reading {
-    run: Recorded,
+    run: RecordedRun,
     asked: BTreeSet<u16>,
     seed: Option<u64>,
 }

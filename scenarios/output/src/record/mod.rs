@@ -1,5 +1,6 @@
 //! Recordings: what a run's frames hold, as ROS 2 messages in an MCAP file.
 
+mod growing_path;
 mod map_record;
 mod recorder;
 mod recorder_clouds;
@@ -7,6 +8,5 @@ mod recorder_gantry;
 mod recorder_log;
 mod recorder_scene;
 mod recorder_ways;
-mod ways;
 
 pub use recorder::Recorder;

@@ -14,8 +14,8 @@ use crate::ros::{
 };
 use crate::scene::Scene;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use rheotaxis::control::{Consultation, consultation_json};
-use rheotaxis::frame::{At, Frame, RobotFrame};
+use rheotaxis::control::{Exchange, consultation_json};
+use rheotaxis::frame::{Frame, RobotFrame, TimedReading};
 use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -122,7 +122,7 @@ impl Recorder {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub fn consulted(&mut self, told: &Consultation) -> Result<(), ReportError> {
+    pub fn consulted(&mut self, told: &Exchange) -> Result<(), ReportError> {
         let (t, said) = (nanoseconds(told.t_s), consultation_json(told).to_string());
         let topic = format!("/{}/{CONTROL}", told.robot);
         self.file.write(&topic, MessageKind::Text, t, &text(&said))?;
@@ -199,7 +199,7 @@ impl Recorder {
         if let Some(c) = r.chemical {
             put("chemical", MessageKind::Float64, &float64(c.volts))?;
         }
-        if let Some(At { t_s, value: scan }) = &r.heard.ranging {
+        if let Some(TimedReading { t_s, value: scan }) = &r.heard.ranging {
             let cloud = echo_cloud(nanoseconds(*t_s), id, scan);
             put("ranging", MessageKind::PointCloud2, &cloud)?;
         }

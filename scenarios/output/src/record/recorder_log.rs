@@ -13,13 +13,13 @@ const SILENCE_S: f64 = 10.0;
 /// What was told so far.
 #[derive(Debug, Default)]
 pub(super) struct LogRecorder {
-    told: BTreeMap<String, Told>,
+    told: BTreeMap<String, LogState>,
     abnormal: usize,
 }
 
 /// What was told of one machine.
 #[derive(Debug, Default)]
-struct Told {
+struct LogState {
     behaviour: Option<&'static str>,
     layer: Option<&'static str>,
     region: Option<u32>,
@@ -54,7 +54,7 @@ impl LogRecorder {
     }
 }
 
-impl Told {
+impl LogState {
     fn robot(&mut self, t_s: f64, r: &RobotFrame) -> Vec<String> {
         let mut lines = Vec::new();
         if r.detected {
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_mission_is_told_in_its_order() {
-        let mut told = Told::default();
+        let mut told = LogState::default();
         let lines: Vec<String> = (frames(100).iter()).flat_map(|f| told.robot(f.t_s, &f.robots[0])).collect();
         let find = |beginning: &str| {
             let found = lines.iter().position(|l| l.starts_with(beginning));
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_verdict_is_told_once() {
-        let mut told = Told::default();
+        let mut told = LogState::default();
         let mut d = Declaration::first(1.0, Vector2::new(2.0, 3.0), "along_flow");
         let first = told.declares(&d);
         assert_eq!(first.as_deref(), Some("declares source 1 at east 2.0 m, north 3.0 m, by along_flow"));

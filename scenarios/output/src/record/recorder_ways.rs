@@ -1,8 +1,8 @@
 //! Ways and marks in a recording: where machines went and believed they went, what they plan, where they lost the plume,
 //! the zone that this makes for the declaration rule, and what they declared.
 
+use super::growing_path::GrowingPath;
 use super::recorder::{WORLD, on_plane};
-use super::ways::Way;
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{Balls, MessageKind, balls, path};
 use crate::scene::Scene;
@@ -30,7 +30,7 @@ const MARKS: [(&str, [f32; 4]); 3] = [
 pub(super) struct WayRecorder {
     diagonal_m: Option<f64>,
     /// By topic.
-    ways: BTreeMap<String, Way>,
+    ways: BTreeMap<String, GrowingPath>,
     /// Newest marks and plan, by topic: they are recorded when they change.
     marks: BTreeMap<String, [Vec<Vector3<f64>>; 3]>,
     plans: BTreeMap<String, Arc<Vec<Vector3<f64>>>>,
@@ -75,7 +75,7 @@ impl WayRecorder {
     fn pass(&mut self, topic: String, p_W: Vector3<f64>) {
         let tolerance_m = self.diagonal_m.map_or(TOLERANCE_M, |m| TOLERANCE * m);
         let way = self.ways.entry(topic);
-        way.or_insert_with(|| Way::new(tolerance_m)).push(p_W);
+        way.or_insert_with(|| GrowingPath::new(tolerance_m)).push(p_W);
     }
 
     /// The outline of what the declaration rule looked at, closed, at the height of its machine.

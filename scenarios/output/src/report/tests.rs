@@ -2,7 +2,9 @@
 
 use super::write_all;
 use crate::record::Recorder;
-use crate::results::{BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable};
+use crate::results::{
+    BeliefTrack, MassBalance, RunReport, Summary, SummaryBuilder, SummaryEnd, Totals, Track, TrackTable,
+};
 use crate::sample::{area, folder, frames, info, plume, robots, scored, source, terrain};
 use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -15,8 +17,8 @@ use world::area::Area;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-fn end(outcome: RunOutcome, frames: &[Frame]) -> RunEnd {
-    RunEnd {
+fn end(outcome: RunOutcome, frames: &[Frame]) -> SummaryEnd {
+    SummaryEnd {
         outcome,
         error: None,
         digest: "00ff".into(),

@@ -3,7 +3,9 @@
 use super::write_all;
 use crate::files::ReportError;
 use crate::record::Recorder;
-use crate::results::{GantryInfo, ProbeTables, RunEnd, RunReport, SourceTruth, Summary, SummaryBuilder, Totals, Track};
+use crate::results::{
+    GantryInfo, ProbeTables, RunReport, SourceTruth, Summary, SummaryBuilder, SummaryEnd, Totals, Track,
+};
 use crate::sample::{folder, info, scored};
 use crate::sample_gantry as sample;
 use nalgebra::{Vector2, Vector3};
@@ -95,7 +97,7 @@ fn frames() -> Vec<Frame> {
 fn summary(frames: &[Frame]) -> Summary {
     let mut builder = SummaryBuilder::new(&info());
     frames.iter().for_each(|f| builder.observe(f));
-    let end = RunEnd {
+    let end = SummaryEnd {
         outcome: RunOutcome::Found,
         error: None,
         digest: "00ff".into(),

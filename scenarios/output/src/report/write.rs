@@ -4,7 +4,7 @@ use super::{film, html};
 use crate::charts::png;
 use crate::columns::{ColumnInfo, columns, header};
 use crate::figures as draw;
-use crate::files::{Kept, ReportError, guarded};
+use crate::files::{PendingFiles, ReportError, guarded};
 use crate::results::probes::file_name;
 use crate::results::{RunReport, belief_track, odour};
 use rheotaxis::frame::PlumeFrame;
@@ -25,7 +25,7 @@ use world::files::Folder;
 /// # Errors
 /// If files cannot be written or figures cannot be drawn; names each of them. All others are written.
 pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, ReportError> {
-    let mut kept = Kept::new(out);
+    let mut kept = PendingFiles::new(out);
     kept.write("summary.json", run.summary.json().as_bytes());
     if let Some(plume) = run.plume {
         kept.write("plume.csv", plume_csv(plume, run.area).as_bytes());

@@ -31,6 +31,6 @@ pub use summary::{
     AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary, RobotSummary, RunSummary,
     SourceError, SourceSummary, Summary, Totals, Versions,
 };
-pub use summary_builder::{RunEnd, SummaryBuilder};
+pub use summary_builder::{SummaryBuilder, SummaryEnd};
 pub use track::{LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
 pub use track_columns::{COLUMNS, numbers};

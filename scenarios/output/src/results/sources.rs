@@ -2,7 +2,7 @@
 
 use super::summary::{DeclarationSummary, DeclaredKind, Position, SourceError};
 use nalgebra::{Vector2, Vector3};
-use rheotaxis::trial::{Ended, Trial};
+use rheotaxis::trial::{RunEnd, Trial};
 use robots::handoff::{Declaration, region_name};
 
 /// A true source and the flow there.
@@ -22,7 +22,7 @@ const STILL_M_S: f64 = 1e-6;
 impl SourceTruth {
     /// The sources of a run that has ended.
     #[must_use]
-    pub fn of(trial: &Trial, ended: &Ended) -> Vec<Self> {
+    pub fn of(trial: &Trial, ended: &RunEnd) -> Vec<Self> {
         let plume = trial.simulation.ocean().plume();
         (plume.sources().iter().zip(&ended.flow_at_sources))
             .map(|(s, flow)| Self { id: s.id.clone(), position: s.p_W, flow: flow.xy() })

@@ -2,7 +2,7 @@
 
 use super::{MapEnd, MapStated};
 use crate::results::GantrySummary;
-use rheotaxis::abnormal::{Abnormal, Abnormality};
+use rheotaxis::incidents::{Incident, IncidentKind};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::VERSION;
 use rheotaxis::score::Consultations;
@@ -184,7 +184,7 @@ pub struct AbnormalSummary {
     /// The robot's id in the scenario.
     pub robot: String,
     /// The kind of event.
-    pub what: Abnormality,
+    pub what: IncidentKind,
     /// What failed and how, if it is a fault of the scenario.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<String>,
@@ -202,8 +202,8 @@ pub struct AbnormalSummary {
     pub line: String,
 }
 
-impl From<&Abnormal> for AbnormalSummary {
-    fn from(a: &Abnormal) -> Self {
+impl From<&Incident> for AbnormalSummary {
+    fn from(a: &Incident) -> Self {
         Self {
             robot: a.robot.clone(),
             what: a.what,

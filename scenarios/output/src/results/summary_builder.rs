@@ -21,7 +21,7 @@ use world::units::Heading;
 
 /// What is known only when a run is over.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RunEnd {
+pub struct SummaryEnd {
     /// How it ended.
     pub outcome: RunOutcome,
     /// The error that ended it.
@@ -228,7 +228,7 @@ impl SummaryBuilder {
 
     /// The summary of the run, compared with the true sources.
     #[must_use]
-    pub fn finish(&self, end: &RunEnd, sources: &[SourceTruth]) -> Summary {
+    pub fn finish(&self, end: &SummaryEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
         let score = |id: &str| {
             let found = end.score.searchers.iter().find(|s| s.id == id);

@@ -79,7 +79,7 @@ mod tests {
     use super::super::Scene;
     use super::*;
     use nalgebra::Vector2;
-    use rheotaxis::scenario::{Beside, load};
+    use rheotaxis::scenario::{FolderFiles, load};
     use robots::vehicles::Gantry;
     use std::collections::BTreeMap;
     use std::path::Path;
@@ -116,7 +116,7 @@ mod tests {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog/flume_crab.ron");
         let loaded = load(&path).unwrap();
         let block = &loaded.scenario.gantries[0];
-        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).unwrap();
+        let gantry = Gantry::load(&block.gantry, &FolderFiles(&loaded.base_dir)).unwrap();
         let machine = machine("flume_crab.ron");
         let joints = [0.75, -0.25].map(|position_m| JointState { position_m, ..JointState::default() });
         let mut all = fixed(&machine, &names(&machine));

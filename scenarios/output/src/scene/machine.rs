@@ -2,7 +2,7 @@
 
 use super::sensors::{SensorPlace, of_robot};
 use nalgebra::{UnitQuaternion, Vector3};
-use rheotaxis::scenario::{Beside, GantryBlock, RobotSpec};
+use rheotaxis::scenario::{FolderFiles, GantryBlock, RobotSpec};
 use robots::error::RobotError;
 use robots::sense::{AltimeterSpec, FluorometerSpec, RangingSpec};
 use robots::vehicles::{Description, Gantry};
@@ -35,7 +35,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    pub(super) fn of_robot(spec: &RobotSpec, files: &Beside) -> Result<Self, RobotError> {
+    pub(super) fn of_robot(spec: &RobotSpec, files: &FolderFiles) -> Result<Self, RobotError> {
         let id = spec.id.as_str();
         let ranging = spec.sensors.get::<RangingSpec>();
         let altimeter = spec.sensors.get::<AltimeterSpec>();
@@ -58,7 +58,7 @@ impl Machine {
         })
     }
 
-    pub(super) fn of_gantry(block: &GantryBlock, terrain: &Terrain, files: &Beside) -> Result<Self, RobotError> {
+    pub(super) fn of_gantry(block: &GantryBlock, terrain: &Terrain, files: &FolderFiles) -> Result<Self, RobotError> {
         let (id, gantry) = (block.id.as_str(), Gantry::load(&block.gantry, files)?);
         let probes = block.layout(&gantry).probes.into_iter();
         let probes: Vec<String> = probes.map(|p| p.name).collect();

@@ -7,7 +7,7 @@ use super::mesh::Mesh;
 use crate::ros::{Marker, Transform};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::error::AssembleError;
-use rheotaxis::scenario::{Beside, Loaded, Scenario};
+use rheotaxis::scenario::{FolderFiles, Loaded, Scenario};
 use std::path::Path;
 use world::frames::Pose;
 use world::obstacles::Obstacle;
@@ -73,7 +73,7 @@ impl Scene {
         let scenario = &loaded.scenario;
         let area = scenario.area.build();
         let terrain = scenario.terrain.build(&area);
-        let files = Beside(&loaded.base_dir);
+        let files = FolderFiles(&loaded.base_dir);
         let failed = |id: &str| {
             let id = id.to_owned();
             |source| AssembleError::Robot { id, source }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::Ocean;
-use rheotaxis::scenario::{Beside, Loaded};
+use rheotaxis::scenario::{FolderFiles, Loaded};
 use robots::handoff::GantryLayout;
 use robots::strategy::{self, StrategySpec};
 use robots::track::{self, GantryStrategySpec};
@@ -121,7 +121,7 @@ pub(crate) fn take_over(loaded: &mut Loaded, ocean: &Ocean, period_s: f64) -> Re
     for block in &mut loaded.scenario.gantries {
         block.tracker = GantryStrategySpec::new(track::ExternalSpec { period_s, ..Default::default() });
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir));
+        let gantry = Gantry::load(&block.gantry, &FolderFiles(&loaded.base_dir));
         let gantry = gantry.map_err(|source| AssembleError::Robot { id: id.clone(), source })?;
         let machine = Machine::Gantry { layout: block.layout(&gantry), base: block.base(&ocean.terrain) };
         agents.push(Agent::new(id, machine));

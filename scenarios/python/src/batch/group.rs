@@ -1,8 +1,8 @@
 //! Environments that share an ocean, each with its run in a place of its own.
 
 use super::Rules;
-use super::mind::Mind;
-use rheotaxis::control::{Heard, Question};
+use super::searcher_state::SearcherState;
+use rheotaxis::control::{Question, Response};
 use rheotaxis::lanes::{Shared, Standing};
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
@@ -24,7 +24,7 @@ pub(crate) enum State {
 
 /// One environment.
 pub(crate) struct Env {
-    pub(crate) minds: Vec<Mind>,
+    pub(crate) minds: Vec<SearcherState>,
     pub(crate) state: State,
     pub(crate) success: bool,
     /// Time of its episode, s.
@@ -62,7 +62,7 @@ impl Group {
     /// A group of so many environments.
     pub(crate) fn new(rules: &Rules, places: usize) -> Self {
         let env = || Env {
-            minds: rules.agents.iter().map(Mind::new).collect(),
+            minds: rules.agents.iter().map(SearcherState::new).collect(),
             state: State::Empty,
             success: false,
             t_s: 0.0,
@@ -99,7 +99,7 @@ impl Group {
             let env = &mut self.envs[place];
             shared.leave(place);
             *env = Env {
-                minds: rules.agents.iter().map(Mind::new).collect(),
+                minds: rules.agents.iter().map(SearcherState::new).collect(),
                 state: State::Empty,
                 success: false,
                 t_s: 0.0,
@@ -128,9 +128,9 @@ impl Group {
                 if !mind.asks {
                     continue;
                 }
-                let answer = Heard::Answer(mind.answer(rules, agent, own));
+                let answer = Response::Answer(mind.answer(rules, agent, own));
                 let told = shared.answer(*place, &agent.id, answer);
-                if let Some(Heard::Nonsense(why)) = told.map(|t| t.heard) {
+                if let Some(Response::Nonsense(why)) = told.map(|t| t.heard) {
                     return Err(format!("{} cannot do that: {why}", agent.id));
                 }
             }
@@ -178,7 +178,7 @@ impl Env {
             let said = shared.failure(place).unwrap_or("of unknown cause").to_string();
             return Err(format!("the run broke off: {said}"));
         }
-        let reached = |mind: &Mind| rules.goal_m.is_some_and(|m| mind.truth.closest_m <= m);
+        let reached = |mind: &SearcherState| rules.goal_m.is_some_and(|m| mind.truth.closest_m <= m);
         if shared.standing(place) == Standing::Ended {
             let ended = shared.look(place, Trial::ended);
             self.outcome = ended.as_ref().map(|e| e.outcome);

@@ -2,18 +2,18 @@
 //! stand on.
 
 mod agent;
-mod crew;
+mod constants;
 mod group;
-mod mind;
 mod pilot;
 mod plumes;
-mod told;
+mod searcher_state;
+mod worker_pool;
 
 use crate::cache::{Cache, opened, tell_fault};
 use crate::error::{apart, other, panicked};
 use crate::scenario::PyScenario;
 use agent::{Agent, take_over};
-use crew::Crew;
+use constants::BatchConstants;
 use group::{Group, Task};
 pub(crate) use pilot::Pilot;
 use plumes::Plumes;
@@ -24,7 +24,7 @@ use rheotaxis::lanes::Worlds;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
 use std::sync::{Arc, Mutex, PoisonError};
-use told::Told;
+use worker_pool::WorkerPool;
 use world::ranges::Positive;
 
 /// Whether a searcher is a gantry, the numbers of its action, and names and bounds of its observation.
@@ -81,7 +81,7 @@ struct Inside {
 pub(crate) struct Batch {
     rules: Arc<Rules>,
     per_plume: usize,
-    crew: Crew,
+    crew: WorkerPool,
     inside: Mutex<Inside>,
 }
 
@@ -169,7 +169,7 @@ impl Batch {
                 broken: Some("the environments have not been reset yet: reset first".to_string()),
             }),
             per_plume,
-            crew: Crew::new(threads),
+            crew: WorkerPool::new(threads),
             rules,
         })
     }
@@ -244,7 +244,7 @@ impl Batch {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let told = apart(py, || {
             let inside = self.inside.lock().unwrap_or_else(PoisonError::into_inner);
-            Ok(Told::of(&self.rules, &inside.groups))
+            Ok(BatchConstants::of(&self.rules, &inside.groups))
         })?;
         told.dict(py)
     }

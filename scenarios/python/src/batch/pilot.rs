@@ -1,11 +1,11 @@
 //! A policy as a controller: in a whole run it sees and does what it sees and does in an environment.
 
 use super::Rules;
-use super::mind::Mind;
+use super::searcher_state::SearcherState;
 use crate::arrays::array;
-use crate::error::Raised;
+use crate::error::FirstError;
 use pyo3::prelude::*;
-use rheotaxis::control::{Controller, Heard, Question};
+use rheotaxis::control::{Controller, Question, Response};
 use std::sync::Arc;
 
 /// Decides for one searcher of a run.
@@ -20,9 +20,9 @@ pub(crate) struct Pilot {
 
 impl Pilot {
     /// It at the beginning of a run.
-    pub(crate) fn controller(&self, py: Python<'_>, raised: Raised) -> impl Controller + use<> {
-        Piloting {
-            mind: Mind::new(&self.rules.agents[self.agent]),
+    pub(crate) fn controller(&self, py: Python<'_>, raised: FirstError) -> impl Controller + use<> {
+        PolicyRun {
+            mind: SearcherState::new(&self.rules.agents[self.agent]),
             rules: self.rules.clone(),
             agent: self.agent,
             decide: self.decide.clone_ref(py),
@@ -32,18 +32,18 @@ impl Pilot {
 }
 
 /// A policy during a run.
-struct Piloting {
+struct PolicyRun {
     rules: Arc<Rules>,
     agent: usize,
-    mind: Mind,
+    mind: SearcherState,
     decide: Py<PyAny>,
-    raised: Raised,
+    raised: FirstError,
 }
 
-impl Controller for Piloting {
-    fn answer(&mut self, question: &Question) -> Heard {
+impl Controller for PolicyRun {
+    fn answer(&mut self, question: &Question) -> Response {
         if !self.raised.quiet() {
-            return Heard::Gone;
+            return Response::Gone;
         }
         let agent = &self.rules.agents[self.agent];
         self.mind.see(&self.rules, agent, question.clone(), 0.0);
@@ -55,11 +55,11 @@ impl Controller for Piloting {
         match decided {
             Ok(bytes) => {
                 let numbers = super::numbers(&bytes);
-                Heard::Answer(self.mind.answer(&self.rules, agent, &numbers))
+                Response::Answer(self.mind.answer(&self.rules, agent, &numbers))
             }
             Err(error) => {
                 self.raised.keep(error);
-                Heard::Gone
+                Response::Gone
             }
         }
     }

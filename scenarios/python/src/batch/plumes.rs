@@ -1,6 +1,6 @@
 //! Spun-up plumes by their seeds, kept for the next episodes.
 
-use super::crew::{Crew, Halt};
+use super::worker_pool::{Halt, WorkerPool};
 use crate::error::other;
 use pyo3::prelude::*;
 use rheotaxis::cache::{CacheFault, SpinUps};
@@ -28,7 +28,7 @@ impl Watch for Stop<'_> {
 }
 
 /// A plume to be made.
-struct Order {
+struct PlumeOrder {
     seed: u64,
     made: Option<Result<SpunUp, AssembleError>>,
 }
@@ -45,13 +45,13 @@ impl Plumes {
     }
 
     /// The plumes of these seeds, in their order; those that are not kept are made.
-    pub(crate) fn get(&mut self, loaded: &Loaded, seeds: &[u64], crew: &Crew) -> PyResult<Vec<Arc<SpunUp>>> {
+    pub(crate) fn get(&mut self, loaded: &Loaded, seeds: &[u64], crew: &WorkerPool) -> PyResult<Vec<Arc<SpunUp>>> {
         let mut missing: Vec<u64> = seeds.to_vec();
         missing.sort_unstable();
         missing.dedup();
         missing.retain(|seed| !self.kept.iter().any(|(kept, _)| kept == seed));
-        let order = |seed| Order { seed, made: None };
-        let mut orders: Vec<Order> = missing.into_iter().map(order).collect();
+        let order = |seed| PlumeOrder { seed, made: None };
+        let mut orders: Vec<PlumeOrder> = missing.into_iter().map(order).collect();
         let shelf = self.shelf.as_ref();
         crew.work(&mut orders, |order, halt| {
             order.made = spun_up(loaded, order.seed, shelf, halt).transpose();

@@ -4,9 +4,9 @@
 
 use bevy_ecs::prelude::{Component, Query, Res, ResMut, World};
 use nalgebra::Vector3;
-use rheotaxis::apparatus::{Apparatus, Apparatuses, Launch};
 use rheotaxis::error::AssembleError;
 use rheotaxis::extend::{Extend, Systems};
+use rheotaxis::machines::{Apparatuses, Launch, Machine};
 use rheotaxis::ocean::Ocean;
 use rheotaxis::scenario::{Id, load_text, template};
 use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
@@ -78,7 +78,7 @@ const DYE: Topic = Topic::json(
 );
 
 /// What a buoy brings into a run: an entity, a system, a part of the summary.
-impl Apparatus for Buoy {
+impl Machine for Buoy {
     fn id(&self) -> &str {
         self.id.as_str()
     }

@@ -6,23 +6,23 @@
 //!
 //! `cargo run --release --example library own_controller`
 
-use rheotaxis::control::{Heard, Question, Seen};
+use rheotaxis::control::{Question, QuestionContent, Response};
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
-use robots::handoff::{Answer, Behaviour, Declaration, Manoeuvre, MoveOrder, Order, Outcome, Vertical};
+use robots::handoff::{Behaviour, Declaration, Manoeuvre, MotionOrder, MoveOrder, Outcome, Reply, Vertical};
 use world::registry::Registry;
 use world::units::Heading;
 
 /// What to do, from what the robot sees and has gathered since the last question.
-fn decide(question: &Question) -> Heard {
-    let Seen::Robot(seen, gathered) = &question.seen else {
-        return Heard::Nonsense("it steers robots only".to_string());
+fn decide(question: &Question) -> Response {
+    let QuestionContent::Robot(seen, gathered) = &question.seen else {
+        return Response::Nonsense("it steers robots only".to_string());
     };
     let up_stream = (seen.estimate.flow).map_or(Heading::from_deg(270.0), |f| f.up_flow());
     let side = if question.number % 100 < 50 { -1.0 } else { 1.0 };
     let smelt = gathered.highest > 0.2;
-    Heard::Answer(Answer {
-        order: Some(Order::Move(MoveOrder {
+    Response::Answer(Reply {
+        order: Some(MotionOrder::Move(MoveOrder {
             id: None,
             manoeuvre: Manoeuvre::Course { course: up_stream.turned(side * 0.9) },
             vertical: Some(Vertical::Altitude(2.0)),

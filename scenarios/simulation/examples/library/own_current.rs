@@ -4,7 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
-use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
+use plumes::flow::{CurrentParams, CurrentSlot, Currents, PlaneCurrent, Water};
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use schemars::JsonSchema;
@@ -31,7 +31,7 @@ impl Listed for Jet {
 
 /// How it joins the water. The water adds all currents up; this one is the same at all depths.
 impl CurrentParams for Jet {
-    fn join(&self, water: &mut Water, _: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
         water.add(Arc::new(self.clone()));
         Ok(())
     }

@@ -6,7 +6,7 @@ use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use robots::error::RobotError;
 use robots::handoff::Readings;
-use robots::sense::{Around, Fitting, Sensor, SensorParams, Sensors};
+use robots::sense::{Fitting, Sensor, SensorParams, Sensors, Surroundings};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
@@ -50,7 +50,7 @@ struct Pressure {
 }
 
 impl Sensor for Pressure {
-    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+    fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
         let p_W = around.truth.pose.p_WB;
         let density = around.flow.density(&p_W, around.clock.t_s());
         let pressure_pa = density * 9.81 * -p_W.z + self.noise_pa * self.rng.normal();

@@ -2,12 +2,12 @@
 
 use super::report::system as kept;
 use super::shown::system as shown;
-use super::yard::{Yard, build};
-use super::{Briefing, Hull, Log, Mapping, Now, Robots, Searching, system};
-use crate::abnormal::{FaultLog, Lookout};
-use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
-use crate::control::consulting::{Asking, Consulting};
+use super::vehicle_pool::{VehiclePool, build};
+use super::{Briefing, Hull, Log, Mapping, OnboardTime, Robots, SearcherParts, system};
+use crate::control::exchanges::{ExchangeState, Exchanges};
 use crate::error::AssembleError;
+use crate::incidents::{FaultLog, IncidentMonitor};
+use crate::machines::{BodiesMove, Launch, Machine, Systems};
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
 use crate::scenario::RobotSpec;
@@ -38,7 +38,7 @@ impl Listed for RobotSpec {
         Entry { name: "Auv", what: "An underwater vehicle that moves freely in the water", source: "Pang 2009" };
 }
 
-impl Apparatus for RobotSpec {
+impl Machine for RobotSpec {
     fn id(&self) -> &str {
         self.id.as_str()
     }
@@ -55,7 +55,7 @@ impl Apparatus for RobotSpec {
         if systems.has::<Mapping>() {
             systems.add_blind(Stage::Map, system::update_map);
         }
-        if systems.has::<Consulting>() {
+        if systems.has::<ExchangeState>() {
             systems.add_blind_after(Stage::Map, system::ask, system::update_map);
         }
         systems
@@ -85,7 +85,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
     let turn_m = spec.guidance.tightest_turn_m();
-    let (vehicle, able) = match world.get_resource_mut::<Yard>() {
+    let (vehicle, able) = match world.get_resource_mut::<VehiclePool>() {
         Some(mut yard) => yard.take(&spec.vehicle, turn_m, base_dir),
         None => build(&spec.vehicle, turn_m, base_dir),
     }?;
@@ -122,7 +122,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
         Estimator::new(&spec.estimator, start, dt_s),
         estimate,
         (
-            Searching {
+            SearcherParts {
                 strategy,
                 name: spec.strategy.name(),
                 bounds: Bounds::of(spec.strategy.is_own()),
@@ -136,10 +136,10 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
             pilot,
             still,
             Log::default(),
-            Lookout::default(),
+            IncidentMonitor::default(),
         ),
         (
-            Now(Clock::new(dt_s)),
+            OnboardTime(Clock::new(dt_s)),
             SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
             DriveFaults::new(&spec.faults, dt_s, &drives),
         ),
@@ -157,11 +157,11 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
     }
     let consulted = spec.strategy.consulted();
     if let Some(consulted) = consulted {
-        robot.insert(Consulting::robot(consulted, still.named().count(), dt_s));
+        robot.insert(ExchangeState::robot(consulted, still.named().count(), dt_s));
     }
     let robot = robot.id();
     if consulted.is_some() {
-        world.get_resource_or_init::<Asking>().0.push(robot);
+        world.get_resource_or_init::<Exchanges>().0.push(robot);
     }
     world.get_resource_or_init::<Robots>().0.push(robot);
     Ok(())

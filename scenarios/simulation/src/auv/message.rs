@@ -1,13 +1,13 @@
 //! The messages of a robot, one for each row of [`TOPICS`](super::topics::TOPICS) that is JSON.
 
-use crate::abnormal::Abnormal;
-use crate::frame::{At, RobotFrame};
+use crate::frame::{RobotFrame, TimedReading};
+use crate::incidents::Incident;
 use crate::topic::{chunk, merged, with};
 use robots::handoff::{Actuation, Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
 use serde_json::{Value, json};
 
 /// All messages of a robot in a frame; `abnormal` are the events of all robots.
-pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(String, Value)> {
+pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Vec<(String, Value)> {
     let id = chunk(&r.id);
     let mut out = Vec::with_capacity(8);
     let mut say = |topic: &str, value: Value| out.push((format!("auv/{id}/{topic}"), value));
@@ -72,7 +72,7 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(
             }),
         );
     }
-    if let Some(At { t_s, value: scan }) = &r.heard.ranging {
+    if let Some(TimedReading { t_s, value: scan }) = &r.heard.ranging {
         let echoes: Vec<_> = scan.echoes_B().map(|p| [p.x, p.y, p.z]).collect();
         say(
             "ranging",
@@ -97,7 +97,7 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(
         let corners = corners.map(|p| [p.x, p.y]);
         doing = merged(doing, json!({"region": k, "region_name": region_name(k), "region_m": corners}));
     }
-    let wrong: Vec<String> = (abnormal.iter()).filter(|a| a.robot == r.id && !a.over).map(Abnormal::words).collect();
+    let wrong: Vec<String> = (abnormal.iter()).filter(|a| a.robot == r.id && !a.over).map(Incident::words).collect();
     if !wrong.is_empty() {
         doing = merged(doing, json!({ "abnormal": wrong }));
     }

@@ -7,20 +7,20 @@ mod report;
 mod shown;
 pub(crate) mod system;
 pub mod topics;
-mod yard;
+mod vehicle_pool;
 
 pub(crate) use own::RobotOwn;
-pub(crate) use yard::Yard;
+pub(crate) use vehicle_pool::VehiclePool;
 
 pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 
-use crate::frame::Heard;
+use crate::frame::NewestReadings;
 use bevy_ecs::prelude::{Component, Entity, Resource};
 use nalgebra::Vector2;
 use robots::handoff::{Bounds, Capabilities, ChemicalReading};
 use robots::map::Mapper;
 use robots::strategy::Strategy;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::clock::Clock;
 use world::physics::BodyId;
@@ -29,7 +29,7 @@ use world::seeds::Stream;
 /// The time aboard: the clock, which is nearer at hand here than among the resources. The instruments set it at the
 /// beginning of each tick.
 #[derive(Component, Clone, Copy, Debug)]
-pub(crate) struct Now(pub(crate) Clock);
+pub(crate) struct OnboardTime(pub(crate) Clock);
 
 /// All robots, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]
@@ -39,14 +39,14 @@ pub struct Robots(pub Vec<Entity>);
 #[derive(Component)]
 pub struct Hull {
     /// How it moves.
-    pub vehicle: Craft,
+    pub vehicle: Vehicle,
     /// The body that it moves.
     pub body: BodyId,
 }
 
 /// A robot's strategy and its random numbers.
 #[derive(Component)]
-pub struct Searching {
+pub struct SearcherParts {
     /// The strategy.
     pub strategy: Box<dyn Strategy>,
     /// Its name in scenarios.
@@ -81,7 +81,7 @@ pub struct Mapping {
 #[derive(Component, Clone, Debug, Default)]
 pub(crate) struct Log {
     /// What the other instruments reported.
-    heard: Heard,
+    heard: NewestReadings,
     /// Newest chemical reading; it stays until there is another.
     chemical: Option<ChemicalReading>,
     /// Whether there was a detection.

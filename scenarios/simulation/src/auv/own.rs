@@ -1,9 +1,9 @@
 //! All components of a robot: what it keeps while the robot of another run has its turn in the same world.
 
-use super::{Briefing, Hull, Log, Mapping, Now, Searching};
-use crate::abnormal::{FaultLog, Lookout};
-use crate::apparatus::own;
-use crate::control::consulting::Consulting;
+use super::{Briefing, Hull, Log, Mapping, OnboardTime, SearcherParts};
+use crate::control::exchanges::ExchangeState;
+use crate::incidents::{FaultLog, IncidentMonitor};
+use crate::machines::own;
 use crate::searchers::SearcherId;
 use robots::actuate::Pilot;
 use robots::estimate::Estimator;
@@ -19,13 +19,13 @@ own! {
     RobotOwn as RobotParts with RobotBundle {
         id: SearcherId,
         truth: Truth,
-        now: Now,
+        now: OnboardTime,
         hull: Hull,
         suite: SensorSuite,
         readings: Readings,
         estimator: Estimator,
         estimate: Estimate,
-        searching: Searching,
+        searching: SearcherParts,
         briefing: Briefing,
         decision: Decision,
         guidance: Guidance,
@@ -33,7 +33,7 @@ own! {
         status: GuidanceStatus,
         pilot: Pilot,
         actuation: Actuation,
-        lookout: Lookout,
+        lookout: IncidentMonitor,
         sensor_faults: SensorFaults,
         drive_faults: DriveFaults,
     } some {
@@ -41,7 +41,7 @@ own! {
         belief: Belief,
         mapping: Mapping,
         battery: Battery,
-        consulting: Consulting,
+        consulting: ExchangeState,
     } shown {
         Log,
     }

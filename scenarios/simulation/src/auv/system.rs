@@ -1,10 +1,10 @@
 //! The systems of robots: each passes components and the ocean to plain state machines.
 
-use super::{Briefing, Hull, Mapping, Now, Searching};
-use crate::abnormal::FaultLog;
+use super::{Briefing, Hull, Mapping, OnboardTime, SearcherParts};
 use crate::assemble::WaterLight;
-use crate::control::Seen;
-use crate::control::consulting::{Consulting, Kept};
+use crate::control::QuestionContent;
+use crate::control::exchanges::{ExchangeState, ReadingsSince};
+use crate::incidents::FaultLog;
 use crate::ocean::Ocean;
 use crate::score::Score;
 use crate::searchers::{SearcherId, must_be_sound};
@@ -14,9 +14,11 @@ use robots::actuate::Pilot;
 use robots::estimate::Estimator;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
-use robots::handoff::{Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, Told};
+use robots::handoff::{
+    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, ReplyOutcome,
+};
 use robots::map::MapObservation;
-use robots::sense::{Around, Asked, SensorSuite};
+use robots::sense::{SensorRequests, SensorSuite, Surroundings};
 use robots::vehicles::Battery;
 use world::clock::Clock;
 use world::frames::{NOT_FINITE, Truth};
@@ -26,11 +28,11 @@ pub(crate) fn read_instruments(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     light: Res<WaterLight>,
-    mut robots: Query<(&mut Now, &Truth, &Decision, &mut SensorSuite, &mut SensorFaults, &mut Readings)>,
+    mut robots: Query<(&mut OnboardTime, &Truth, &Decision, &mut SensorSuite, &mut SensorFaults, &mut Readings)>,
 ) {
     for (mut now, truth, decision, mut suite, mut faults, mut readings) in &mut robots {
         now.0 = *clock;
-        let around = Around {
+        let around = Surroundings {
             clock: &clock,
             truth,
             flow: &*ocean,
@@ -38,14 +40,14 @@ pub(crate) fn read_instruments(
             terrain: &ocean.terrain,
             obstacles: &ocean.obstacles,
             optics: &light.0,
-            asked: Asked::from(decision),
+            asked: SensorRequests::from(decision),
         };
         suite.read_into(&around, &mut readings);
         faults.alter(&clock, &mut readings);
     }
 }
 
-pub(crate) fn estimate_state(mut robots: Query<(&Now, &Readings, &mut Estimator, &mut Estimate)>) {
+pub(crate) fn estimate_state(mut robots: Query<(&OnboardTime, &Readings, &mut Estimator, &mut Estimate)>) {
     for (now, readings, mut estimator, mut estimate) in &mut robots {
         *estimate = estimator.step(&now.0, readings);
     }
@@ -71,7 +73,7 @@ pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estim
 type Perceived<'a> = (&'a Readings, &'a Estimate, &'a GuidanceStatus, &'a Briefing, Option<&'a Belief>);
 
 /// What a robot sees in this tick, with what it was told.
-fn observation(parts: Perceived, told: Option<Told>) -> Observation {
+fn observation(parts: Perceived, told: Option<ReplyOutcome>) -> Observation {
     let (readings, estimate, guidance, briefing, belief) = parts;
     Observation {
         // The estimate is of this tick.
@@ -92,21 +94,22 @@ fn observation(parts: Perceived, told: Option<Told>) -> Observation {
 }
 
 /// Asks the searchers outside this program; the answers come between this stage and the next.
-pub(crate) fn ask(clock: Res<Clock>, mut robots: Query<(Perceived, &SearcherId, &Decision, &mut Consulting)>) {
+pub(crate) fn ask(clock: Res<Clock>, mut robots: Query<(Perceived, &SearcherId, &Decision, &mut ExchangeState)>) {
     for (parts, id, decision, mut consulting) in &mut robots {
-        if let Kept::Robot(gathered) = &mut consulting.kept {
+        if let ReadingsSince::Robot(gathered) = &mut consulting.kept {
             gathered.add(clock.t_s(), parts.0);
         }
         if decision.outcome.is_none() && consulting.due(&clock) {
             consulting.ask(&clock, &id.name, |kept| {
                 let seen = Box::new(observation(parts, None));
-                Seen::Robot(seen, Box::new(kept.take_robot()))
+                QuestionContent::Robot(seen, Box::new(kept.take_robot()))
             });
         }
     }
 }
 
-type Deciding<'a> = (&'a SearcherId, Perceived<'a>, &'a mut Searching, &'a mut Decision, Option<&'a mut Consulting>);
+type Deciding<'a> =
+    (&'a SearcherId, Perceived<'a>, &'a mut SearcherParts, &'a mut Decision, Option<&'a mut ExchangeState>);
 
 pub(crate) fn decide(mut robots: Query<Deciding>) {
     for (id, parts, mut searching, mut decision, consulting) in &mut robots {
@@ -121,7 +124,15 @@ pub(crate) fn decide(mut robots: Query<Deciding>) {
 }
 
 pub(crate) fn guide(
-    mut robots: Query<(&Now, &Estimate, &Decision, &Briefing, &mut Guidance, &mut Command, &mut GuidanceStatus)>,
+    mut robots: Query<(
+        &OnboardTime,
+        &Estimate,
+        &Decision,
+        &Briefing,
+        &mut Guidance,
+        &mut Command,
+        &mut GuidanceStatus,
+    )>,
 ) {
     for (now, estimate, decision, briefing, mut guidance, mut command, mut status) in &mut robots {
         (*command, *status) = guidance.step(estimate, &decision.goal, &briefing.area, now.0.dt_s);
@@ -129,7 +140,7 @@ pub(crate) fn guide(
 }
 
 type Actuated<'a> = (
-    &'a Now,
+    &'a OnboardTime,
     &'a Command,
     &'a Estimate,
     &'a mut Pilot,
@@ -149,7 +160,7 @@ pub(crate) fn actuate(mut robots: Query<Actuated>) {
     }
 }
 
-type Pushed<'a> = (&'a Now, &'a Truth, &'a Actuation, &'a mut Hull, Option<&'a mut Battery>);
+type Pushed<'a> = (&'a OnboardTime, &'a Truth, &'a Actuation, &'a mut Hull, Option<&'a mut Battery>);
 
 pub(crate) fn push_bodies(ocean: Res<Ocean>, mut physics: ResMut<Physics>, mut robots: Query<Pushed>) {
     // Each pushes its own body: their order does not matter.
@@ -163,7 +174,7 @@ pub(crate) fn push_bodies(ocean: Res<Ocean>, mut physics: ResMut<Physics>, mut r
     }
 }
 
-pub(crate) fn read_bodies(physics: Res<Physics>, mut robots: Query<(&Now, &SearcherId, &Hull, &mut Truth)>) {
+pub(crate) fn read_bodies(physics: Res<Physics>, mut robots: Query<(&OnboardTime, &SearcherId, &Hull, &mut Truth)>) {
     for (now, id, hull, mut truth) in &mut robots {
         *truth = physics.truth(hull.body);
         assert!(

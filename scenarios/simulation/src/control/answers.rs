@@ -6,8 +6,8 @@ use super::forms::{
 use super::names::{behaviour, lasting};
 use nalgebra::Vector2;
 use robots::handoff::{
-    Answer, Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES, Manoeuvre, MoveOrder, Order,
-    Outcome, Vertical,
+    Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES, Manoeuvre, MotionOrder, MoveOrder,
+    Outcome, Reply, Vertical,
 };
 use serde_json::Value;
 use world::units::Heading;
@@ -29,7 +29,7 @@ const LONGEST: usize = 65_536;
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Answer, String> {
+pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Reply, String> {
     if text.len() > LONGEST {
         return Err(format!("an answer has at most {LONGEST} bytes, got {}", text.len()));
     }
@@ -42,7 +42,7 @@ pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Answer, String>
 
 /// An answer as [`read_answer`] reads it, to the last bit.
 #[must_use]
-pub fn answer_json(answer: &Answer) -> Value {
+pub fn answer_json(answer: &Reply) -> Value {
     let mut value = serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written");
     drop_nulls(&mut value);
     value
@@ -75,7 +75,7 @@ fn heights(vertical: Option<Vertical>) -> [Option<f64>; 2] {
 }
 
 impl AnswerForm {
-    fn answer(self, t_s: f64) -> Result<Answer, String> {
+    fn answer(self, t_s: f64) -> Result<Reply, String> {
         let given = [
             self.goal.is_some(),
             self.steer.is_some(),
@@ -98,7 +98,7 @@ impl AnswerForm {
             let position = Vector2::from(d.position_m);
             Ok::<_, String>(Declaration { number: d.number, ..Declaration::first(t_s, position, rule) })
         });
-        Ok(Answer {
+        Ok(Reply {
             order: orders.into_iter().flatten().next(),
             behaviour: self.behaviour.as_deref().map(behaviour).transpose()?,
             declared: declared.transpose()?,
@@ -110,7 +110,7 @@ impl AnswerForm {
         })
     }
 
-    fn of(answer: &Answer) -> Self {
+    fn of(answer: &Reply) -> Self {
         let mut form = Self {
             behaviour: answer.behaviour.map(|b: Behaviour| b.name().to_string()),
             declare: answer.declared.map(|d| DeclareForm {
@@ -126,8 +126,8 @@ impl AnswerForm {
             ..Self::default()
         };
         match &answer.order {
-            Some(Order::Move(order)) => form.put(order),
-            Some(Order::Head(order)) => {
+            Some(MotionOrder::Move(order)) => form.put(order),
+            Some(MotionOrder::Head(order)) => {
                 form.head = Some(HeadForm {
                     target_m: order.target_m.into(),
                     speed_m_s: order.speed_m_s.map(Into::into),
@@ -186,12 +186,12 @@ impl AnswerForm {
     }
 }
 
-fn to_move(id: Option<u32>, manoeuvre: Manoeuvre, vertical: Option<Vertical>, speed_m_s: Option<f64>) -> Order {
-    Order::Move(MoveOrder { id, manoeuvre, vertical, speed_m_s })
+fn to_move(id: Option<u32>, manoeuvre: Manoeuvre, vertical: Option<Vertical>, speed_m_s: Option<f64>) -> MotionOrder {
+    MotionOrder::Move(MoveOrder { id, manoeuvre, vertical, speed_m_s })
 }
 
 impl GoalForm {
-    fn order(self) -> Result<Order, String> {
+    fn order(self) -> Result<MotionOrder, String> {
         let heading = Heading::from_rad;
         let manoeuvre = match self.manoeuvre {
             ManoeuvreForm::GoToPoint { point_m, radius_m } => Manoeuvre::GoToPoint { point: point_m.into(), radius_m },
@@ -216,7 +216,7 @@ impl GoalForm {
 }
 
 impl SteerForm {
-    fn order(self) -> Result<Order, String> {
+    fn order(self) -> Result<MotionOrder, String> {
         let heading = Heading::from_rad(self.heading_rad);
         let vertical = vertical(self.depth_m, self.altitude_m)?;
         Ok(to_move(self.id, Manoeuvre::Steer { heading }, vertical, self.speed_m_s))
@@ -224,7 +224,7 @@ impl SteerForm {
 }
 
 impl SlideForm {
-    fn order(self) -> Result<Order, String> {
+    fn order(self) -> Result<MotionOrder, String> {
         let manoeuvre = Manoeuvre::Slide {
             heading: Heading::from_rad(self.heading_rad),
             over_ground_m_s: self.velocity_m_s.into(),
@@ -235,7 +235,7 @@ impl SlideForm {
 }
 
 impl DrivesForm {
-    fn order(self) -> Result<Order, String> {
+    fn order(self) -> Result<MotionOrder, String> {
         if self.set.len() > MOST_DRIVES {
             return Err(format!("no vehicle has more than {MOST_DRIVES} drives, got {}", self.set.len()));
         }
@@ -245,7 +245,7 @@ impl DrivesForm {
 }
 
 impl HeadForm {
-    fn order(self) -> Result<Order, String> {
+    fn order(self) -> Result<MotionOrder, String> {
         let named = |name: &String| {
             let all = GantryBehaviour::ALL;
             all.into_iter().find(|b| b.name() == name).ok_or_else(|| {
@@ -254,7 +254,7 @@ impl HeadForm {
             })
         };
         let behaviour = self.behaviour.as_ref().map(named).transpose()?;
-        Ok(Order::Head(HeadOrder {
+        Ok(MotionOrder::Head(HeadOrder {
             id: self.id,
             target_m: self.target_m.into(),
             speed_m_s: self.speed_m_s.map(Into::into),

@@ -3,7 +3,7 @@
 //! A robot or gantry whose strategy is `External` asks once a period. The question is made after the stages `Sense`,
 //! `Estimate` and `Map`, and the answer is put in before `Decide`: between the halves of a tick, so that no stage waits
 //! and nothing but the answers of a [`Trial`](crate::trial::Trial)'s controllers enters it. Each question comes to a
-//! [`Consultation`], which observers see and recordings keep; a [`Replay`] of them makes the same run again.
+//! [`Exchange`], which observers see and recordings keep; a [`Replay`] of them makes the same run again.
 //!
 //! Two ways to answer:
 //!
@@ -12,7 +12,7 @@
 //!   [`Trial::answer`](crate::trial::Trial::answer) answers them.
 
 mod answers;
-pub(crate) mod consulting;
+pub(crate) mod exchanges;
 mod forms;
 mod names;
 mod questions;
@@ -21,11 +21,11 @@ mod replay;
 mod tests;
 
 pub use answers::{answer_json, read_answer};
-pub use consulting::{Gathered, HeadGathered};
+pub use exchanges::{Gathered, HeadGathered};
 pub use questions::question_json;
 pub use replay::{Replay, consultation_json, read_consultation};
 
-use robots::handoff::{Answer, GantryObservation, Observation};
+use robots::handoff::{GantryObservation, Observation, Reply};
 
 /// What a searcher outside this program is asked.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,12 +41,12 @@ pub struct Question {
     /// How long the run waits for an answer, s of real time.
     pub deadline_s: f64,
     /// What it sees.
-    pub seen: Seen,
+    pub seen: QuestionContent,
 }
 
 /// What a machine sees in the tick of a question, and what it has seen since the last one.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Seen {
+pub enum QuestionContent {
     /// A robot.
     Robot(Box<Observation>, Box<Gathered>),
     /// A gantry.
@@ -56,9 +56,9 @@ pub enum Seen {
 /// What came back.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and controllers make them by hand")]
-pub enum Heard {
+pub enum Response {
     /// An answer.
-    Answer(Answer),
+    Answer(Reply),
     /// Nothing within the deadline.
     Late,
     /// Nobody is there.
@@ -69,23 +69,23 @@ pub enum Heard {
     Nonsense(String),
 }
 
-impl Heard {
+impl Response {
     /// Name as it stands in files and topics.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
-            Heard::Answer(_) => "answered",
-            Heard::Late => "late",
-            Heard::Absent => "absent",
-            Heard::Gone => "gone",
-            Heard::Nonsense(_) => "nonsense",
+            Response::Answer(_) => "answered",
+            Response::Late => "late",
+            Response::Absent => "absent",
+            Response::Gone => "gone",
+            Response::Nonsense(_) => "nonsense",
         }
     }
 }
 
 /// A question and what came of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Consultation {
+pub struct Exchange {
     /// Id of the robot or gantry.
     pub robot: String,
     /// How many it was asked before.
@@ -95,17 +95,17 @@ pub struct Consultation {
     /// Mission time, s.
     pub t_s: f64,
     /// What came back.
-    pub heard: Heard,
+    pub heard: Response,
 }
 
 /// Whoever decides for a robot or gantry whose strategy is `External`.
 pub trait Controller: Send {
     /// Answers a question. The run waits.
-    fn answer(&mut self, question: &Question) -> Heard;
+    fn answer(&mut self, question: &Question) -> Response;
 }
 
-impl<F: FnMut(&Question) -> Heard + Send> Controller for F {
-    fn answer(&mut self, question: &Question) -> Heard {
+impl<F: FnMut(&Question) -> Response + Send> Controller for F {
+    fn answer(&mut self, question: &Question) -> Response {
         self(question)
     }
 }

@@ -1,6 +1,6 @@
 //! A question as JSON: SI units, ENU axes, compass headings in radians; what was not measured is left out.
 
-use super::{Gathered, HeadGathered, Question, Seen};
+use super::{Gathered, HeadGathered, Question, QuestionContent};
 use robots::handoff::{Estimate, GantryObservation, Observation, RangeScan};
 use serde_json::{Value, json};
 
@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 #[must_use]
 pub fn question_json(question: &Question) -> Value {
     let mut said = match &question.seen {
-        Seen::Robot(seen, gathered) => robot(question.t_s, seen, gathered),
-        Seen::Gantry(seen, gathered) => gantry(seen, gathered),
+        QuestionContent::Robot(seen, gathered) => robot(question.t_s, seen, gathered),
+        QuestionContent::Gantry(seen, gathered) => gantry(seen, gathered),
     };
     said["robot"] = json!(question.robot);
     said["number"] = json!(question.number);

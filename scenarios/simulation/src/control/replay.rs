@@ -1,18 +1,18 @@
 //! Consultations as JSON, and a controller that repeats recorded ones.
 
-use super::{Consultation, Controller, Heard, Question, answer_json, read_answer};
+use super::{Controller, Exchange, Question, Response, answer_json, read_answer};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// A consultation as JSON, as it is recorded.
 #[must_use]
-pub fn consultation_json(told: &Consultation) -> Value {
+pub fn consultation_json(told: &Exchange) -> Value {
     let mut said = json!({
         "robot": told.robot, "number": told.number, "step": told.step, "t_s": told.t_s, "cause": told.heard.name(),
     });
     match &told.heard {
-        Heard::Answer(answer) => said["answer"] = answer_json(answer),
-        Heard::Nonsense(why) => said["why"] = json!(why),
+        Response::Answer(answer) => said["answer"] = answer_json(answer),
+        Response::Nonsense(why) => said["why"] = json!(why),
         _ => {}
     }
     said
@@ -22,7 +22,7 @@ pub fn consultation_json(told: &Consultation) -> Value {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn read_consultation(text: &str) -> Result<Consultation, String> {
+pub fn read_consultation(text: &str) -> Result<Exchange, String> {
     let value: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
     let lacks = |field: &str| format!("`{field}` is missing or of another type");
     let number = |field: &str| value[field].as_u64().ok_or_else(|| lacks(field));
@@ -30,25 +30,25 @@ pub fn read_consultation(text: &str) -> Result<Consultation, String> {
     let (number, step) = (number("number")?, number("step")?);
     let t_s = value["t_s"].as_f64().ok_or_else(|| lacks("t_s"))?;
     let heard = match words("cause")? {
-        "answered" => Heard::Answer(read_answer(value["answer"].to_string().as_bytes(), number, t_s)?),
-        "late" => Heard::Late,
-        "absent" => Heard::Absent,
-        "gone" => Heard::Gone,
-        "nonsense" => Heard::Nonsense(words("why")?.to_string()),
+        "answered" => Response::Answer(read_answer(value["answer"].to_string().as_bytes(), number, t_s)?),
+        "late" => Response::Late,
+        "absent" => Response::Absent,
+        "gone" => Response::Gone,
+        "nonsense" => Response::Nonsense(words("why")?.to_string()),
         other => return Err(format!("unknown cause {other:?}")),
     };
-    Ok(Consultation { robot: words("robot")?.to_string(), number, step, t_s, heard })
+    Ok(Exchange { robot: words("robot")?.to_string(), number, step, t_s, heard })
 }
 
 /// A controller that repeats what a robot was told in another run of the same scenario and seed.
 #[derive(Clone, Debug, Default)]
 pub struct Replay {
-    told: BTreeMap<(String, u64), Consultation>,
+    told: BTreeMap<(String, u64), Exchange>,
 }
 
 impl Replay {
     /// Of recorded consultations, of any number of robots.
-    pub fn new(told: impl IntoIterator<Item = Consultation>) -> Self {
+    pub fn new(told: impl IntoIterator<Item = Exchange>) -> Self {
         let told = told.into_iter();
         Self { told: told.map(|c| ((c.robot.clone(), c.number), c)).collect() }
     }
@@ -64,9 +64,9 @@ impl Replay {
 
 impl Controller for Replay {
     /// What was told then; a question that was not asked then finds nobody.
-    fn answer(&mut self, question: &Question) -> Heard {
+    fn answer(&mut self, question: &Question) -> Response {
         let key = (question.robot.clone(), question.number);
         let told = self.told.get(&key).filter(|told| told.step == question.step);
-        told.map_or(Heard::Absent, |told| told.heard.clone())
+        told.map_or(Response::Absent, |told| told.heard.clone())
     }
 }

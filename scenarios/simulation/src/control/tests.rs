@@ -2,9 +2,9 @@ use super::*;
 use crate::ocean::Ocean;
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, load_text, template};
-use crate::trial::{Ended, Trial, Unwatched, Watch};
+use crate::trial::{RunEnd, Trial, Unwatched, Watch};
 use nalgebra::Vector2;
-use robots::handoff::{Declaration, GantryLayout, MoveOrder, Order};
+use robots::handoff::{Declaration, GantryLayout, MotionOrder, MoveOrder};
 use robots::strategy::Strategy;
 use robots::track::GantryStrategy;
 use robots::vehicles::Gantry;
@@ -54,22 +54,22 @@ fn own_strategy(plain: &Loaded) -> (Box<dyn Strategy>, Stream) {
 fn controller(plain: &Loaded) -> impl Controller + 'static {
     let (mut strategy, mut rng) = own_strategy(plain);
     move |question: &Question| match &question.seen {
-        Seen::Robot(seen, _) => Heard::Answer(Answer::from(&strategy.step(seen, &mut rng))),
-        Seen::Gantry(..) => panic!("a robot asks"),
+        QuestionContent::Robot(seen, _) => Response::Answer(Reply::from(&strategy.step(seen, &mut rng))),
+        QuestionContent::Gantry(..) => panic!("a robot asks"),
     }
 }
 
 /// Keeps what is told.
 #[derive(Default)]
-struct Kept(Vec<Consultation>);
+struct Kept(Vec<Exchange>);
 
 impl Watch for Kept {
-    fn consulted(&mut self, told: &Consultation) {
+    fn consulted(&mut self, told: &Exchange) {
         self.0.push(told.clone());
     }
 }
 
-fn run(loaded: &Loaded, controller: impl Controller + 'static) -> (Ended, Vec<Consultation>) {
+fn run(loaded: &Loaded, controller: impl Controller + 'static) -> (RunEnd, Vec<Exchange>) {
     let mut trial = Trial::assemble(loaded, SEED).expect("legal");
     let name = trial.controlled().first().expect("asks").clone();
     trial.control(&name, controller).expect("it asks");
@@ -107,7 +107,7 @@ fn runs_that_differ_only_in_what_is_declared_have_different_digests() {
         let mut steers = controller(&plain);
         let (ended, _) = run(&outside, move |question: &Question| {
             let mut heard = steers.answer(question);
-            if let (200, Heard::Answer(answer), Some(east_m)) = (question.number, &mut heard, east_m) {
+            if let (200, Response::Answer(answer), Some(east_m)) = (question.number, &mut heard, east_m) {
                 let place = Vector2::new(east_m, 0.0);
                 answer.declared = Some(Declaration::first(question.t_s, place, "outside"));
             }
@@ -163,13 +163,13 @@ fn what_cannot_be_carried_out_is_nonsense_and_told() {
     let (_, told) = run(&outside, move |question: &Question| {
         let (text, _) = next.next().unwrap_or(("{}", ""));
         match read_answer(text.as_bytes(), question.number, question.t_s) {
-            Ok(answer) => Heard::Answer(answer),
-            Err(why) => Heard::Nonsense(why),
+            Ok(answer) => Response::Answer(answer),
+            Err(why) => Response::Nonsense(why),
         }
     });
     assert!(told.len() >= wrong.len(), "{}", told.len());
     for (told, (text, why)) in told.iter().zip(wrong) {
-        let Heard::Nonsense(said) = &told.heard else {
+        let Response::Nonsense(said) = &told.heard else {
             panic!("{text} is nonsense, but: {:?}", told.heard);
         };
         assert!(said.contains(why), "{text}: {said}");
@@ -182,14 +182,14 @@ fn nothing_that_is_not_a_number_comes_in() {
     let mut trial = Trial::assemble(&outside, SEED).expect("legal");
     trial.until_asked(&mut Unwatched);
     let order = |speed_m_s, heading| {
-        Heard::Answer(Answer {
-            order: Some(Order::Move(MoveOrder {
+        Response::Answer(Reply {
+            order: Some(MotionOrder::Move(MoveOrder {
                 id: None,
                 manoeuvre: robots::handoff::Manoeuvre::Steer { heading: world::units::Heading::from_rad(heading) },
                 vertical: None,
                 speed_m_s: Some(speed_m_s),
             })),
-            ..Answer::default()
+            ..Reply::default()
         })
     };
     let told = trial.answer("auv0", order(f64::NAN, 0.0), &mut Unwatched);
@@ -203,10 +203,10 @@ fn nothing_that_is_not_a_number_comes_in() {
 fn nobody_controls_a_robot_that_does_not_ask() {
     let [plain, outside] = channels();
     let mut trial = Trial::assemble(&plain, SEED).expect("legal");
-    let refused = trial.control("auv0", |_: &Question| Heard::Late);
+    let refused = trial.control("auv0", |_: &Question| Response::Late);
     assert!(refused.unwrap_err().to_string().ends_with("none has"));
     let mut trial = Trial::assemble(&outside, SEED).expect("legal");
-    let refused = trial.control("auv1", |_: &Question| Heard::Late);
+    let refused = trial.control("auv1", |_: &Question| Response::Late);
     assert!(refused.unwrap_err().to_string().ends_with("those that have: auv0"));
     assert!(!trial.step() || trial.score().searchers[0].consulted.is_some_and(|c| c.absent == 1));
 }
@@ -230,7 +230,7 @@ fn a_question_tells_what_was_sensed_since_the_last_one() {
 /// A searcher of a gantry, built anew by a user of the library.
 fn own_tracker(loaded: &Loaded) -> (Box<dyn GantryStrategy>, Stream) {
     let block = &loaded.scenario.gantries[0];
-    let gantry = Gantry::load(&block.gantry, &crate::scenario::Beside(&loaded.base_dir));
+    let gantry = Gantry::load(&block.gantry, &crate::scenario::FolderFiles(&loaded.base_dir));
     let layout: GantryLayout = block.layout(&gantry.expect("legal"));
     let strategy = block.tracker.build(&layout).expect("legal");
     (strategy, Stream::new(Seed::from(SEED), block.id.as_str(), "tracker"))
@@ -250,8 +250,8 @@ fn a_searcher_of_a_gantry_gives_the_same_digest_from_outside() {
     let inside = Trial::assemble(&plain, SEED).expect("legal").finish_quietly();
     let (mut strategy, mut rng) = own_tracker(&plain);
     let (ended, _) = run(&outside, move |question: &Question| match &question.seen {
-        Seen::Gantry(seen, _) => Heard::Answer(Answer::from(&strategy.step(seen, &mut rng))),
-        Seen::Robot(..) => panic!("a gantry asks"),
+        QuestionContent::Gantry(seen, _) => Response::Answer(Reply::from(&strategy.step(seen, &mut rng))),
+        QuestionContent::Robot(..) => panic!("a gantry asks"),
     });
     assert_eq!(ended.digest, inside.digest);
 }

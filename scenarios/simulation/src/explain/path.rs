@@ -8,7 +8,7 @@ use world::spelling::distance;
 
 /// What a path leads to.
 #[derive(Clone, Debug)]
-pub(super) struct Place<'a> {
+pub(super) struct PathTarget<'a> {
     /// The whole path, with the names of variants.
     pub(super) path: String,
     /// What is there.
@@ -30,7 +30,7 @@ pub(super) enum At<'a> {
     Part(&'a Shape),
 }
 
-impl<'a> Place<'a> {
+impl<'a> PathTarget<'a> {
     /// What may stand there; `None` for a variant without parentheses.
     pub(super) fn shape(&self) -> Option<&'a Shape> {
         match self.at {
@@ -58,15 +58,15 @@ pub struct Unknown {
 }
 
 /// All places of a path, at least one.
-pub(super) fn find<'a>(r: &'a Reference, path: &str) -> Result<Vec<Place<'a>>, Unknown> {
+pub(super) fn find<'a>(r: &'a Reference, path: &str) -> Result<Vec<PathTarget<'a>>, Unknown> {
     let bare = without_numbers(path);
-    let mut places: Vec<Place<'a>> = Vec::new();
+    let mut places: Vec<PathTarget<'a>> = Vec::new();
     for (i, word) in bare.split('.').enumerate() {
         let mut next = Vec::new();
         if i == 0 {
             step(r, &r.root, word, "", None, &mut next);
             let file = r.files.iter().find(|f| f.name == word);
-            next.extend(file.map(|f| Place { path: word.to_string(), at: At::File(f), source: None }));
+            next.extend(file.map(|f| PathTarget { path: word.to_string(), at: At::File(f), source: None }));
         }
         for place in &places {
             if let Some(shape) = place.shape() {
@@ -97,17 +97,21 @@ fn step<'a>(
     word: &str,
     path: &str,
     source: Option<&'a str>,
-    found: &mut Vec<Place<'a>>,
+    found: &mut Vec<PathTarget<'a>>,
 ) {
     match r.resolved(shape) {
         Shape::Fields(fields) => {
             if let Some(f) = fields.iter().find(|f| f.name == word) {
-                found.push(Place { path: below(r, path, f), at: At::Field(f), source: f.source.as_deref().or(source) });
+                found.push(PathTarget {
+                    path: below(r, path, f),
+                    at: At::Field(f),
+                    source: f.source.as_deref().or(source),
+                });
             }
         }
         Shape::Choice(variants) => {
             if let Some(v) = variants.iter().find(|v| v.name == word) {
-                found.push(Place {
+                found.push(PathTarget {
                     path: joined(path, &v.name),
                     at: At::Variant(v),
                     source: v.source.as_deref().or(source),
@@ -124,7 +128,7 @@ fn step<'a>(
         Shape::List(of) => step(r, of, word, path, source, found),
         Shape::Tuple(parts) => {
             if let Some(part) = word.parse().ok().and_then(|i: usize| parts.get(i)) {
-                found.push(Place { path: joined(path, word), at: At::Part(part), source });
+                found.push(PathTarget { path: joined(path, word), at: At::Part(part), source });
             }
         }
         Shape::Number(_) | Shape::Text(_) | Shape::Truth | Shape::Named(_) => {}
@@ -201,7 +205,7 @@ const NEAR: usize = 6;
 
 /// Proposes paths: the same name elsewhere, or the names most similar to it. Those below the part of the path that
 /// exists come first.
-fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unknown {
+fn unknown(r: &Reference, path: &str, word: &str, places: &[PathTarget<'_>]) -> Unknown {
     let all = all(r);
     let starts: Vec<String> = match places {
         [] => vec![String::new()],

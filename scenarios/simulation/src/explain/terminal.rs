@@ -1,6 +1,6 @@
 //! Writes places of a scenario as text for a terminal.
 
-use super::path::{At, Place, below, joined};
+use super::path::{At, PathTarget, below, joined};
 use super::read::{Field, Named, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
@@ -25,7 +25,7 @@ pub(super) fn top(r: &Reference) -> String {
 }
 
 /// The places that a path leads to.
-pub(super) fn places(r: &Reference, places: &[Place<'_>]) -> String {
+pub(super) fn places(r: &Reference, places: &[PathTarget<'_>]) -> String {
     let texts: Vec<String> = places.iter().map(|p| place(r, p)).collect();
     let mut out = String::new();
     if texts.len() > 1 {
@@ -34,7 +34,7 @@ pub(super) fn places(r: &Reference, places: &[Place<'_>]) -> String {
     out + &texts.join("\n")
 }
 
-fn place(r: &Reference, place: &Place<'_>) -> String {
+fn place(r: &Reference, place: &PathTarget<'_>) -> String {
     let mut out = place.path.clone() + "\n";
     let (what, own) = match place.at {
         At::File(f) | At::Field(f) => (f.what.as_str(), f.source.as_deref()),

@@ -1,6 +1,6 @@
 //! A robot at one instant, the pictures of its camera and the pings of its sidescan.
 
-use super::Heard;
+use super::NewestReadings;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer, LayerState, Picture,
@@ -29,7 +29,7 @@ pub struct RobotFrame {
     /// What the vehicle's drives are set to.
     pub actuators: Actuation,
     /// What its other instruments reported since the previous frame.
-    pub heard: Heard,
+    pub heard: NewestReadings,
     /// Newest chemical reading.
     pub chemical: Option<ChemicalReading>,
     /// Whether there was a detection since the previous frame.

@@ -2,12 +2,12 @@
 
 use super::Gantries;
 use super::system::{self, Head, Rig, Searcher};
-use crate::apparatus::{Apparatus, Launch, Systems};
-use crate::control::consulting::{Asking, Consulting};
+use crate::control::exchanges::{ExchangeState, Exchanges};
 use crate::error::AssembleError;
+use crate::machines::{Launch, Machine, Systems};
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
-use crate::scenario::{Beside, GantryBlock};
+use crate::scenario::{FolderFiles, GantryBlock};
 use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
@@ -30,7 +30,7 @@ impl Listed for GantryBlock {
     };
 }
 
-impl Apparatus for GantryBlock {
+impl Machine for GantryBlock {
     fn id(&self) -> &str {
         self.id.as_str()
     }
@@ -46,7 +46,7 @@ impl Apparatus for GantryBlock {
             .add(Stage::Actuate, system::drive_gantries)
             .add(Stage::Report, (system::digest_gantries.after(digest_plume), system::keep_score).chain())
             .add_to_frame(system::picture);
-        if systems.has::<Consulting>() {
+        if systems.has::<ExchangeState>() {
             systems.add_blind(Stage::Map, system::ask);
         }
     }
@@ -55,7 +55,7 @@ impl Apparatus for GantryBlock {
 fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), RobotError> {
     let id = block.id.as_str();
     let Launch { base_dir, seed, dt_s } = *launch;
-    let gantry = Gantry::load(&block.gantry, &Beside(base_dir))?;
+    let gantry = Gantry::load(&block.gantry, &FolderFiles(base_dir))?;
     gantry.check_step(dt_s)?;
     let layout = block.layout(&gantry);
     let base = block.base(&world.resource::<Ocean>().terrain);
@@ -88,11 +88,11 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
     ));
     let consulted = block.tracker.consulted();
     if let Some(consulted) = consulted {
-        gantry.insert(Consulting::gantry(consulted, dt_s));
+        gantry.insert(ExchangeState::gantry(consulted, dt_s));
     }
     let gantry = gantry.id();
     if consulted.is_some() {
-        world.get_resource_or_init::<Asking>().0.push(gantry);
+        world.get_resource_or_init::<Exchanges>().0.push(gantry);
     }
     world.get_resource_or_init::<Gantries>().0.push(gantry);
     Ok(())

@@ -1,8 +1,8 @@
 //! All components of a gantry: what it keeps while the gantry of another run has its turn in the same world.
 
 use super::system::{Head, Rig, Searcher};
-use crate::apparatus::own;
-use crate::control::consulting::Consulting;
+use crate::control::exchanges::ExchangeState;
+use crate::machines::own;
 use crate::searchers::SearcherId;
 use robots::handoff::{GantryDecision, GantryReadings};
 
@@ -16,7 +16,7 @@ own! {
         searcher: Searcher,
         decision: GantryDecision,
     } some {
-        consulting: Consulting,
+        consulting: ExchangeState,
     } shown {
     }
 }

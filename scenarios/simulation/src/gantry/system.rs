@@ -1,8 +1,8 @@
 //! The systems of gantries: probes and encoders, the searcher, the drives, score and frames.
 
 use super::Gantries;
-use crate::control::Seen;
-use crate::control::consulting::{Consulting, Kept};
+use crate::control::QuestionContent;
+use crate::control::exchanges::{ExchangeState, ReadingsSince};
 use crate::frame::GantryFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
@@ -87,21 +87,21 @@ pub(crate) fn read_probes(
 /// Asks the searchers outside this program; the answers come between this stage and the next.
 pub(crate) fn ask(
     clock: Res<Clock>,
-    mut gantries: Query<(&SearcherId, &GantryReadings, &GantryDecision, &mut Consulting)>,
+    mut gantries: Query<(&SearcherId, &GantryReadings, &GantryDecision, &mut ExchangeState)>,
 ) {
     for (id, readings, decision, mut consulting) in &mut gantries {
-        if let Kept::Gantry(gathered) = &mut consulting.kept {
+        if let ReadingsSince::Gantry(gathered) = &mut consulting.kept {
             gathered.scans.extend(readings.scan);
         }
         if decision.stopped.is_none() && consulting.due(&clock) {
             let seen = GantryObservation { t_s: clock.t_s(), readings: *readings, told: None };
-            consulting.ask(&clock, &id.name, |kept| Seen::Gantry(seen, kept.take_gantry()));
+            consulting.ask(&clock, &id.name, |kept| QuestionContent::Gantry(seen, kept.take_gantry()));
         }
     }
 }
 
 type Tracking<'a> =
-    (&'a SearcherId, &'a GantryReadings, &'a mut Searcher, &'a mut GantryDecision, Option<&'a mut Consulting>);
+    (&'a SearcherId, &'a GantryReadings, &'a mut Searcher, &'a mut GantryDecision, Option<&'a mut ExchangeState>);
 
 pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
     for (id, readings, mut searcher, mut decision, consulting) in &mut gantries {

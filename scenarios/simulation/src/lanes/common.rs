@@ -7,13 +7,13 @@
 //! Systems of other crates may keep values that nobody can exchange. Their runs have worlds of their own.
 
 use super::{LaneError, caught, lend, take_back, taken};
-use crate::apparatus::Own;
-use crate::assemble::{Beside, Simulation, launch};
-use crate::auv::{RobotOwn, Robots, Yard};
-use crate::control::consulting::Asking;
+use crate::assemble::{RunParts, Simulation, launch};
+use crate::auv::{RobotOwn, Robots, VehiclePool};
+use crate::control::exchanges::Exchanges;
 use crate::extend::Addition;
 use crate::fleet::Fleet;
 use crate::gantry::{Gantries, GantryOwn};
+use crate::machines::Own;
 use crate::ocean::{Ocean, Origin};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
@@ -46,8 +46,8 @@ struct Machines<O: Own> {
 }
 
 /// What a run has of its own.
-pub(super) struct Belongings {
-    beside: Beside,
+pub(super) struct LaneParts {
+    parts: RunParts,
     robots: Vec<RobotOwn>,
     gantries: Vec<GantryOwn>,
     progress: Progress,
@@ -58,7 +58,7 @@ pub(super) struct Belongings {
 struct Rosters {
     robots: Option<Robots>,
     gantries: Option<Gantries>,
-    asking: Option<Asking>,
+    asking: Option<Exchanges>,
 }
 
 impl Worlds {
@@ -95,7 +95,7 @@ impl Common {
         let Loaded { registry, scenario, base_dir, .. } = loaded;
         let mut world = World::new();
         world.insert_resource(ocean.take().expect("it is back"));
-        world.insert_resource(Yard::default());
+        world.insert_resource(VehiclePool::default());
         let seed = origin.seed();
         // Whoever steps the runs looks at them.
         let frames = Frames::Unmade;
@@ -120,24 +120,24 @@ impl Common {
         loaded: &Loaded,
         seed: Seed,
         ocean: &mut Option<Ocean>,
-    ) -> Result<Belongings, LaneError> {
+    ) -> Result<LaneParts, LaneError> {
         lend(ocean, &mut self.trial);
         let launched = self.launched(loaded, seed);
         take_back(ocean, &mut self.trial);
         launched
     }
 
-    fn launched(&mut self, loaded: &Loaded, seed: Seed) -> Result<Belongings, LaneError> {
+    fn launched(&mut self, loaded: &Loaded, seed: Seed) -> Result<LaneParts, LaneError> {
         let sources = self.trial.simulation.ocean().sources();
         let world = &mut self.trial.simulation.world;
-        let mut beside = Beside::new(&loaded.scenario, world.resource());
-        beside.exchange(world);
+        let mut parts = RunParts::new(&loaded.scenario, world.resource());
+        parts.exchange(world);
         let mut rosters = Rosters::default();
         rosters.exchange(world);
         let fleet = Fleet::of(&loaded.scenario);
         let launched = caught(|| launch(world, &fleet, &loaded.scenario, &loaded.base_dir, seed));
         rosters.exchange(world);
-        beside.exchange(world);
+        parts.exchange(world);
         if !matches!(launched, Ok(Ok(()))) {
             self.expel();
         }
@@ -145,8 +145,8 @@ impl Common {
         let world = &mut self.trial.simulation.world;
         let robots = rosters.robots.map_or(Vec::new(), |r| r.0);
         let gantries = rosters.gantries.map_or(Vec::new(), |g| g.0);
-        Ok(Belongings {
-            beside,
+        Ok(LaneParts {
+            parts,
             robots: robots.iter().map(|m| Own::take(world, *m)).collect(),
             gantries: gantries.iter().map(|m| Own::take(world, *m)).collect(),
             progress: Progress::new(sources),
@@ -181,9 +181,9 @@ impl Common {
     }
 
     /// Gives a run its turn, and takes what is in the world, of whoever had it before.
-    pub(super) fn exchange(&mut self, run: &mut Belongings) {
+    pub(super) fn exchange(&mut self, run: &mut LaneParts) {
         let world = &mut self.trial.simulation.world;
-        run.beside.exchange(world);
+        run.parts.exchange(world);
         self.robots.exchange(world, &mut run.robots);
         self.gantries.exchange(world, &mut run.gantries);
         swap(&mut self.trial.progress, &mut run.progress);

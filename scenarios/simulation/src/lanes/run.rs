@@ -1,6 +1,6 @@
 //! Runs in an ocean that they share: where each takes its turns, and how far it is in the present tick.
 
-use super::common::{Belongings, Common};
+use super::common::{Common, LaneParts};
 use super::{caught, lend, take_back};
 use crate::ocean::Ocean;
 use crate::trial::Trial;
@@ -13,21 +13,21 @@ pub(super) struct Runs {
     /// The place of the run whose values are in that world.
     within: Option<usize>,
     /// What was in it before, of nobody.
-    nobody: Option<Box<Belongings>>,
+    nobody: Option<Box<LaneParts>>,
 }
 
 /// A run in a place of an ocean.
 pub(super) struct Run {
-    pub(super) seat: Seat,
+    pub(super) seat: LaneSlot,
     pub(super) at: At,
     /// What it said in a panic.
     pub(super) failed: Option<String>,
 }
 
 /// Where a run takes its turns.
-pub(super) enum Seat {
+pub(super) enum LaneSlot {
     /// In the common world, where its values are if they are not here.
-    Common(Option<Box<Belongings>>),
+    Common(Option<Box<LaneParts>>),
     /// In a world of its own.
     Own(Box<Trial>),
 }
@@ -69,9 +69,9 @@ impl Runs {
             return None;
         }
         let done = match (&mut run.seat, &mut self.common) {
-            (Seat::Common(_), Some(common)) => common.work(ocean, work),
-            (Seat::Common(_), None) => Err("there is no world for its turn".to_string()),
-            (Seat::Own(trial), _) => {
+            (LaneSlot::Common(_), Some(common)) => common.work(ocean, work),
+            (LaneSlot::Common(_), None) => Err("there is no world for its turn".to_string()),
+            (LaneSlot::Own(trial), _) => {
                 lend(ocean, trial);
                 let done = caught(|| work(trial));
                 take_back(ocean, trial);
@@ -93,7 +93,7 @@ impl Runs {
         let (Some(common), Some(Some(run))) = (&mut self.common, self.all.get_mut(place)) else {
             return;
         };
-        let Seat::Common(own) = &mut run.seat else {
+        let LaneSlot::Common(own) = &mut run.seat else {
             return;
         };
         let mut own = own.take().expect("only the run whose turn it is has none");
@@ -111,9 +111,9 @@ impl Runs {
         }
     }
 
-    fn hand_over(&mut self, place: Option<usize>, values: Box<Belongings>) {
+    fn hand_over(&mut self, place: Option<usize>, values: Box<LaneParts>) {
         match place.and_then(|place| self.all[place].as_mut()) {
-            Some(run) => run.seat = Seat::Common(Some(values)),
+            Some(run) => run.seat = LaneSlot::Common(Some(values)),
             None => self.nobody = Some(values),
         }
     }

@@ -6,10 +6,10 @@
 //! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
 use super::common::Worlds;
-use super::run::{At, Run, Runs, Seat};
+use super::run::{At, LaneSlot, Run, Runs};
 use super::{LaneError, caught, taken, through};
 use crate::assemble::Simulation;
-use crate::control::{Consultation, Heard, Question};
+use crate::control::{Exchange, Question, Response};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin, SpunUp};
 use crate::outbox::Frames;
@@ -126,9 +126,9 @@ impl Shared {
         let seat = match &mut self.runs.common {
             Some(common) => {
                 let own = common.launch(&self.worlds.loaded, seed, &mut self.ocean)?;
-                Seat::Common(Some(Box::new(own)))
+                LaneSlot::Common(Some(Box::new(own)))
             }
-            None => Seat::Own(Box::new(self.assembled(seed)?)),
+            None => LaneSlot::Own(Box::new(self.assembled(seed)?)),
         };
         let run = Run { seat, at: At::Acted, failed: None };
         self.runs.put(place, Some(run));
@@ -277,7 +277,7 @@ impl Shared {
 
     /// Answers an open question of a robot in a place; `None` if there is none. With the last answer the run goes on
     /// to the next step of the ocean.
-    pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
+    pub fn answer(&mut self, place: usize, robot: &str, heard: Response) -> Option<Exchange> {
         // The world is held until the runs go on: others will be answered, too.
         let _ = self.hold();
         let (told, acts) = self

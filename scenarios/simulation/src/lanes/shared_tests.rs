@@ -3,7 +3,7 @@ use crate::extend::Extend;
 use crate::scenario::{load_text, template};
 use bevy_ecs::prelude::{Local, Resource};
 use nalgebra::Vector2;
-use robots::handoff::{Answer, GantryBehaviour, HeadOrder, Manoeuvre, MoveOrder, Order};
+use robots::handoff::{GantryBehaviour, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Reply};
 use robots::strategy::{ExternalSpec, StrategySpec};
 use world::registry::Registry;
 use world::stage::Stage;
@@ -19,16 +19,16 @@ fn channel() -> Loaded {
 }
 
 /// An answer that follows from the question alone.
-fn answer(question: &Question) -> Heard {
+fn answer(question: &Question) -> Response {
     let heading = Heading::from_deg(40.0 * question.number as f64);
-    Heard::Answer(Answer {
-        order: Some(Order::Move(MoveOrder {
+    Response::Answer(Reply {
+        order: Some(MotionOrder::Move(MoveOrder {
             id: None,
             manoeuvre: Manoeuvre::Steer { heading },
             vertical: None,
             speed_m_s: Some(1.5),
         })),
-        ..Answer::default()
+        ..Reply::default()
     })
 }
 
@@ -115,7 +115,7 @@ fn a_place_is_used_again_and_unanswered_questions_count() {
 }
 
 /// A run among three others, and alone: its digests.
-fn digests(loaded: &Loaded, robot: &str, answer: impl Fn(&Question) -> Heard + Copy) -> [String; 2] {
+fn digests(loaded: &Loaded, robot: &str, answer: impl Fn(&Question) -> Response + Copy) -> [String; 2] {
     let kept = Shared::spin_up(loaded, 5).expect("legal");
     [4, 1].map(|places| {
         let mut shared = Shared::new(loaded, 5, places, Some(&kept)).expect("legal");
@@ -154,14 +154,14 @@ fn gantries_share_a_flume() {
     let loaded = load_text(&Registry::default(), "flume", &text).expect("legal");
     let [among, alone] = digests(&loaded, "crab0", |question| {
         let left = 0.1 * (question.number % 5) as f64;
-        Heard::Answer(Answer {
-            order: Some(Order::Head(HeadOrder {
+        Response::Answer(Reply {
+            order: Some(MotionOrder::Head(HeadOrder {
                 id: None,
                 target_m: Vector2::new(0.05 * question.number as f64, left),
                 speed_m_s: None,
                 behaviour: GantryBehaviour::StepUp,
             })),
-            ..Answer::default()
+            ..Reply::default()
         })
     });
     assert_eq!(among, alone);
@@ -215,7 +215,7 @@ fn a_run_that_panics_in_the_middle_of_a_tick_does_not_touch_the_others() {
             assert_eq!(shared.standing(1), Standing::Failed);
             assert!(shared.failure(1).is_some_and(|said| said.contains("ocean")));
             open.pop();
-            assert!(shared.answer(1, "auv0", Heard::Absent).is_none());
+            assert!(shared.answer(1, "auv0", Response::Absent).is_none());
         }
         digest(&mut shared, 0, open)
     };

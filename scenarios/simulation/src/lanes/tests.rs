@@ -5,7 +5,7 @@ use crate::error::AssembleError;
 use crate::extend::{Extend, Systems};
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, cost, load_text, template};
-use crate::trial::{Ended, Trial, Unwatched, Watch};
+use crate::trial::{RunEnd, Trial, Unwatched, Watch};
 use bevy_ecs::prelude::World;
 use world::clock::Clock;
 use world::ranges::{HeadingDeg, Positive};
@@ -42,17 +42,17 @@ fn panicking(stage: Stage) -> Loaded {
     })
 }
 
-fn alone(loaded: &Loaded) -> Ended {
+fn alone(loaded: &Loaded) -> RunEnd {
     let trial = Trial::assemble(loaded, 7).expect("it can be assembled");
     trial.finish_quietly()
 }
 
 /// What becomes of each run in lanes.
-fn in_lanes(all: &[&Loaded]) -> Vec<Result<Ended, String>> {
+fn in_lanes(all: &[&Loaded]) -> Vec<Result<RunEnd, String>> {
     watched(all, |_| Unwatched)
 }
 
-fn watched<W: Watch>(all: &[&Loaded], watch: impl Fn(usize) -> W) -> Vec<Result<Ended, String>> {
+fn watched<W: Watch>(all: &[&Loaded], watch: impl Fn(usize) -> W) -> Vec<Result<RunEnd, String>> {
     let mut ends: Vec<_> = all.iter().map(|_| None).collect();
     let mut lanes = Lanes::default();
     for (n, loaded) in all.iter().enumerate() {

@@ -14,7 +14,7 @@ pub use spun_up::{Mismatch, SpunUp};
 
 use bevy_ecs::prelude::Resource;
 use nalgebra::{Vector2, Vector3};
-use plumes::filaments::{Displaced, Plume};
+use plumes::filaments::{DisplacedConcentration, Plume};
 use plumes::flow::Water;
 use std::ops::{Deref, DerefMut};
 use world::area::{Area, Sides};
@@ -125,8 +125,8 @@ impl Ocean {
     /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the
     /// waves.
     #[must_use]
-    pub fn dye(&self, t_s: f64) -> Displaced<'_> {
-        Displaced::new(&self.plume, self, t_s)
+    pub fn dye(&self, t_s: f64) -> DisplacedConcentration<'_> {
+        DisplacedConcentration::new(&self.plume, self, t_s)
     }
 
     /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it

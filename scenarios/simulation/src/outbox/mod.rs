@@ -21,7 +21,7 @@ pub(crate) enum Frames {
 #[derive(Resource, Debug)]
 pub struct Outbox {
     /// The frame of this step while it is made; `None` in steps without a frame. Systems of
-    /// [`add_to_frame`](crate::apparatus::Systems::add_to_frame) write into it.
+    /// [`add_to_frame`](crate::machines::Systems::add_to_frame) write into it.
     pub open: Option<Frame>,
     /// The newest frame.
     pub(crate) frame: Option<Frame>,

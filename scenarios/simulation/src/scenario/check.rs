@@ -1,8 +1,8 @@
 //! Checks of what a scenario means. They find contradictions that reading alone cannot see; each has the field's path.
 
-use super::beside::Beside;
-use super::fault::Found;
 use super::fault::Severity;
+use super::fault::UnplacedFault;
+use super::folder_files::FolderFiles;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
     check_able, check_berth, check_faults, check_fitted, check_limits, check_noise, check_obstacles, check_resolved,
@@ -13,7 +13,7 @@ use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::camera::Optics;
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::{Craft, VehicleSpec};
+use robots::vehicles::{Vehicle, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
 use world::obstacles::Obstacles;
@@ -25,13 +25,13 @@ const BERTH_M: f64 = 1.0;
 
 /// Finds all errors and warnings. File paths in the scenario are relative to `base_dir`.
 #[must_use]
-pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
+pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<UnplacedFault> {
     check_within(scenario, base_dir, cost::limit())
 }
 
 /// The same with a limit for the memory of a run, bytes. What does not fit is not built for the checks either.
 #[must_use]
-pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<Found> {
+pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<UnplacedFault> {
     let area = scenario.area.build();
     let terrain = scenario.terrain.build(&area);
     let mut found = Vec::new();
@@ -54,12 +54,12 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             check_sources::releases(scenario, &area, &terrain, water, &mut found);
         }
         Some(Err(PlumeError::Invalid { field, problem })) => {
-            found.push(Found::error(field, problem));
+            found.push(UnplacedFault::error(field, problem));
         }
         None => {}
     }
     if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
-        found.push(Found::error(field, problem));
+        found.push(UnplacedFault::error(field, problem));
     }
     let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
     let solid = obstacles.without(&scenario.permeable);
@@ -77,7 +77,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         let limit_s = scenario.time.limit_s.get();
         check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
         if let Some(vehicle) = &vehicle {
-            let place = check_view::Place { area: &area, terrain: &terrain, obstacles: &obstacles };
+            let place = check_view::RobotSurroundings { area: &area, terrain: &terrain, obstacles: &obstacles };
             if fits {
                 check_view::view(i, robot, vehicle, &place, &mut found);
             }
@@ -105,7 +105,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         check_noise::probes(i, gantry, &mut found);
         if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
             let problem = format!("\"{}\" is already the name of robots[{robot}]", gantry.id.as_str());
-            found.push(Found::error(format!("gantries[{i}].id"), problem));
+            found.push(UnplacedFault::error(format!("gantries[{i}].id"), problem));
         }
     }
     added(scenario, &robot_ids, &gantry_ids, &mut found);
@@ -123,7 +123,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
 }
 
 /// The ids of machines of other crates.
-fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Vec<Found>) {
+fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Vec<UnplacedFault>) {
     let ids: Vec<&str> = scenario.apparatus.iter().map(|a| a.id()).collect();
     names("apparatus", &ids, found);
     twins("apparatus", &ids, found);
@@ -131,37 +131,44 @@ fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Ve
         for (list, others) in [("robots", robots), ("gantries", gantries)] {
             if let Some(twin) = others.iter().position(|other| other == id) {
                 let problem = format!("\"{id}\" is already the name of {list}[{twin}]");
-                found.push(Found::error(format!("apparatus[{i}].id"), problem));
+                found.push(UnplacedFault::error(format!("apparatus[{i}].id"), problem));
             }
         }
     }
 }
 
-fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
+fn slope(terrain: &TerrainSpec, found: &mut Vec<UnplacedFault>) {
     if let TerrainSpec::Slope(s) = terrain
         && s.shallow_m > s.deep_m
     {
         let (shallow, deep) = (s.shallow_m.get(), s.deep_m.get());
         found.push(
-            Found::error("terrain.shallow_m", format!("must be at most deep_m, {deep}, got {shallow}"))
+            UnplacedFault::error("terrain.shallow_m", format!("must be at most deep_m, {deep}, got {shallow}"))
                 .hint("the water gets shallower towards the shore; to turn the slope, change shoreward_heading_deg"),
         );
     }
 }
 
-fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles: &Obstacles, found: &mut Vec<Found>) {
+fn start(
+    i: usize,
+    robot: &RobotSpec,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+    found: &mut Vec<UnplacedFault>,
+) {
     let path = format!("robots[{i}].start");
     let (start, id) = (&robot.start, robot.id.as_str());
     if start.depth_m.is_some() == start.altitude_m.is_some() {
         let given = if start.depth_m.is_some() { "both are" } else { "neither is" };
-        found.push(Found::error(path, format!("give either depth_m or altitude_m; {given} given")));
+        found.push(UnplacedFault::error(path, format!("give either depth_m or altitude_m; {given} given")));
         return;
     }
     let p = start.p_W(terrain);
     let (distance, _) = area.edge_distance(p.xy());
     if distance < 0.0 {
         found.push(
-            Found::error(
+            UnplacedFault::error(
                 &path,
                 format!("robot \"{id}\" at east {} m, north {} m starts {:.1} m outside the area", p.x, p.y, -distance),
             )
@@ -170,7 +177,7 @@ fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles:
     }
     let depth = -terrain.bed_z(p.x, p.y);
     if -p.z > depth {
-        found.push(Found::error(
+        found.push(UnplacedFault::error(
             format!("{path}.depth_m"),
             format!(
                 "robot \"{id}\" starts {:.2} m under the bed; must be from 0 (the surface) to {depth:.2} \
@@ -180,7 +187,7 @@ fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles:
             ),
         ));
     } else if p.z > 0.0 {
-        found.push(Found::error(
+        found.push(UnplacedFault::error(
             format!("{path}.altitude_m"),
             format!(
                 "robot \"{id}\" starts {:.2} m above the surface; must be from 0 (the bed) to {depth:.2} \
@@ -194,7 +201,7 @@ fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles:
         let away = obstacle.distance(&p);
         if away < 0.0 {
             found.push(
-                Found::error(
+                UnplacedFault::error(
                     &path,
                     format!(
                         "robot \"{id}\" starts inside obstacle \"{}\", {:.2} m from its surface",
@@ -204,7 +211,7 @@ fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles:
                 .hint("move the start or the obstacle"),
             );
         } else if away < BERTH_M {
-            found.push(Found::warning(
+            found.push(UnplacedFault::warning(
                 &path,
                 format!("robot \"{id}\" starts {away:.2} m from obstacle \"{}\": its hull may touch it", obstacle.id),
             ));
@@ -213,7 +220,7 @@ fn start(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, obstacles:
 }
 
 /// Checks the robot's map and strategy by building them on its chart.
-fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) {
+fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<UnplacedFault>) {
     let path = format!("robots[{i}]");
     if let Some(map) = &robot.map
         && let Err(e) = map.build(&setting.area, Stream::new(0, "", ""))
@@ -226,16 +233,16 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) 
 }
 
 /// Checks hull and instruments by building them. Returns the vehicle if both can be built.
-fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<Found>) -> Option<Craft> {
+fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<UnplacedFault>) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
-    match Craft::load(&robot.vehicle, &Beside(base_dir)) {
+    match Vehicle::load(&robot.vehicle, &FolderFiles(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
                 let field = match vehicle {
-                    Craft::Described(_) => format!("{path}.vehicle"),
+                    Vehicle::Described(_) => format!("{path}.vehicle"),
                     _ => format!("{path}.vehicle.urdf"),
                 };
-                found.push(Found::warning(field, told.clone()));
+                found.push(UnplacedFault::warning(field, told.clone()));
             }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();
@@ -257,27 +264,27 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
 }
 
 /// An error of a part of a robot or gantry, with the path from the scenario's root.
-pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
+pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> UnplacedFault {
     match error {
-        RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
+        RobotError::File { .. } => UnplacedFault::error(format!("{robot}.{part}.urdf"), error.to_string())
             .hint("paths are relative to the scenario file"),
-        RobotError::Invalid { field, problem } => Found::error(within(robot, part, &field), problem),
+        RobotError::Invalid { field, problem } => UnplacedFault::error(within(robot, part, &field), problem),
     }
 }
 
 /// Checks names that become parts of keys and file names.
-pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<UnplacedFault>) {
     for (i, id) in ids.iter().enumerate() {
         if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
-            found.push(Found::error(format!("{list}[{i}].id"), problem));
+            found.push(UnplacedFault::error(format!("{list}[{i}].id"), problem));
         }
     }
 }
 
-pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<UnplacedFault>) {
     for (i, id) in ids.iter().enumerate() {
         if let Some(twin) = ids[..i].iter().position(|other| other == id) {
-            found.push(Found::error(
+            found.push(UnplacedFault::error(
                 format!("{list}[{i}].id"),
                 format!("\"{id}\" is already the name of {list}[{twin}]"),
             ));

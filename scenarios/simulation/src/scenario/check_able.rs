@@ -1,13 +1,13 @@
 //! Warns when a scenario asks for more than vehicle, strategy and plume can do.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::{RobotSpec, Scenario};
 use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
 use robots::actuate::AutopilotSpec;
 use robots::handoff::{TurnLimit, Vertical};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::limits::range::stream_m_s;
 use world::terrain::Terrain;
@@ -18,7 +18,7 @@ const SLACK: f64 = 1.05;
 const SHORT: f64 = 0.02;
 
 /// Speeds that the vehicle cannot reach. `water_m_s` is the speed of the water where it starts.
-pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Craft, water_m_s: f64, found: &mut Vec<Found>) {
+pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Vehicle, water_m_s: f64, found: &mut Vec<UnplacedFault>) {
     let top_m_s = vehicle.top_speed_m_s(robot.autopilot.rpm_limit.get());
     let limit_m_s = robot.guidance.water_speed_limit_m_s.get();
     let carried = vehicle.is_carried();
@@ -34,25 +34,25 @@ pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Craft, water_m_s: f6
     if carried && own_m_s < water_m_s && water_m_s <= stream_m_s.1 {
         let problem = format!("the water carries it away: {}", makes(own_m_s));
         let slow = if limit_m_s < top_m_s { "guidance.water_speed_limit_m_s" } else { "vehicle" };
-        found.push(Found::warning(format!("robots[{i}].{slow}"), problem));
+        found.push(UnplacedFault::warning(format!("robots[{i}].{slow}"), problem));
     }
     // What the water adds to the vehicle's own speed.
     let water_m_s = if carried { water_m_s } else { 0.0 };
     let start_m_s = robot.start.speed_m_s.get();
     if start_m_s > SLACK * (top_m_s + water_m_s) {
         let problem = format!("{start_m_s} m/s is more than the vehicle can do: {}", makes(top_m_s));
-        found.push(Found::warning(format!("robots[{i}].start.speed_m_s"), problem));
+        found.push(UnplacedFault::warning(format!("robots[{i}].start.speed_m_s"), problem));
     }
     for (field, m_s) in robot.strategy.wishes().speeds_m_s {
         if m_s > SLACK * (own_m_s + water_m_s) {
             let by = if limit_m_s < top_m_s { " (guidance.water_speed_limit_m_s)" } else { "" };
             let problem = format!("{m_s} m/s is more than the vehicle can do: {}{by}", makes(own_m_s));
-            found.push(Found::warning(format!("robots[{i}].strategy.{field}"), problem));
+            found.push(UnplacedFault::warning(format!("robots[{i}].strategy.{field}"), problem));
         }
     }
     if limit_m_s > SLACK * top_m_s {
         let problem = format!("{limit_m_s} m/s is never reached: at full power the vehicle makes {top_m_s:.2} m/s");
-        found.push(Found::warning(format!("robots[{i}].guidance.water_speed_limit_m_s"), problem));
+        found.push(UnplacedFault::warning(format!("robots[{i}].guidance.water_speed_limit_m_s"), problem));
     }
     if let Some(limits) = vehicle.limits() {
         let asked_deg_s = robot.guidance.heading_rate_deg_s.get();
@@ -66,7 +66,7 @@ pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Craft, water_m_s: f6
                  {most_deg_s:.1} degrees/s that it can"
             );
             let path = format!("robots[{i}].guidance.heading_rate_deg_s");
-            found.push(Found::warning(path, problem));
+            found.push(UnplacedFault::warning(path, problem));
         }
     }
 }
@@ -75,21 +75,21 @@ pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Craft, water_m_s: f6
 pub(super) fn capabilities(
     i: usize,
     robot: &RobotSpec,
-    vehicle: &Craft,
+    vehicle: &Vehicle,
     step_s: f64,
     water_m_s: f64,
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) {
-    if let Craft::Described(hull) = vehicle {
+    if let Vehicle::Described(hull) = vehicle {
         // It starts with that speed over ground, and is never much faster than it can go.
         let start_m_s = robot.start.speed_m_s.get() + water_m_s;
         let fastest_m_s = start_m_s.max(hull.capabilities().top_speed_m_s);
         if let Err(problem) = hull.follows(step_s, fastest_m_s) {
-            found.push(Found::error(format!("robots[{i}].vehicle"), problem));
+            found.push(UnplacedFault::error(format!("robots[{i}].vehicle"), problem));
         }
         if robot.autopilot != AutopilotSpec::default() {
             let problem = "is that of a REMUS, and has no effect on this vehicle: its own stands in its vehicle.ron";
-            found.push(Found::warning(format!("robots[{i}].autopilot"), problem));
+            found.push(UnplacedFault::warning(format!("robots[{i}].autopilot"), problem));
         }
     }
     let able = vehicle.capabilities(robot.guidance.tightest_turn_m());
@@ -104,13 +104,13 @@ pub(super) fn capabilities(
                 "{strategy} commands a height, and this vehicle stays on the surface: what it carries is as deep as its \
                  URDF says"
             );
-            found.push(Found::warning(path, problem));
+            found.push(UnplacedFault::warning(path, problem));
         } else if !able.holds_depth {
             let problem = format!(
                 "{strategy} commands a height, and this vehicle holds none: it goes up and down between the depths of \
                  its autopilot"
             );
-            found.push(Found::error(path, problem).hint("a strategy without a height, such as Route"));
+            found.push(UnplacedFault::error(path, problem).hint("a strategy without a height, such as Route"));
         }
     }
     for field in &wishes.waits {
@@ -120,7 +120,7 @@ pub(super) fn capabilities(
                 able.least_speed_m_s
             );
             found.push(
-                Found::error(format!("robots[{i}].strategy.{field}"), problem)
+                UnplacedFault::error(format!("robots[{i}].strategy.{field}"), problem)
                     .hint("`rheotaxis list vehicles` names vehicles that hover"),
             );
         }
@@ -129,13 +129,13 @@ pub(super) fn capabilities(
         if m_s < able.least_speed_m_s {
             let problem =
                 format!("{m_s} m/s is slower than this vehicle can be steered at, {:.2} m/s", able.least_speed_m_s);
-            found.push(Found::warning(format!("robots[{i}].strategy.{field}"), problem));
+            found.push(UnplacedFault::warning(format!("robots[{i}].strategy.{field}"), problem));
         }
     }
 }
 
 /// Whether the strategies can make as many declarations as the success rule asks for.
-pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
+pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
     let SuccessSpec::AllDeclared(wanted) = &scenario.success else {
         return;
     };
@@ -156,12 +156,18 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
             apart.len(),
             if most == 1 { "" } else { "s" }
         );
-        found.push(Found::warning("success", problem).hint("search in Subregions, or with more robots"));
+        found.push(UnplacedFault::warning("success", problem).hint("search in Subregions, or with more robots"));
     }
 }
 
 /// Whether the plume has spread when the mission starts.
-pub(super) fn plume(scenario: &Scenario, area: &Area, terrain: &Terrain, water: &Water, found: &mut Vec<Found>) {
+pub(super) fn plume(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    water: &Water,
+    found: &mut Vec<UnplacedFault>,
+) {
     let seeks = |r: &RobotSpec| r.strategy.searches();
     if !scenario.robots.iter().any(seeks) && scenario.gantries.is_empty() {
         return;
@@ -183,29 +189,29 @@ pub(super) fn plume(scenario: &Scenario, area: &Area, terrain: &Terrain, water: 
         } else {
             "give it time to develop".to_string()
         };
-        found.push(Found::warning("time.spin_up_s", problem).hint(hint));
+        found.push(UnplacedFault::warning("time.spin_up_s", problem).hint(hint));
     }
 }
 
 /// Whether the mission can succeed at all.
-pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
+pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
     let seeks = |r: &RobotSpec| r.strategy.searches();
     let declares = scenario.success.declared_within_m().is_some();
     if scenario.sources.is_empty() {
         if let Some(i) = scenario.robots.iter().position(seeks) {
-            found.push(Found::warning(
+            found.push(UnplacedFault::warning(
                 format!("robots[{i}].strategy"),
                 "the robot searches, but the scenario has no source to find",
             ));
         } else if declares {
-            found.push(Found::warning(
+            found.push(UnplacedFault::warning(
                 "success",
                 "it asks for a declaration near a source, but the scenario has no source",
             ));
         }
     }
     if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
-        found.push(Found::warning("success", "it asks for a declaration, but no robot searches"));
+        found.push(UnplacedFault::warning("success", "it asks for a declaration, but no robot searches"));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Checks that hulls have room where they start: away from each other and clear of the bed.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::RobotSpec;
 use world::terrain::Terrain;
 
@@ -10,7 +10,7 @@ const LENGTH_M: f64 = 1.6;
 const DIAMETER_M: f64 = 0.19;
 
 /// Finds starts that overlap each other or touch the bed.
-pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Found>) {
+pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<UnplacedFault>) {
     for (i, robot) in robots.iter().enumerate() {
         let path = format!("robots[{i}].start");
         let id = robot.id.as_str();
@@ -18,7 +18,7 @@ pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Fo
         let clear = p.z - terrain.bed_z(p.x, p.y);
         if (0.0..DIAMETER_M / 2.0).contains(&clear) {
             let problem = format!("robot \"{id}\" starts {clear:.2} m above the bed: its hull may touch it");
-            found.push(Found::warning(&path, problem));
+            found.push(UnplacedFault::warning(&path, problem));
         }
         // Robots of the same name are reported elsewhere.
         let others = robots[..i].iter().enumerate().filter(|(_, o)| o.id != robot.id);
@@ -28,10 +28,10 @@ pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Fo
             let problem = |so: &str| format!("robot \"{id}\" starts {apart:.2} m from robots[{k}], \"{other}\": {so}");
             if apart < DIAMETER_M {
                 let problem = problem("their hulls overlap");
-                found.push(Found::error(&path, problem).hint("move one of them"));
+                found.push(UnplacedFault::error(&path, problem).hint("move one of them"));
             } else if apart < LENGTH_M {
                 let problem = problem("their hulls may touch");
-                found.push(Found::warning(&path, problem));
+                found.push(UnplacedFault::warning(&path, problem));
             }
         }
     }

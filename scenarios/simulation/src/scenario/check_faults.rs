@@ -1,16 +1,22 @@
 //! Checks the faults of a robot: what they are of, and when.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::RobotSpec;
 use robots::faults::mistakes;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 
 /// Finds faults of what the robot has not, times that contradict each other, and faults after the mission. `vehicle`
 /// is missing if it cannot be built.
-pub(super) fn faults(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, limit_s: f64, found: &mut Vec<Found>) {
-    let drives = vehicle.map(Craft::named_drives);
+pub(super) fn faults(
+    i: usize,
+    robot: &RobotSpec,
+    vehicle: Option<&Vehicle>,
+    limit_s: f64,
+    found: &mut Vec<UnplacedFault>,
+) {
+    let drives = vehicle.map(Vehicle::named_drives);
     for mistake in mistakes(&robot.faults, &robot.sensors, drives.as_deref()) {
-        let told = Found::error(format!("robots[{i}].{}", mistake.field), mistake.problem);
+        let told = UnplacedFault::error(format!("robots[{i}].{}", mistake.field), mistake.problem);
         found.push(match mistake.help {
             Some(help) => told.hint(help),
             None => told,
@@ -21,7 +27,7 @@ pub(super) fn faults(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, limit
         if at_s >= limit_s {
             let problem = format!("begins at {at_s} s, when the mission is over: time.limit_s is {limit_s} s");
             let path = format!("robots[{i}].faults[{k}].at_s");
-            found.push(Found::warning(path, problem).hint("begin it earlier, or raise the limit"));
+            found.push(UnplacedFault::warning(path, problem).hint("begin it earlier, or raise the limit"));
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Checks that a robot carries the instruments that its strategy, its autopilot, its map and its estimator need.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::RobotSpec;
 use robots::handoff::{Capabilities, Need};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 
 /// Names each instrument that a part of the robot needs and the robot lacks. `vehicle` is missing if it cannot be
 /// built.
-pub(super) fn fitted(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, found: &mut Vec<Found>) {
+pub(super) fn fitted(i: usize, robot: &RobotSpec, vehicle: Option<&Vehicle>, found: &mut Vec<UnplacedFault>) {
     let able = vehicle.map(|v| v.capabilities(robot.guidance.tightest_turn_m()));
     let stands_for = |name: &str| robot.sensors.iter().any(|s| s.stands_for().contains(&name));
     let lacks = |name: &str| !robot.sensors.has(name) && !stands_for(name);
@@ -28,7 +28,7 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, vehicle: Option<&Craft>, found
         }
         let problem = format!("robot \"{}\" carries no {instrument}: it {}", robot.id.as_str(), why.join(", and "));
         let path = format!("robots[{i}].{}", need.field);
-        let told = if need.vital { Found::error(path, problem) } else { Found::warning(path, problem) };
+        let told = if need.vital { UnplacedFault::error(path, problem) } else { UnplacedFault::warning(path, problem) };
         let hint = format!("fit one, as in `sensors: ({instrument}: ())`");
         found.push(if need.field == "sensors" {
             told.hint(hint)

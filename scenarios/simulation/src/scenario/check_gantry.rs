@@ -1,8 +1,8 @@
 //! Checks of a gantry; each finding has the field's path.
 
-use super::beside::Beside;
 use super::check::robot_error;
-use super::fault::Found;
+use super::fault::UnplacedFault;
+use super::folder_files::FolderFiles;
 use super::gantry::GantryBlock;
 use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
@@ -18,11 +18,11 @@ pub(crate) fn check(
     terrain: &Terrain,
     step_s: f64,
     base_dir: &Path,
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) {
     let path = format!("gantries[{i}]");
     let fault = |part, error| robot_error(&path, part, error);
-    let gantry = match Gantry::load(&block.gantry, &Beside(base_dir)) {
+    let gantry = match Gantry::load(&block.gantry, &FolderFiles(base_dir)) {
         Ok(gantry) => gantry,
         Err(e) => return found.push(fault("gantry", e)),
     };
@@ -38,7 +38,7 @@ pub(crate) fn check(
             let (inside_m, _) = area.edge_distance(head);
             if inside_m < 0.0 {
                 found.push(
-                    Found::error(
+                    UnplacedFault::error(
                         format!("{path}.place"),
                         format!(
                             "gantry \"{}\" starts with its head at east {:.2} m, north {:.2} m, \

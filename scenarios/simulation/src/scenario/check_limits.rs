@@ -1,7 +1,7 @@
 //! Limits of what a computer can hold and of what exists at sea, for numbers that are legal one by one.
 
 use super::check::robot_error;
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::{RobotSpec, Scenario};
 use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
@@ -28,13 +28,13 @@ const NARROWEST_M: f64 = 1e-3;
 const FASTEST_M_S: f64 = 15.0;
 
 /// Checks area, depth, durations and number of filaments. Returns whether all are within their limits.
-pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) -> bool {
+pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<UnplacedFault>) -> bool {
     let before = found.len();
     let nodes: f64 = GridShape::fitting(area).nodes(area).iter().product();
     // A blockage checks its own cells.
     if scenario.water.blockage.is_none() && !(nodes <= MOST_NODES) {
         let problem = format!("its currents need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e} are allowed");
-        found.push(Found::error("area", problem).hint("make length_m and width_m smaller"));
+        found.push(UnplacedFault::error("area", problem).hint("make length_m and width_m smaller"));
     }
     let half = Vector2::new(area.length_m, area.width_m) / 2.0;
     let depth = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
@@ -44,15 +44,15 @@ pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: 
         .fold(0.0, f64::max);
     if !(depth <= DEEPEST_M) {
         let problem = format!("must be at most {DEEPEST_M} m deep, got {depth}");
-        found.push(Found::error("terrain", problem));
+        found.push(UnplacedFault::error("terrain", problem));
     } else if depth < SHALLOWEST_M {
         let problem = format!("must be at least {SHALLOWEST_M} m deep, got {}", shown(depth));
-        found.push(Found::error("terrain", problem));
+        found.push(UnplacedFault::error("terrain", problem));
     }
     for (path, extent) in [("area.length_m", area.length_m), ("area.width_m", area.width_m)] {
         if extent < NARROWEST_M {
             let problem = format!("must be at least {NARROWEST_M} m, got {}", shown(extent));
-            found.push(Found::error(path, problem));
+            found.push(UnplacedFault::error(path, problem));
         }
     }
     let t = &scenario.time;
@@ -60,7 +60,7 @@ pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: 
     for (path, s) in [("time.spin_up_s", spin_up_s), ("time.limit_s", limit_s)] {
         if !(s <= LONGEST_S) {
             let problem = format!("must be at most {LONGEST_S} s, got {s}");
-            found.push(Found::error(path, problem));
+            found.push(UnplacedFault::error(path, problem));
         }
     }
     for (i, source) in scenario.sources.iter().enumerate() {
@@ -70,14 +70,20 @@ pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: 
                 "releases {filaments:.1e} filaments in spin-up and mission; at most {MOST_FILAMENTS:.0e} are allowed"
             );
             let path = format!("sources[{i}].release");
-            found.push(Found::error(path, problem).hint("lower rate_hz, or shorten spin-up or mission"));
+            found.push(UnplacedFault::error(path, problem).hint("lower rate_hz, or shorten spin-up or mission"));
         }
     }
     found.len() == before
 }
 
 /// Checks the sizes of a robot's map and of its planner's space without building them.
-pub(super) fn bounds(i: usize, robot: &RobotSpec, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) -> bool {
+pub(super) fn bounds(
+    i: usize,
+    robot: &RobotSpec,
+    area: &Area,
+    terrain: &Terrain,
+    found: &mut Vec<UnplacedFault>,
+) -> bool {
     let path = format!("robots[{i}]");
     let setting = robot.setting(area, terrain, &Obstacles::default());
     let map = robot.map.as_ref().map_or(Ok(()), |map| map.check(area));
@@ -100,7 +106,7 @@ pub(super) fn sound(scenario: &Scenario, water: Water, area: &Area, terrain: &Te
 }
 
 /// Checks the speed of the water at the robots' starts and in the middle of the area.
-pub(super) fn speeds(scenario: &Scenario, water: &Water, terrain: &Terrain, found: &mut Vec<Found>) {
+pub(super) fn speeds(scenario: &Scenario, water: &Water, terrain: &Terrain, found: &mut Vec<UnplacedFault>) {
     let starts = scenario.robots.iter().map(|r| r.start.p_W(terrain));
     let middle = scenario.area.build().centre;
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
@@ -112,7 +118,7 @@ pub(super) fn speeds(scenario: &Scenario, water: &Water, terrain: &Terrain, foun
                 "together they flow at {speed} m/s at east {} m, north {} m; at most {FASTEST_M_S} m/s are allowed",
                 p.x, p.y
             );
-            found.push(Found::error("water.currents", problem));
+            found.push(UnplacedFault::error("water.currents", problem));
             return;
         }
     }

@@ -1,6 +1,6 @@
 //! Warns of chemical sensors whose noise alone crosses the threshold of detection.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::gantry::GantryBlock;
 use super::schema::RobotSpec;
 use robots::sense::FluorometerSpec;
@@ -11,7 +11,7 @@ use robots::track::{CrabSpec, ThresholdSpec};
 const SIGMAS: f64 = 3.0;
 
 /// A robot's fluorometer.
-pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
+pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<UnplacedFault>) {
     if let Some(spec) = robot.sensors.get::<FluorometerSpec>() {
         let above_v = spec.threshold.get() * spec.full_scale_v.get();
         let path = format!("robots[{i}].sensors.fluorometer.noise_v");
@@ -20,7 +20,7 @@ pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
 }
 
 /// A gantry's probes, against the least threshold of its tracker.
-pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<Found>) {
+pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<UnplacedFault>) {
     if let Some(crab) = block.tracker.get::<CrabSpec>() {
         let least_v = match &crab.threshold {
             ThresholdSpec::HalfMean(rule) => rule.floor_v.get(),
@@ -33,13 +33,13 @@ pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<Found>) {
 }
 
 /// Noise against a threshold that lies so far above the output in clean water.
-fn loud(path: String, noise_v: f64, above_v: f64, found: &mut Vec<Found>) {
+fn loud(path: String, noise_v: f64, above_v: f64, found: &mut Vec<UnplacedFault>) {
     if noise_v > 0.0 && above_v < SIGMAS * noise_v {
         let problem = format!(
             "noise of {noise_v} V is more than a third of what the threshold lies above clean water, {above_v:.4} V: it \
              detects where nothing is"
         );
-        found.push(Found::warning(path, problem).hint("lower the noise, or raise the threshold"));
+        found.push(UnplacedFault::warning(path, problem).hint("lower the noise, or raise the threshold"));
     }
 }
 

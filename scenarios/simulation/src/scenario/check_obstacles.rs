@@ -1,7 +1,7 @@
 //! Checks of obstacles: shapes that cannot be built, sizes and places that make no sense, and water without a way.
 
 use super::check::{names, twins, within};
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use plumes::error::PlumeError;
 use plumes::filaments::cut_off;
@@ -17,7 +17,7 @@ pub(super) fn obstacles(
     area: &Area,
     terrain: &Terrain,
     base_dir: &Path,
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) -> Obstacles {
     let specs = &scenario.obstacles;
     let ids: Vec<&str> = specs.iter().map(|o| o.id.as_str()).collect();
@@ -31,13 +31,13 @@ pub(super) fn obstacles(
                 "obstacle \"{}\" fills exactly the same space as obstacles[{twin}], \"{}\"",
                 spec.id, specs[twin].id
             );
-            found.push(Found::error(&path, problem).hint("remove one of them, or move it"));
+            found.push(UnplacedFault::error(&path, problem).hint("remove one of them, or move it"));
             continue;
         }
         match Obstacle::build(spec, terrain, base_dir) {
             Ok(obstacle) => {
                 for r in obstacle.remarks(spec, area, terrain) {
-                    let of = if r.wrong { Found::error } else { Found::warning };
+                    let of = if r.wrong { UnplacedFault::error } else { UnplacedFault::warning };
                     let at = if r.wrong { format!("{path}.shape") } else { path.clone() };
                     found.push(of(at, r.problem).hint(r.hint));
                 }
@@ -45,19 +45,19 @@ pub(super) fn obstacles(
             }
             Err(e @ WorldError::File { .. }) => {
                 found.push(
-                    Found::error(format!("{path}.shape.file"), e.to_string())
+                    UnplacedFault::error(format!("{path}.shape.file"), e.to_string())
                         .hint("paths are relative to the scenario file"),
                 );
             }
             Err(WorldError::Invalid { field, problem }) => {
-                found.push(Found::error(within(&path, "shape", &field), problem));
+                found.push(UnplacedFault::error(within(&path, "shape", &field), problem));
             }
         }
     }
     let built = Obstacles(built);
     if !built.leave_water(area, terrain) {
         found.push(
-            Found::error("obstacles", "they fill the whole area: there is no open water in it")
+            UnplacedFault::error("obstacles", "they fill the whole area: there is no open water in it")
                 .hint("make them smaller, or the area larger"),
         );
     }
@@ -65,11 +65,11 @@ pub(super) fn obstacles(
 }
 
 /// Checks that a list of ids names obstacles of the scenario.
-pub(super) fn known(list: &str, ids: &[String], obstacles: &[ObstacleSpec], found: &mut Vec<Found>) {
+pub(super) fn known(list: &str, ids: &[String], obstacles: &[ObstacleSpec], found: &mut Vec<UnplacedFault>) {
     for (k, id) in ids.iter().enumerate() {
         if !obstacles.iter().any(|o| o.id == *id) {
             let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
-            found.push(Found::error(
+            found.push(UnplacedFault::error(
                 format!("{list}[{k}]"),
                 format!("the scenario has no obstacle \"{id}\"; it has {known:?}"),
             ));
@@ -83,7 +83,7 @@ pub(super) fn blockage(
     area: &Area,
     terrain: &Terrain,
     obstacles: &Obstacles,
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) {
     let Some(spec) = &scenario.water.blockage else {
         return;
@@ -97,7 +97,7 @@ pub(super) fn blockage(
                 let [thick_m, long_m] = o.plan_m();
                 if thick_m < cell_m && long_m > 2.0 * cell_m {
                     found.push(
-                        Found::warning(
+                        UnplacedFault::warning(
                             "water.blockage.cell_m",
                             format!(
                                 "obstacle \"{}\" is {thick_m:.2} m thick, less than a cell of {cell_m} m: water flows \
@@ -111,7 +111,7 @@ pub(super) fn blockage(
             }
             for o in thin.iter().filter_map(|n| obstacles.0.get(*n)) {
                 found.push(
-                    Found::warning(
+                    UnplacedFault::warning(
                         "water.blockage.cell_m",
                         format!(
                             "obstacle \"{}\" lies between the centres of the cells: the water does not feel it",
@@ -123,13 +123,13 @@ pub(super) fn blockage(
             }
         }
         Err(PlumeError::Invalid { field, problem }) => {
-            found.push(Found::error(field, problem));
+            found.push(UnplacedFault::error(field, problem));
             return;
         }
     }
     let dry = cut_off(&scenario.sources, &scenario.water, area, terrain, obstacles);
     for PlumeError::Invalid { field, problem } in dry.into_iter().flatten() {
-        found.push(Found::error(field, problem));
+        found.push(UnplacedFault::error(field, problem));
     }
 }
 

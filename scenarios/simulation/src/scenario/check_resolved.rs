@@ -1,6 +1,6 @@
 //! Tells of currents that change over less than the plume's grid and its renewals can show.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use plumes::flow::GridShape;
 use std::f64::consts::LN_10;
@@ -21,7 +21,7 @@ fn about(v: f64) -> String {
 
 /// Finds internal waves and interfaces that are finer than the grid on which the plume sees the water, or faster than
 /// it is renewed. The hull is in the exact water, so there dye and hull would move apart.
-pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
+pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<UnplacedFault>) {
     if scenario.sources.is_empty() {
         return;
     }
@@ -49,7 +49,7 @@ pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, foun
                 GridShape::CELLS_OF_WAVE,
                 about(shape.cell_m),
             );
-            found.push(Found::warning(&path, problem));
+            found.push(UnplacedFault::warning(&path, problem));
         }
         let longest_s = scales.shortest_s / GridShape::CELLS_OF_WAVE;
         if flow_s > longest_s {
@@ -60,7 +60,7 @@ pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, foun
                 about(scales.shortest_s),
                 about(longest_s),
             );
-            found.push(Found::warning("time.flow_period_s", problem));
+            found.push(UnplacedFault::warning("time.flow_period_s", problem));
         }
         for (k, face) in scales.interfaces.iter().enumerate().filter(|(_, f)| f.depth_m < depth_m) {
             let gap_m = shape.spacing_m(depth_m - face.depth_m, depth_m);
@@ -71,7 +71,7 @@ pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, foun
                     about(gap_m),
                     digits(gap_m, f64::ceil),
                 );
-                found.push(Found::warning(format!("{path}.interfaces[{k}].thickness_m"), problem));
+                found.push(UnplacedFault::warning(format!("{path}.interfaces[{k}].thickness_m"), problem));
             }
         }
     }

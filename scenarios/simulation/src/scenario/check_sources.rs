@@ -1,7 +1,7 @@
 //! Checks of the sources: where they are, what they are called, and what they release.
 
 use super::check::{names, twins};
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use plumes::error::PlumeError;
 use plumes::flow::Water;
@@ -12,7 +12,13 @@ use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// What is released into the water, if the sources have places in it.
-pub(super) fn releases(scenario: &Scenario, area: &Area, terrain: &Terrain, water: &Water, found: &mut Vec<Found>) {
+pub(super) fn releases(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    water: &Water,
+    found: &mut Vec<UnplacedFault>,
+) {
     let placed = release::place(&scenario.sources, area, terrain).unwrap_or_default();
     for (n, source) in placed.iter().enumerate() {
         let curve = source.release.curve(n, water.density(&source.p_W, 0.0));
@@ -22,7 +28,7 @@ pub(super) fn releases(scenario: &Scenario, area: &Area, terrain: &Terrain, wate
             Err(problem) => Some(problem),
         };
         if let Some(PlumeError::Invalid { field, problem }) = problem {
-            found.push(Found::error(field, problem));
+            found.push(UnplacedFault::error(field, problem));
         }
     }
 }
@@ -33,10 +39,10 @@ pub(super) fn sources(
     area: &Area,
     terrain: &Terrain,
     obstacles: &Obstacles,
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) {
     for PlumeError::Invalid { field, problem } in release::misplaced(&scenario.sources, area, terrain, obstacles) {
-        found.push(Found::error(field, problem));
+        found.push(UnplacedFault::error(field, problem));
     }
     let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
     names("sources", &ids, found);

@@ -1,6 +1,6 @@
 //! Warns of steps of the plume that are too long for the mixing of the water.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::{Scenario, TimeSpec};
 use plumes::filaments::{EVEN, SharpestMixing, Uneven};
 use plumes::flow::{Water, WaterSpec};
@@ -11,7 +11,7 @@ use world::terrain::Terrain;
 
 /// What the answer follows from.
 #[derive(PartialEq)]
-struct Asked {
+struct StepInputs {
     water: WaterSpec,
     time: TimeSpec,
     area: Area,
@@ -21,17 +21,27 @@ struct Asked {
 thread_local! {
     /// The latest answer. The arms of a campaign differ in their searchers and have the same water and steps; to work it
     /// out takes a twentieth of a lane at Duck.
-    static LATEST: RefCell<Option<(Asked, Vec<Found>)>> = const { RefCell::new(None) };
+    static LATEST: RefCell<Option<(StepInputs, Vec<UnplacedFault>)>> = const { RefCell::new(None) };
 }
 
 /// Finds steps so long that evenly mixed dye would gather in the layers and thin out at the interfaces. The water is
 /// checked before.
-pub(super) fn steps(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
+pub(super) fn steps(
+    scenario: &Scenario,
+    water: &Water,
+    area: &Area,
+    terrain: &Terrain,
+    found: &mut Vec<UnplacedFault>,
+) {
     if scenario.sources.is_empty() {
         return;
     }
-    let asked =
-        Asked { water: scenario.water.clone(), time: scenario.time.clone(), area: *area, terrain: terrain.clone() };
+    let asked = StepInputs {
+        water: scenario.water.clone(),
+        time: scenario.time.clone(),
+        area: *area,
+        terrain: terrain.clone(),
+    };
     LATEST.with_borrow_mut(|latest| {
         if latest.as_ref().is_none_or(|(of, _)| *of != asked) {
             *latest = Some((asked, worked_out(scenario, water, area, terrain)));
@@ -40,7 +50,7 @@ pub(super) fn steps(scenario: &Scenario, water: &Water, area: &Area, terrain: &T
     });
 }
 
-fn worked_out(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain) -> Vec<Found> {
+fn worked_out(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain) -> Vec<UnplacedFault> {
     let mut found = Vec::new();
     let t = &scenario.time;
     let (spin_up_s, limit_s, step_s) = (t.spin_up_s.get(), t.limit_s.get(), t.step_s.get());
@@ -78,7 +88,7 @@ fn below(s: f64) -> f64 {
     (s * scale + 1e-6).floor() / scale
 }
 
-fn told(field: &str, dt_s: f64, step_s: f64, lasts_s: f64, uneven: &Uneven, longest_s: Option<f64>) -> Found {
+fn told(field: &str, dt_s: f64, step_s: f64, lasts_s: f64, uneven: &Uneven, longest_s: Option<f64>) -> UnplacedFault {
     let percent = |part: f64| (100.0 * part - 1e-9).ceil();
     let cure = match longest_s {
         Some(s) => format!("at most {s} s keeps it within {} %", percent(EVEN)),
@@ -98,7 +108,7 @@ fn told(field: &str, dt_s: f64, step_s: f64, lasts_s: f64, uneven: &Uneven, long
         }
         None => gentler.to_string(),
     };
-    Found::warning(format!("time.{field}"), problem).hint(hint)
+    UnplacedFault::warning(format!("time.{field}"), problem).hint(hint)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Checks steps and periods of a scenario.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use robots::vehicles::VehicleSpec;
 
@@ -12,7 +12,7 @@ const STEP_OF_DYNAMICS_S: f64 = 0.1;
 const STEP_OF_KINEMATICS_S: f64 = 1.0;
 
 /// Finds steps that the vehicles cannot take, and periods shorter than a step.
-pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
+pub(super) fn times(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
     let t = &scenario.time;
     let step = t.step_s.get();
     let robots = &scenario.robots;
@@ -25,7 +25,7 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
     };
     if !(SHORTEST_STEP_S..=longest).contains(&step) {
         let range = format!("must be from {SHORTEST_STEP_S} to {longest} s, got {step}");
-        let fault = Found::error("time.step_s", range);
+        let fault = UnplacedFault::error("time.step_s", range);
         found.push(match dynamic {
             Some(id) if step > longest && step <= STEP_OF_KINEMATICS_S => fault.hint(format!(
                 "steps of up to {STEP_OF_KINEMATICS_S} s need kinematic vehicles, and \"{}\" has dynamics",
@@ -43,13 +43,16 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
         ("record.plume_period_s", r.plume_period_s),
     ] {
         if period < t.step_s {
-            found.push(Found::error(path, format!("must be at least time.step_s, {step}, got {}", period.get())));
+            found.push(UnplacedFault::error(
+                path,
+                format!("must be at least time.step_s, {step}, got {}", period.get()),
+            ));
         }
     }
     let flow_s = t.flow_period_s.get();
     if flow_s > 0.0 && flow_s < step {
         let problem = format!("must be 0 (at each step of the plume) or at least time.step_s, {step}, got {flow_s}");
-        found.push(Found::error("time.flow_period_s", problem));
+        found.push(UnplacedFault::error("time.flow_period_s", problem));
     }
     let robots = scenario.robots.iter().map(|r| r.strategy.consulted());
     let gantries = scenario.gantries.iter().map(|g| g.tracker.consulted());
@@ -58,7 +61,7 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
     for (path, period_s) in asked.filter_map(|(path, c)| Some((path, c?.period_s))) {
         if period_s < step {
             let problem = format!("must be at least time.step_s, {step}, got {period_s}");
-            found.push(Found::error(format!("{path}.period_s"), problem));
+            found.push(UnplacedFault::error(format!("{path}.period_s"), problem));
         }
     }
 }

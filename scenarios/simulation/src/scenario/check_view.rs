@@ -1,12 +1,12 @@
 //! Checks that a vehicle's instruments reach bed and water where it starts and where it is sent, and that these places
 //! are in the water.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::RobotSpec;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::Vertical;
 use robots::sense::{AdcpSpec, AltimeterSpec, DvlSpec, Look, RangingSpec, SensorsSpec};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::math;
 use world::obstacles::Obstacles;
@@ -16,7 +16,7 @@ use world::terrain::Terrain;
 const ON_THE_BED_M: f64 = 0.1;
 
 /// The surroundings of a robot.
-pub(super) struct Place<'a> {
+pub(super) struct RobotSurroundings<'a> {
     pub area: &'a Area,
     pub terrain: &'a Terrain,
     pub obstacles: &'a Obstacles,
@@ -65,7 +65,7 @@ impl Sounder {
 }
 
 /// The altimeter, the Doppler log and the current profiler, if they are fitted.
-fn sounders(sensors: &SensorsSpec, vehicle: &Craft) -> Vec<Sounder> {
+fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
     let above_m = |name: &str| vehicle.mount(name).map_or(0.0, |pose| pose.p_WB.z);
     let mut all = Vec::new();
     all.extend(sensors.get::<AltimeterSpec>().map(|s| Sounder {
@@ -99,7 +99,13 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Craft) -> Vec<Sounder> {
 }
 
 /// Finds heights at which an instrument is out of range, and heights outside the water.
-pub(super) fn view(i: usize, robot: &RobotSpec, vehicle: &Craft, place: &Place, found: &mut Vec<Found>) {
+pub(super) fn view(
+    i: usize,
+    robot: &RobotSpec,
+    vehicle: &Vehicle,
+    place: &RobotSurroundings,
+    found: &mut Vec<UnplacedFault>,
+) {
     let depths_m = depths(place);
     let (least_m, most_m) = depths_m;
     let verticals = robot.strategy.wishes().verticals;
@@ -107,7 +113,7 @@ pub(super) fn view(i: usize, robot: &RobotSpec, vehicle: &Craft, place: &Place, 
     for (field, vertical) in &verticals {
         let path = format!("robots[{i}].strategy.{field}");
         if let Some(problem) = nowhere(*vertical, least_m, most_m) {
-            found.push(Found::warning(path, problem).hint("keep it between bed and surface"));
+            found.push(UnplacedFault::warning(path, problem).hint("keep it between bed and surface"));
             continue;
         }
         for s in &sounders {
@@ -124,7 +130,7 @@ pub(super) fn view(i: usize, robot: &RobotSpec, vehicle: &Craft, place: &Place, 
                 let part = if blind.iter().all(Option::is_some) { "" } else { "in a part of the area " };
                 let problem = format!("{part}this keeps the vehicle {why}");
                 let hint = format!("choose another height, or change {limit} of sensors.{}", s.name);
-                found.push(Found::warning(&path, problem).hint(hint));
+                found.push(UnplacedFault::warning(&path, problem).hint(hint));
             }
         }
     }
@@ -136,10 +142,10 @@ fn start(
     i: usize,
     robot: &RobotSpec,
     sounders: &[Sounder],
-    place: &Place,
+    place: &RobotSurroundings,
     verticals: &[(String, Vertical)],
     (least_m, most_m): (f64, f64),
-    found: &mut Vec<Found>,
+    found: &mut Vec<UnplacedFault>,
 ) {
     let p = robot.start.p_W(place.terrain);
     let path = format!("robots[{i}].start");
@@ -164,7 +170,7 @@ fn start(
         if let Some((limit, why)) = s.blind(range_m) {
             let problem = format!("robot \"{id}\" starts {why}");
             let hint = format!("start it elsewhere, or give sensors.{} another {limit}", s.name);
-            found.push(Found::warning(&path, problem).hint(hint));
+            found.push(UnplacedFault::warning(&path, problem).hint(hint));
         }
     }
     if let Some(ranging) = robot.sensors.get::<RangingSpec>() {
@@ -178,7 +184,7 @@ fn start(
                 "robot \"{id}\" starts {m:.2} m in front of an obstacle, nearer than the {least_m} m that its ranging \
                  needs: it does not see it"
             );
-            found.push(Found::warning(&path, problem).hint("start it elsewhere, or turn it away"));
+            found.push(UnplacedFault::warning(&path, problem).hint("start it elsewhere, or turn it away"));
         }
     }
 }
@@ -212,7 +218,7 @@ fn nowhere(vertical: Vertical, least_m: f64, most_m: f64) -> Option<String> {
 }
 
 /// Least and greatest depth of the area, m. The bed is a plane, so both are at corners.
-fn depths(place: &Place) -> (f64, f64) {
+fn depths(place: &RobotSurroundings) -> (f64, f64) {
     let half = Vector2::new(place.area.length_m, place.area.width_m) / 2.0;
     let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
         .map(|(a, b)| place.area.world(Vector2::new(a * half.x, b * half.y)))

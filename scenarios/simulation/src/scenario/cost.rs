@@ -1,6 +1,6 @@
 //! Estimates what a run takes, part by part, before anything is built.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use std::sync::atomic::{AtomicU64, Ordering};
 use world::cost::{Cost, Part, Times, memory};
@@ -154,7 +154,7 @@ pub fn greatest(cost: &Cost) -> Vec<String> {
 }
 
 /// Reports memory beyond `limit` as an error. Returns whether the scenario may be built.
-pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
+pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<UnplacedFault>) -> bool {
     if !cost.fits(limit) {
         let Some(part) = cost.largest() else {
             return false;
@@ -173,19 +173,19 @@ pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
             memory(cost.bytes()),
             memory(limit)
         );
-        found.push(Found::error(&part.path, problem).hint("or allow more memory, as in `--memory 16G`"));
+        found.push(UnplacedFault::error(&part.path, problem).hint("or allow more memory, as in `--memory 16G`"));
         return false;
     }
     true
 }
 
 /// Warns of a run that takes hours.
-pub(super) fn patience(cost: &Cost, found: &mut Vec<Found>) {
+pub(super) fn patience(cost: &Cost, found: &mut Vec<UnplacedFault>) {
     // This form also finds what is not a number.
     if !(cost.seconds() <= LONG_S)
         && let Some(part) = cost.slowest()
     {
         let problem = format!("the run will take hours, most of them for {}", part.what);
-        found.push(Found::warning(&part.path, problem));
+        found.push(UnplacedFault::warning(&part.path, problem));
     }
 }

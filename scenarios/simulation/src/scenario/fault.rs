@@ -90,7 +90,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
+    pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: UnplacedFault) -> Self {
         let before = &text[..span.start];
         // The mark ends with its line: a longer one would hide what matters.
         let line_end = text[span.start..].find('\n').map_or(text.len(), |i| span.start + i);
@@ -115,7 +115,7 @@ impl Fault {
 
     /// A fault at the place of its path.
     #[must_use]
-    pub fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
+    pub fn located(name: &str, text: &str, outline: &Outline, found: UnplacedFault) -> Self {
         let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
         Self::new(name, text, span, found)
     }
@@ -129,7 +129,7 @@ impl Fault {
 
 /// A mistake before its place is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct UnplacedFault {
     /// Path of the field, such as `robots[1].start`; empty for the whole.
     pub path: String,
     /// What is wrong: the value and the legal range.
@@ -141,7 +141,7 @@ pub struct Found {
     label: &'static str,
 }
 
-impl Found {
+impl UnplacedFault {
     /// A mistake that stops a run.
     #[must_use]
     pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
@@ -169,7 +169,7 @@ impl Found {
     }
 }
 
-impl std::fmt::Display for Found {
+impl std::fmt::Display for UnplacedFault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&headline(&self.path, &self.message))
     }

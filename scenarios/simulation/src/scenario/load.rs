@@ -3,7 +3,7 @@
 use super::catalog;
 use super::check::check;
 use super::fault::Severity;
-use super::fault::{Fault, Found, ScenarioError};
+use super::fault::{Fault, ScenarioError, UnplacedFault};
 use super::outline::Outline;
 use super::reader;
 use super::schema::Scenario;
@@ -200,7 +200,11 @@ pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
 }
 
 /// Reads a scenario. If it has mistakes of form, `meaning` adds those of meaning that do not follow from them.
-fn read_whole(name: &str, text: &str, meaning: &dyn Fn(&Scenario) -> Vec<Found>) -> Result<Scenario, ScenarioError> {
+fn read_whole(
+    name: &str,
+    text: &str,
+    meaning: &dyn Fn(&Scenario) -> Vec<UnplacedFault>,
+) -> Result<Scenario, ScenarioError> {
     let outline = Outline::of(text);
     if outline.nodes.is_empty() {
         return Err(ScenarioError::File {

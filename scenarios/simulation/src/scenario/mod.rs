@@ -1,6 +1,5 @@
 //! Scenario files: schema, reading and checks. Errors name the place in the file.
 
-mod beside;
 mod catalog;
 mod change;
 mod check;
@@ -19,6 +18,7 @@ mod check_times;
 mod check_view;
 pub mod cost;
 mod fault;
+mod folder_files;
 mod gantry;
 mod load;
 mod outline;
@@ -30,11 +30,11 @@ mod told;
 mod unread;
 mod version;
 
-pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
 pub use change::put;
 pub use check::{check, check_within};
-pub use fault::{Fault, Found, ScenarioError, Severity};
+pub use fault::{Fault, ScenarioError, Severity, UnplacedFault};
+pub use folder_files::FolderFiles;
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
 pub use load::{Loaded, hash, load, load_text, load_text_in, load_with, parse, parse_with};
 pub use outline::{Node, Outline};

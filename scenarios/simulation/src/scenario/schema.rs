@@ -3,7 +3,7 @@
 use super::gantry::GantryBlock;
 use super::success::SuccessSpec;
 use super::version::Version;
-use crate::apparatus::ApparatusSpec;
+use crate::machines::ApparatusSpec;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;

@@ -1,17 +1,17 @@
 //! The message of the crate ron, for the rare text that ron refuses and our reader of mistakes accepts.
 
-use super::fault::Found;
+use super::fault::UnplacedFault;
 use super::outline::Outline;
 use ron::error::{Position, SpannedError};
 use std::ops::Range;
 
 /// Its place and the finding.
-pub(super) fn unread(text: &str, error: &SpannedError) -> (Range<usize>, Found) {
+pub(super) fn unread(text: &str, error: &SpannedError) -> (Range<usize>, UnplacedFault) {
     let span = offset(text, error.span.start)..offset(text, error.span.end);
     let outline = Outline::of(text);
     let path = outline.at(span.start).map_or("", |n| n.path.as_str());
     let message = lower(&error.code.to_string());
-    (trimmed(text, span), Found::error(path, message))
+    (trimmed(text, span), UnplacedFault::error(path, message))
 }
 
 /// Byte offset of a line and column (in characters).

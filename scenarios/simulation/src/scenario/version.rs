@@ -3,7 +3,7 @@
 //! Version 2 calls the field of the head that names the paper `citation`; version 1 called it `source`, which is too
 //! easily taken for `sources`. Nothing else differs. In memory every scenario is one of the newest version.
 
-use super::fault::{Fault, Found, ScenarioError};
+use super::fault::{Fault, ScenarioError, UnplacedFault};
 use super::outline::{Node, Outline};
 use super::reader::Renamed;
 use schemars::JsonSchema;
@@ -59,13 +59,13 @@ pub(super) fn version_first(name: &str, text: &str, outline: &Outline) -> Result
     Ok(citation(number.unwrap_or(VERSION)))
 }
 
-fn not_read(text: &str, first: &Node) -> Found {
+fn not_read(text: &str, first: &Node) -> UnplacedFault {
     if first.path == "version" {
         let hint = "use the program that wrote the file, or start from `rheotaxis init`";
-        Found::error("version", unknown(&text[first.value.clone()])).hint(hint)
+        UnplacedFault::error("version", unknown(&text[first.value.clone()])).hint(hint)
     } else {
         let problem = format!("the first field must be `version: {VERSION}`");
-        Found::error("version", problem).hint(format!("the file begins with `{}`", first.path))
+        UnplacedFault::error("version", problem).hint(format!("the file begins with `{}`", first.path))
     }
 }
 

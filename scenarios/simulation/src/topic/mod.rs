@@ -9,7 +9,7 @@
 mod publish;
 pub mod run;
 
-pub use publish::{Published, Topics};
+pub use publish::{TopicValue, Topics};
 
 use robots::handoff::{Behaviour, GantryBehaviour};
 use serde_json::{Map, Value, json};

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A value of a topic.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Published {
+pub struct TopicValue {
     /// The topic.
     pub topic: Topic,
     /// The key below `rheotaxis/<run>/`: that of the topic with an id in the place of `<id>`.
@@ -25,7 +25,7 @@ pub struct Published {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Topics {
     declared: Vec<Topic>,
-    newest: BTreeMap<String, Published>,
+    newest: BTreeMap<String, TopicValue>,
     /// Keys of the values that are in no frame yet.
     fresh: BTreeSet<String>,
 }
@@ -61,17 +61,17 @@ impl Topics {
         );
         let key = topic.key.replace("<id>", id);
         self.fresh.insert(key.clone());
-        let published = Published { topic: *topic, key: key.clone(), t_s, value };
+        let published = TopicValue { topic: *topic, key: key.clone(), t_s, value };
         self.newest.insert(key, published);
     }
 
     /// The newest value of every key, sorted by key.
-    pub fn newest(&self) -> impl Iterator<Item = &Published> {
+    pub fn newest(&self) -> impl Iterator<Item = &TopicValue> {
         self.newest.values()
     }
 
     /// The values that were published since it was last called.
-    pub(crate) fn take_fresh(&mut self) -> Vec<Published> {
+    pub(crate) fn take_fresh(&mut self) -> Vec<TopicValue> {
         let fresh = std::mem::take(&mut self.fresh);
         let of = |key: String| self.newest[&key].clone();
         fresh.into_iter().map(of).collect()

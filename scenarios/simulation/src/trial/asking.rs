@@ -1,10 +1,10 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
 use super::{RunPhase, Trial, Watch};
-use crate::control::consulting::{Open, put_in, take_questions, truth_of};
-use crate::control::{Consultation, Controller, Heard, Question};
+use crate::control::exchanges::{OpenQuestion, put_in, take_questions, truth_of};
+use crate::control::{Controller, Exchange, Question, Response};
 use crate::scenario::Scenario;
-use robots::handoff::Consulted;
+use robots::handoff::ExchangeTiming;
 use world::frames::Truth;
 
 /// A robot that nobody outside this program can control.
@@ -23,7 +23,7 @@ fn those(outside: &[String]) -> String {
 
 /// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
 #[must_use]
-pub fn consulted(scenario: &Scenario) -> Vec<(String, Consulted)> {
+pub fn consulted(scenario: &Scenario) -> Vec<(String, ExchangeTiming)> {
     let robots = scenario.robots.iter();
     let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.consulted()?)));
     let gantries = scenario.gantries.iter();
@@ -44,7 +44,7 @@ impl Trial {
     pub(crate) fn search(&mut self, watch: &mut dyn Watch) {
         self.observe(watch);
         for question in self.progress.open.take().unwrap_or_default() {
-            let told = put_in(&mut self.simulation.world, question, Heard::Absent);
+            let told = put_in(&mut self.simulation.world, question, Response::Absent);
             watch.consulted(&told);
         }
         self.simulation.act();
@@ -65,9 +65,9 @@ impl Trial {
             };
             let heard = controller.answer(&question);
             let world = &mut self.simulation.world;
-            watch.consulted(&put_in(world, Open::from(&question), heard));
+            watch.consulted(&put_in(world, OpenQuestion::from(&question), heard));
         }
-        self.progress.open = Some(open.iter().map(Open::from).collect());
+        self.progress.open = Some(open.iter().map(OpenQuestion::from).collect());
         open
     }
 
@@ -122,7 +122,7 @@ impl Trial {
 
     /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
     /// robot cannot carry out counts as nonsense. `None` if it has no open question.
-    pub fn answer(&mut self, robot: &str, heard: Heard, watch: &mut dyn Watch) -> Option<Consultation> {
+    pub fn answer(&mut self, robot: &str, heard: Response, watch: &mut dyn Watch) -> Option<Exchange> {
         let open = self.progress.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
         let question = open.remove(n);

@@ -5,12 +5,12 @@ use crate::lanes::caught;
 use crate::scenario::{Loaded, Severity, check, load_text, template};
 use nalgebra::Vector2;
 use plumes::error::PlumeError;
-use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
+use plumes::flow::{CurrentParams, CurrentSlot, Currents, PlaneCurrent, Water};
 use robots::error::RobotError;
 use robots::handoff::{
     Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings, Setting, Vertical,
 };
-use robots::sense::{Around, Fitting, Sensor, SensorParams, Sensors};
+use robots::sense::{Fitting, Sensor, SensorParams, Sensors, Surroundings};
 use robots::strategy::{Strategies, Strategy, StrategyParams};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -94,7 +94,7 @@ impl SensorParams for Mute {
 }
 
 impl Sensor for Mute {
-    fn sense(&mut self, _: &Around, readings: &mut Readings) {
+    fn sense(&mut self, _: &Surroundings, readings: &mut Readings) {
         readings.depth = Some(DepthReading { depth_m: f64::NAN });
     }
 }
@@ -111,7 +111,7 @@ impl Listed for Burst {
 }
 
 impl CurrentParams for Burst {
-    fn join(&self, water: &mut Water, _: &Place) -> Result<(), PlumeError> {
+    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
         water.add(Arc::new(self.clone()));
         Ok(())
     }

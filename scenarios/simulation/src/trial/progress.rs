@@ -1,6 +1,6 @@
 //! How far a run has come, beside the state of its world.
 
-use crate::control::consulting::Open;
+use crate::control::exchanges::OpenQuestion;
 use crate::frame::Frame;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub(crate) struct Progress {
     /// Time of the ocean at which the mission began, s.
     pub(super) began_s: f64,
     /// The first part of a tick is done, and these questions are not answered yet.
-    pub(super) open: Option<Vec<Open>>,
+    pub(super) open: Option<Vec<OpenQuestion>>,
 }
 
 impl Progress {

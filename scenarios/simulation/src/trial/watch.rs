@@ -1,6 +1,6 @@
 //! What a run tells those who look at it.
 
-use crate::control::Consultation;
+use crate::control::Exchange;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub trait Watch {
     /// The flow may be looked at, as often as the plume; once only if it is steady. It is made when it is asked for.
     fn water(&mut self, _look: &dyn Fn() -> WaterFrame) {}
     /// A searcher outside this program was asked, and this came of it.
-    fn consulted(&mut self, _told: &Consultation) {}
+    fn consulted(&mut self, _told: &Exchange) {}
     /// A new picture by a robot's camera.
     fn picture(&mut self, _picture: &PictureFrame) {}
     /// A new ping of a robot's sidescan sonar.

@@ -6,9 +6,9 @@
 #![allow(clippy::print_stdout, clippy::disallowed_methods, reason = "it measures and speaks")]
 
 use nalgebra::{Matrix3, Vector3};
-use rheotaxis::scenario::Beside;
+use rheotaxis::scenario::FolderFiles;
 use robots::handoff::{Actuation, ActuatorCommand, DriveCommand};
-use robots::vehicles::{Craft, RemusSpec, SHIPPED, VehicleSpec};
+use robots::vehicles::{RemusSpec, SHIPPED, Vehicle, VehicleSpec};
 use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         all.push((shipped.folder, VehicleSpec::Shipped(shipped.folder.into())));
     }
     for (name, spec) in all {
-        let craft = Craft::load(&spec, &Beside(Path::new("")))?;
+        let craft = Vehicle::load(&spec, &FolderFiles(Path::new("")))?;
         // The least of three: what else the machine does only adds.
         let least = (0..3).map(|_| seconds(&craft)).fold(f64::MAX, f64::min);
         println!("{name:<16} {:>8.0} x real time", LASTS_S / least);
@@ -57,12 +57,12 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn seconds(craft: &Craft) -> f64 {
+fn seconds(craft: &Vehicle) -> f64 {
     let mut craft = craft.clone();
     let set = match craft.idle() {
         Actuation::Fins(_) => Actuation::Fins(ActuatorCommand { rudder_rad: 0.05, stern_rad: 0.0, rpm: 1000.0 }),
         Actuation::Drives(idle) => {
-            let Craft::Described(vehicle) = &craft else {
+            let Vehicle::Described(vehicle) = &craft else {
                 return f64::NAN;
             };
             // A little of every drive.

@@ -11,7 +11,7 @@ use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
 use robots::handoff::Picture;
 use robots::sense::camera::{CameraModel, CameraSpec, Optics, Scene, looking, render, turned};
-use robots::vision::place::{AddUpSpec, Mosaic, Place, Stand, Weighed};
+use robots::vision::place::{AddUpSpec, Mosaic, PlaceEvidence, PlacePictures, Stand};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -44,7 +44,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let scene = Scene { terrain: &ocean.terrain, obstacles: &ocean.obstacles, dye: ocean.plume(), optics: &optics };
     let camera =
         CameraModel::new(&CameraSpec { width: 96, height: 72, view_deg: Positive::new(90.0), ..CameraSpec::default() });
-    let mut place = Place::new(&AddUpSpec::default(), source + Vector2::from(TOLD_M), Heading::from_deg(90.0));
+    let mut place = PlacePictures::new(&AddUpSpec::default(), source + Vector2::from(TOLD_M), Heading::from_deg(90.0));
     let mut strip = Vec::new();
     for (n, north) in [0.0, 0.9, -0.9].into_iter().enumerate() {
         for k in 0..9 {
@@ -81,7 +81,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// A strip of single pictures; below it brightness, redness and the likelihood of a source on the ground.
-fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &Weighed) -> RgbImage {
+fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &PlaceEvidence) -> RgbImage {
     let [w, h] = mosaic.size.map(|n| n as u32);
     let side = w * CELL_PX;
     let mut out = RgbImage::from_pixel(3 * side + 20, h * CELL_PX + 260, Rgb([255; 3]));

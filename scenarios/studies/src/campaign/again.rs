@@ -2,7 +2,7 @@
 
 use super::contained::contained;
 use super::plan::Campaign;
-use super::report::{Film, Pick, Shown};
+use super::report::{Film, Pick, RemadeRun};
 use super::row::RunRow;
 use output::follow::Follower;
 use rayon::ThreadPoolBuilder;
@@ -14,7 +14,7 @@ impl Campaign {
     /// Makes runs anew whose tracks are to be shown, so many at the same time; 0 means one on each core. Once `stop` is
     /// set, no run begins. `made` is called after each, from any thread.
     #[must_use]
-    pub fn films(&self, picks: Vec<Pick>, jobs: usize, stop: &AtomicBool, made: &(dyn Fn() + Sync)) -> Vec<Shown> {
+    pub fn films(&self, picks: Vec<Pick>, jobs: usize, stop: &AtomicBool, made: &(dyn Fn() + Sync)) -> Vec<RemadeRun> {
         let one = |pick: Pick| {
             let film = if stop.load(Ordering::Relaxed) {
                 Err("left out, because the report was interrupted".to_string())
@@ -22,7 +22,7 @@ impl Campaign {
                 self.film(&pick.row)
             };
             made();
-            Shown { pick, film }
+            RemadeRun { pick, film }
         };
         let pool = ThreadPoolBuilder::new().num_threads(jobs).build();
         match pool {

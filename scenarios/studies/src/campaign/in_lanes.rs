@@ -17,7 +17,7 @@ pub(crate) type Planned<'a> = (RunName, &'a Loaded);
 
 /// How far runs go, and who hears how long they took.
 #[derive(Clone, Copy)]
-pub(crate) struct Heed<'a> {
+pub(crate) struct LaneLimits<'a> {
     /// Whether more runs may begin.
     pub(crate) begin: &'a dyn Fn() -> bool,
     /// Whether the runs under way go on. Those that do not have no row.
@@ -28,7 +28,12 @@ pub(crate) struct Heed<'a> {
 
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
 /// ocean afterwards take the spin-up over from each other, and the first of them from `kept` if one is there.
-pub(crate) fn in_lanes(runs: &[Planned<'_>], kept: Option<&SpinUps>, heed: Heed<'_>, keep: &mut dyn FnMut(RunRow)) {
+pub(crate) fn in_lanes(
+    runs: &[Planned<'_>],
+    kept: Option<&SpinUps>,
+    heed: LaneLimits<'_>,
+    keep: &mut dyn FnMut(RunRow),
+) {
     let all: Vec<_> = runs.iter().map(|(name, l)| (*l, name.seed)).collect();
     let mut spun = Vec::new();
     for group in alike(&all, cost::limit()) {
@@ -148,7 +153,7 @@ mod tests {
 
     fn rows(runs: &[Planned<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
         let mut rows = Vec::new();
-        let heed = Heed { begin, go_on, took: &|_| {} };
+        let heed = LaneLimits { begin, go_on, took: &|_| {} };
         in_lanes(runs, None, heed, &mut |row| rows.push(row));
         rows
     }

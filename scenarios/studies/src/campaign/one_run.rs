@@ -1,11 +1,11 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
 
 use super::contained::contained;
-use super::in_lanes::{Heed, in_lanes};
+use super::in_lanes::{LaneLimits, in_lanes};
 use super::row::{DeclarationRow, RunRow};
 use output::results::{
-    DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary,
-    SummaryBuilder, Totals,
+    DeclarationSummary, GantrySummary, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary, SummaryBuilder,
+    SummaryEnd, Totals,
 };
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
@@ -33,7 +33,7 @@ pub struct RunName {
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
 #[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
-    let heed = Heed { begin: &|| true, go_on: &|| true, took: &|_| {} };
+    let heed = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
     let mut made = None;
     let runs = [(name.clone(), loaded)];
     in_lanes(&runs, None, heed, &mut |row| made = Some(row));
@@ -76,7 +76,7 @@ impl<'a> Gatherer<'a> {
         [spin_up, mission]: [Duration; 2],
     ) -> RunRow {
         let ended = trial.ended();
-        let end = RunEnd {
+        let end = SummaryEnd {
             outcome: ended.outcome,
             error: None,
             digest: ended.digest.clone(),

@@ -32,7 +32,7 @@ pub struct Campaign {
 
 /// The position of a run in its campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct RunPlace {
     /// Index of the run.
     pub run: u64,
     /// Index of its condition.
@@ -95,14 +95,14 @@ impl Campaign {
 
     /// Position of a run: arms of one seed are neighbours, then seeds, then conditions.
     #[must_use]
-    pub fn place(&self, run: u64) -> Place {
+    pub fn place(&self, run: u64) -> RunPlace {
         let (group, seeds) = (run / self.n_arms(), self.spec.seeds);
         let (condition, seed_index) = match &self.spec.until {
             None => (group / seeds.count(), group % seeds.count()),
             // Seed by seed, so that a campaign that ends early has the same number of runs of each condition.
             Some(_) => (group % self.spec.n_conditions(), group / self.spec.n_conditions()),
         };
-        Place {
+        RunPlace {
             run,
             condition,
             seed_index,
@@ -257,7 +257,7 @@ mod tests {
             r#"{ARMS}, conditions: Grid([("time.limit_s", ["10", "20"]), ("sources[0].rate_g_s", ["1", "2"])])"#
         ));
         assert_eq!(c.n_runs(), 24);
-        let places: Vec<Place> = (0..24).map(|run| c.place(run)).collect();
+        let places: Vec<RunPlace> = (0..24).map(|run| c.place(run)).collect();
         for pair in places.chunks(2) {
             assert_eq!(pair[0].seed, pair[1].seed);
             assert_eq!((pair[0].arm, pair[1].arm), (0, 1));

@@ -61,7 +61,7 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
 
 /// The result of a merge.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Merged {
+pub struct MergeResult {
     /// Number of rows in the file.
     pub rows: u64,
     /// Number of runs that the campaign wants, as far as is known.
@@ -88,7 +88,7 @@ fn beside(path: &Path) -> PathBuf {
 ///
 /// # Errors
 /// If a block is not whole, or if a file cannot be written; what was there before then stays.
-pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, CampaignError> {
+pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<MergeResult, CampaignError> {
     if csv == Some(to) {
         let problem = "the Parquet file and the CSV file would be the same".to_string();
         let path = to.to_owned();
@@ -110,7 +110,7 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
     let (rows, declarations) = (runs.lines, declared.lines);
     // If one file cannot be given its name, the others are not affected.
     runs.close().and(declared.close())?;
-    Ok(Merged { rows, of: wanted(&manifest.campaign()?, dir, &manifest).runs, declarations, declarations_path })
+    Ok(MergeResult { rows, of: wanted(&manifest.campaign()?, dir, &manifest).runs, declarations, declarations_path })
 }
 
 /// A table that grows block by block.

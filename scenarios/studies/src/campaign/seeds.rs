@@ -84,14 +84,14 @@ impl Seeds {
 
 /// The form in the file. A number means seeds 1 to that number in version 2, and hashed seeds in version 1.
 #[derive(Clone, Debug)]
-pub(super) enum Asked {
+pub(super) enum SeedsForm {
     Number(u64),
     Form(Seeds),
     /// Neither of them: what is wrong with it.
     Odd(String),
 }
 
-/// Puts the bare number that [`Asked`] reads into the schema of the forms.
+/// Puts the bare number that [`SeedsForm`] reads into the schema of the forms.
 fn or_number(forms: &mut Schema) {
     if let Some(Value::Array(forms)) = forms.get_mut("oneOf") {
         let what = "`20` is seeds 1 to 20; in a file of version 1, 20 seeds hashed from its `seed`.";
@@ -102,7 +102,7 @@ fn or_number(forms: &mut Schema) {
 const FORMS: &str = "must be a number (`20`: seeds 1 to 20), `Literal(first: 101, count: 20)` (101 to 120) or \
     `Hashed(seed: 1, count: 20)`, all of whole numbers";
 
-impl<'de> Deserialize<'de> for Asked {
+impl<'de> Deserialize<'de> for SeedsForm {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let raw = Box::<RawValue>::deserialize(from)?;
         let text = raw.trim().get_ron();

@@ -1,8 +1,8 @@
 //! The content of a campaign file.
 
-use super::seeds::{Asked, MOST, Seeds};
+use super::seeds::{MOST, Seeds, SeedsForm};
 use rheotaxis::explain::FileKind;
-use rheotaxis::scenario::{Fault, Found, Outline, ScenarioError, read};
+use rheotaxis::scenario::{Fault, Outline, ScenarioError, UnplacedFault, read};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +49,7 @@ struct File {
     seed: Option<u64>,
     /// How many seeds, or which.
     #[schemars(with = "Seeds")]
-    seeds: Asked,
+    seeds: SeedsForm,
     /// Stop earlier, once every success share is known precisely enough.
     #[serde(default)]
     until: Option<Until>,
@@ -146,11 +146,11 @@ impl CampaignSpec {
     }
 
     /// What a file means, and which of its fields its version does not have.
-    fn of(file: File) -> (Self, Vec<Found>) {
+    fn of(file: File) -> (Self, Vec<UnplacedFault>) {
         let mut found = Vec::new();
         let mut conditions = file.conditions;
-        let odd = |found: &mut Vec<Found>, problem| {
-            found.push(Found::error("seeds", problem));
+        let odd = |found: &mut Vec<UnplacedFault>, problem| {
+            found.push(UnplacedFault::error("seeds", problem));
             Seeds::Literal { first: 1, count: 1 }
         };
         let seeds = if file.version == 1 {
@@ -158,18 +158,18 @@ impl CampaignSpec {
             if let Conditions::Random(random) = &mut conditions {
                 if random.seed.is_some() {
                     let problem = "a file of version 1 has its seed as a field of its own";
-                    found.push(Found::error("conditions.seed", problem).hint("write `version: 2`"));
+                    found.push(UnplacedFault::error("conditions.seed", problem).hint("write `version: 2`"));
                 }
                 random.seed = Some(seed);
             }
             match file.seeds {
-                Asked::Number(count) => Seeds::Hashed { seed, count },
-                Asked::Form(seeds) => {
+                SeedsForm::Number(count) => Seeds::Hashed { seed, count },
+                SeedsForm::Form(seeds) => {
                     let problem = "a file of version 1 has a number here";
-                    found.push(Found::error("seeds", problem).hint("write `version: 2`"));
+                    found.push(UnplacedFault::error("seeds", problem).hint("write `version: 2`"));
                     seeds
                 }
-                Asked::Odd(problem) => odd(&mut found, problem),
+                SeedsForm::Odd(problem) => odd(&mut found, problem),
             }
         } else {
             if let Some(seed) = file.seed {
@@ -178,12 +178,12 @@ impl CampaignSpec {
                     "`seeds: 20` is seeds 1 to 20, `seeds: Hashed(seed: {seed}, count: 20)` what version 1 meant; \
                      drawn conditions have their own: `Random(n: 20, seed: {seed}, draw: [...])`"
                 );
-                found.push(Found::error("seed", problem).hint(help));
+                found.push(UnplacedFault::error("seed", problem).hint(help));
             }
             match file.seeds {
-                Asked::Number(count) => Seeds::Literal { first: 1, count },
-                Asked::Form(seeds) => seeds,
-                Asked::Odd(problem) => odd(&mut found, problem),
+                SeedsForm::Number(count) => Seeds::Literal { first: 1, count },
+                SeedsForm::Form(seeds) => seeds,
+                SeedsForm::Odd(problem) => odd(&mut found, problem),
             }
         };
         let spec = Self {
@@ -199,7 +199,7 @@ impl CampaignSpec {
     }
 
     /// What a file of version 1 means, and how to write it in version 2; `None` for version 2.
-    pub(super) fn note(&self) -> Option<Found> {
+    pub(super) fn note(&self) -> Option<UnplacedFault> {
         let (1, Seeds::Hashed { seed, count }) = (self.version, self.seeds) else {
             return None;
         };
@@ -215,7 +215,7 @@ impl CampaignSpec {
             "in version 2 the same is `seeds: Hashed(seed: {seed}, count: {count})`{drawn}, without `seed`; \
              `seeds: {count}` is seeds 1 to {count}, which pair with published runs"
         );
-        Some(Found::warning("version", problem).hint(help))
+        Some(UnplacedFault::warning("version", problem).hint(help))
     }
 
     /// Number of conditions; at most 2^64 - 1.
@@ -230,9 +230,9 @@ impl CampaignSpec {
         }
     }
 
-    fn check(&self) -> Vec<Found> {
+    fn check(&self) -> Vec<UnplacedFault> {
         let mut found = Vec::new();
-        let mut wrong = |path: &str, problem: String| found.push(Found::error(path, problem));
+        let mut wrong = |path: &str, problem: String| found.push(UnplacedFault::error(path, problem));
         if !(1..=VERSION).contains(&self.version) {
             let got = self.version;
             wrong("version", format!("this program reads versions 1 and {VERSION}, got {got}"));

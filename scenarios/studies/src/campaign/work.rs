@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "the limit of wall time decides when to stop, never what a run does")]
 
 use super::error::CampaignError;
-use super::in_lanes::{Heed, Planned, in_lanes};
+use super::in_lanes::{LaneLimits, Planned, in_lanes};
 use super::one_run::{RunName, one_run};
 use super::plan::Campaign;
 use super::row::RunRow;
@@ -85,7 +85,7 @@ impl Work<'_> {
         let worker = || {
             while going() {
                 let Some(runs) = next() else { break };
-                let heed = Heed {
+                let heed = LaneLimits {
                     begin: &going,
                     // Whatever stops the work, runs under way end and are kept, unless they cannot be.
                     go_on: &|| !ended.load(Ordering::Relaxed),
@@ -146,7 +146,7 @@ impl Work<'_> {
     }
 
     /// Makes runs of one seed and condition.
-    fn seed(&self, runs: &[u64], heed: Heed<'_>, keep: &mut dyn FnMut(RunRow)) -> Result<(), CampaignError> {
+    fn seed(&self, runs: &[u64], heed: LaneLimits<'_>, keep: &mut dyn FnMut(RunRow)) -> Result<(), CampaignError> {
         let condition = runs.first().map(|run| self.campaign.place(*run).condition);
         let scenarios = self.scenarios(condition.unwrap_or_default())?;
         let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);

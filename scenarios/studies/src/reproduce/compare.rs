@@ -36,7 +36,7 @@ impl Standing {
 
 /// A figure of ours and of the paper.
 #[derive(Clone, Debug)]
-pub struct Compared {
+pub struct FigureComparison {
     /// The figure.
     pub figure: Figure,
     /// Our value.
@@ -49,7 +49,7 @@ pub struct Compared {
 
 /// All figures of a row, from our runs of all its arms.
 #[must_use]
-pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<Compared> {
+pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<FigureComparison> {
     let ours = |f: &Figure| {
         let asked = |r: &&RunRow| {
             f.arm.as_ref().is_none_or(|arm| r.arm == *arm) && f.among.is_none_or(|event| event.of(r) == Some(true))
@@ -60,7 +60,7 @@ pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<Compared> {
     row.figures.iter().map(|f| one(f, ours(f))).collect()
 }
 
-fn one(figure: &Figure, ours: Estimate) -> Compared {
+fn one(figure: &Figure, ours: Estimate) -> FigureComparison {
     let papers_interval = match figure.paper {
         Some(Paper::Count(k, n) | Paper::RunCount(k, n)) => Some(wilson(k, n)),
         _ => None,
@@ -81,7 +81,7 @@ fn one(figure: &Figure, ours: Estimate) -> Compared {
         }
         _ => Standing::None,
     };
-    Compared { figure: figure.clone(), ours, papers_interval, standing }
+    FigureComparison { figure: figure.clone(), ours, papers_interval, standing }
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@
 
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
-use super::run::Reproduced;
-use crate::campaign::{DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes};
+use super::run::RowResult;
+use crate::campaign::{DeclarationRow, LaneLimits, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes};
 use output::files::{ReportError, make_folder, write_whole};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasher, RandomState};
@@ -83,7 +83,7 @@ impl Table {
     }
 
     /// Takes over the runs of a row; those of equal seed and arm are replaced.
-    pub fn put(&mut self, row: &Reproduced) {
+    pub fn put(&mut self, row: &RowResult) {
         self.hash.clone_from(&row.scenario.1);
         for run in &row.runs {
             let run = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..run.clone() };
@@ -95,7 +95,7 @@ impl Table {
     ///
     /// # Errors
     /// If the folder or a file cannot be written.
-    pub fn write(&self, dir: &Path, row: &Reproduced) -> Result<(), ReportError> {
+    pub fn write(&self, dir: &Path, row: &RowResult) -> Result<(), ReportError> {
         make_folder(dir)?;
         let mut runs: Vec<RunRow> = self.runs.values().cloned().collect();
         // Numbers within the table, so that they do not depend on the order in which seeds were added.
@@ -183,7 +183,7 @@ impl Table {
             };
             runs.push((name, loaded));
         }
-        let heed = Heed { begin: &|| true, go_on: &|| true, took: &|_| {} };
+        let heed = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
         let mut found = None;
         in_lanes(&runs, None, heed, &mut |is| {
             let is = &is;
@@ -227,8 +227,8 @@ mod tests {
         wanted(&["wp_laminar".into()], &[]).unwrap().remove(0)
     }
 
-    fn reproduced(reference: &Reference, seeds: std::ops::Range<u64>) -> Reproduced {
-        let mut row = Reproduced::begin(reference);
+    fn reproduced(reference: &Reference, seeds: std::ops::Range<u64>) -> RowResult {
+        let mut row = RowResult::begin(reference);
         for seed in seeds {
             for (arm, _) in &reference.arms {
                 row.runs.push(RunRow {
@@ -291,7 +291,7 @@ mod tests {
         let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
         let stop = AtomicBool::new(false);
         let plan = Plan { n: 1, first_seed: 4, key: Key::public(), until_half_width: None, jobs: 1 };
-        let begun = Reproduced::begin(&reference);
+        let begun = RowResult::begin(&reference);
         let row = reproduce(&reference, begun, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         let mut table = Table::default();
         table.put(&row);

@@ -10,11 +10,11 @@ mod run;
 mod time_left;
 mod write;
 
-pub use compare::{Compared, Standing, compare};
+pub use compare::{FigureComparison, Standing, compare};
 pub use kept::Table;
 pub use measure::{Measure, RunEvent};
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};
-pub use run::{Plan, Reproduced, reproduce};
+pub use run::{Plan, RowResult, reproduce};
 pub use time_left::TimeLeft;
 pub use write::{table, write};

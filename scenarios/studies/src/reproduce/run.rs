@@ -1,10 +1,10 @@
 //! The runs of a row: consecutive seeds, on all cores, until there are enough.
 
-use super::compare::{Compared, compare};
+use super::compare::{FigureComparison, compare};
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
-use crate::campaign::{Heed, Planned, RunName, RunRow, in_lanes};
+use crate::campaign::{LaneLimits, Planned, RunName, RunRow, in_lanes};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use rheotaxis::cache::SpinUps;
@@ -32,7 +32,7 @@ pub struct Plan {
 
 /// A row with our results.
 #[derive(Clone, Debug)]
-pub struct Reproduced {
+pub struct RowResult {
     /// The row.
     pub row: Row,
     /// Name and hash of its scenario.
@@ -40,10 +40,10 @@ pub struct Reproduced {
     /// The runs, by seed and arm.
     pub runs: Vec<RunRow>,
     /// The figures.
-    pub figures: Vec<Compared>,
+    pub figures: Vec<FigureComparison>,
 }
 
-impl Reproduced {
+impl RowResult {
     /// A row without runs.
     #[must_use]
     pub fn begin(reference: &Reference) -> Self {
@@ -64,13 +64,13 @@ impl Reproduced {
 /// If the threads cannot be started, if `so_far` fails, or if `stop` was set: the runs under way end at once.
 pub fn reproduce(
     reference: &Reference,
-    mut row: Reproduced,
+    mut row: RowResult,
     plan: Plan,
     kept: Option<&SpinUps>,
     stop: &AtomicBool,
     heard: impl Fn(&RunRow, u64) + Sync,
-    mut so_far: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
-) -> Result<Reproduced, ReproduceError> {
+    mut so_far: impl FnMut(&RowResult) -> Result<(), ReproduceError>,
+) -> Result<RowResult, ReproduceError> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(plan.jobs)
         .build()
@@ -101,7 +101,7 @@ pub fn reproduce(
                         runs.push((name, loaded));
                     }
                     let going = || !stop.load(Ordering::Relaxed);
-                    let heed = Heed { begin: &going, go_on: &going, took: &|_| {} };
+                    let heed = LaneLimits { begin: &going, go_on: &going, took: &|_| {} };
                     let mut rows = Vec::new();
                     in_lanes(&runs, kept, heed, &mut |row| {
                         heard(&row, planned * n_arms);

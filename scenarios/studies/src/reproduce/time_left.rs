@@ -7,7 +7,7 @@ use world::cost::duration;
 
 /// What is known of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Spent {
+struct RowProgress {
     /// Runs planned and runs ended.
     planned: u64,
     ended: u64,
@@ -15,7 +15,7 @@ struct Spent {
     wall_s: f64,
 }
 
-impl Spent {
+impl RowProgress {
     /// Wall time of the runs that have not ended, s; `None` before the first has.
     fn left_s(self) -> Option<f64> {
         let left = self.planned.saturating_sub(self.ended);
@@ -30,7 +30,7 @@ impl Spent {
 /// The clock of an experiment with several rows; runs are heard from all threads.
 #[derive(Debug)]
 pub struct TimeLeft {
-    rows: Mutex<Vec<Spent>>,
+    rows: Mutex<Vec<RowProgress>>,
     threads: usize,
 }
 
@@ -39,7 +39,7 @@ impl TimeLeft {
     #[must_use]
     pub fn new(planned: impl Iterator<Item = u64>, jobs: usize) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
-        let of_row = |planned| Spent { planned, ..Spent::default() };
+        let of_row = |planned| RowProgress { planned, ..RowProgress::default() };
         Self { rows: Mutex::new(planned.map(of_row).collect()), threads: if jobs == 0 { cores() } else { jobs } }
     }
 

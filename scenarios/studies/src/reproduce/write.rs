@@ -1,8 +1,8 @@
 //! The reproduction table on the screen and in REPRODUCTION.md, and its runs as CSV.
 
-use super::compare::{Compared, Standing};
+use super::compare::{FigureComparison, Standing};
 use super::row::Paper;
-use super::run::Reproduced;
+use super::run::RowResult;
 use crate::campaign::as_csv;
 use crate::campaign::report::{Reliability, Table, Walls, range, reliability, reliable, wrapped};
 use crate::campaign::stats::Interval;
@@ -15,7 +15,7 @@ const TEXT: &str = "writing to a String succeeds";
 const HEAD: [&str; 6] = ["figure", "ours", "95 % interval", "n", "paper", "the paper's is"];
 
 /// A row of the table; all its values have one unit.
-fn cells(c: &Compared) -> [String; 6] {
+fn cells(c: &FigureComparison) -> [String; 6] {
     let paper = c.figure.paper.map(Paper::value);
     let ends = |i: Option<Interval>| i.map_or([None; 2], |i| [Some(i.low), Some(i.high)]);
     let intervals = [ends(c.ours.interval), ends(c.papers_interval)];
@@ -44,7 +44,7 @@ fn cells(c: &Compared) -> [String; 6] {
     [c.figure.name.clone(), ours, interval, c.ours.n.to_string(), paper, standing]
 }
 
-fn runs_line(r: &Reproduced) -> String {
+fn runs_line(r: &RowResult) -> String {
     let failed = r.runs.iter().filter(|x| x.error.is_some()).count();
     let last = r.runs.iter().map(|x| x.seed).max().unwrap_or(0);
     let first = r.runs.iter().map(|x| x.seed).min().unwrap_or(0);
@@ -59,14 +59,14 @@ fn runs_line(r: &Reproduced) -> String {
 }
 
 /// The first error of a failed run, for people.
-fn first_error(r: &Reproduced) -> Option<String> {
+fn first_error(r: &RowResult) -> Option<String> {
     let bad = r.runs.iter().find(|x| x.error.is_some())?;
     Some(format!("seed {}: {}", bad.seed, bad.error.as_deref()?))
 }
 
 /// The table of a row as plain text, in at most `columns` characters where there is such a limit.
 #[must_use]
-pub fn table(r: &Reproduced, columns: Option<usize>) -> String {
+pub fn table(r: &RowResult, columns: Option<usize>) -> String {
     let line = |words: &str| wrapped(words, columns).trim_end().to_string();
     let mut out = line(&format!("{}: {}", r.row.id, r.row.what));
     let runs = line(&format!("{} [{}]", runs_line(r), r.row.source));
@@ -86,7 +86,7 @@ pub fn table(r: &Reproduced, columns: Option<usize>) -> String {
 }
 
 /// How reliable the maps of a row's arms are, in the order of the arms; none if the row does not show it.
-fn maps(r: &Reproduced) -> Vec<Reliability> {
+fn maps(r: &RowResult) -> Vec<Reliability> {
     if !r.row.reliability {
         return Vec::new();
     }
@@ -101,7 +101,7 @@ fn maps(r: &Reproduced) -> Vec<Reliability> {
 ///
 /// # Errors
 /// If the folder or a file cannot be written; all other files are written.
-pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write(dir: &Path, all: &[RowResult]) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
     let [rows, declarations] = as_csv(&runs);
@@ -132,7 +132,7 @@ pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError
     ReportError::of(failures).map_or(Ok(written), Err)
 }
 
-fn markdown(all: &[Reproduced]) -> String {
+fn markdown(all: &[RowResult]) -> String {
     let mut out = format!(
         "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every declaration in \
          declarations.csv, every figure in figures.csv.\n\n\
@@ -182,7 +182,7 @@ fn markdown(all: &[Reproduced]) -> String {
     out
 }
 
-fn figures_csv(all: &[Reproduced]) -> String {
+fn figures_csv(all: &[RowResult]) -> String {
     let figures = all.iter().flat_map(|r| {
         r.figures.iter().map(|c| {
             let (i, s, p) = (c.ours.interval, c.ours.spread, c.papers_interval);
@@ -234,7 +234,7 @@ mod tests {
             interval: Some(Interval { low: 0.4, high: 1.1 }),
             spread: None,
         };
-        let compared = Compared { figure, ours, papers_interval: None, standing: Standing::None };
+        let compared = FigureComparison { figure, ours, papers_interval: None, standing: Standing::None };
         let row = cells(&compared);
         assert_eq!(row[1..5], ["0.80 m", "0.40 to 1.10 m", "20", "0.50 m"]);
     }

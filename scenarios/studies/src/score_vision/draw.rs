@@ -46,7 +46,7 @@ impl Content {
 
 /// A scene before it is rendered.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Drawn {
+pub struct SceneDraw {
     /// Its number, from 0.
     pub n: u64,
     /// Its content.
@@ -87,14 +87,14 @@ pub fn bin(visibility_m: f64) -> usize {
 
 /// Scene `n` of a seed; no scene depends on another.
 #[must_use]
-pub fn draw(seed: u64, n: u64) -> Drawn {
+pub fn draw(seed: u64, n: u64) -> SceneDraw {
     let mut rng = Stream::new(seed, &format!("scene-{n}"), "score_vision");
     let mut even = |low: f64, high: f64| low + (high - low) * rng.uniform();
     // Each range of visibility gets a quarter of the scenes of each content.
     let (low, high) = BINS[(n / 6 % BINS.len() as u64) as usize];
     let growing = |u: f64, low: f64, high: f64| low * math::exp(u * math::ln(high / low));
     let visibility_m = growing(even(0.0, 1.0), low, high);
-    Drawn {
+    SceneDraw {
         n,
         content: Content::of(n),
         visibility_m,
@@ -120,7 +120,7 @@ mod tests {
 
     #[test]
     fn every_range_of_visibility_gets_its_share_of_every_content() {
-        let scenes: Vec<Drawn> = (0..240).map(|n| draw(1, n)).collect();
+        let scenes: Vec<SceneDraw> = (0..240).map(|n| draw(1, n)).collect();
         for k in 0..BINS.len() {
             let of = |c: Content| (scenes.iter()).filter(|s| s.content == c && bin(s.visibility_m) == k).count();
             assert_eq!([Content::Source, Content::Dye, Content::Body, Content::Nothing].map(of), [30, 10, 10, 10]);

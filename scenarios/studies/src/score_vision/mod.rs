@@ -11,11 +11,11 @@ mod run;
 mod save;
 mod write;
 
-pub use draw::{BINS, Content, Drawn, bin, draw};
+pub use draw::{BINS, Content, SceneDraw, bin, draw};
 pub use methods::{METHODS, Method};
 pub use pixels::{Counts, Ratio, precision, recall};
 pub use render::{Shot, SizePx, shoot};
-pub use roc::{Roc, Scored};
+pub use roc::{Roc, ScoredPicture};
 pub use run::{SceneRow, ScoreError, score};
 pub use save::save;
 pub use write::{ScenePlan, table, write};

@@ -1,6 +1,6 @@
 //! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
-use super::draw::{Content, Drawn};
+use super::draw::{Content, SceneDraw};
 use super::run::ScoreError;
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
@@ -60,7 +60,7 @@ pub struct Shot {
 ///
 /// # Errors
 /// If the scene cannot be built: a mistake in its ranges.
-pub fn shoot(seed: u64, d: &Drawn, size: SizePx) -> Result<Shot, ScoreError> {
+pub fn shoot(seed: u64, d: &SceneDraw, size: SizePx) -> Result<Shot, ScoreError> {
     let wrong = |problem: String| ScoreError::Scene { n: d.n, problem };
     let terrain = Terrain::Level { depth_m: DEPTH_M };
     let standing = matches!(d.content, Content::Source | Content::Body);
@@ -93,7 +93,7 @@ pub fn shoot(seed: u64, d: &Drawn, size: SizePx) -> Result<Shot, ScoreError> {
     })
 }
 
-fn body(d: &Drawn) -> ObstacleSpec {
+fn body(d: &SceneDraw) -> ObstacleSpec {
     let albedo = |times: f64| Fraction::new(d.albedo * times);
     let [l, w, h] = BODY_M.map(Positive::new);
     ObstacleSpec {
@@ -109,7 +109,7 @@ fn body(d: &Drawn) -> ObstacleSpec {
 }
 
 /// The plume of a source at the origin in a stream to the east.
-fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
+fn plume(seed: u64, d: &SceneDraw, terrain: &Terrain) -> Result<Plume, String> {
     let area = Area { centre: Vector2::new(8.0, 0.0), length_m: 36.0, width_m: 18.0, axis: Heading::from_deg(90.0) };
     let stream = OpenChannelSpec {
         mean_m_s: Positive::new(d.current_m_s),
@@ -146,7 +146,7 @@ fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
     Ok(plume)
 }
 
-fn optics(d: &Drawn) -> OpticsSpec {
+fn optics(d: &SceneDraw) -> OpticsSpec {
     OpticsSpec {
         clarity: ClaritySpec { visibility_m: Positive::new(d.visibility_m), ..ClaritySpec::default() },
         light: LightSpec {
@@ -160,7 +160,7 @@ fn optics(d: &Drawn) -> OpticsSpec {
 }
 
 /// The camera's pose: at a distance from its target and looking at it, except for `off_deg`.
-fn pose(d: &Drawn) -> world::frames::Pose {
+fn pose(d: &SceneDraw) -> world::frames::Pose {
     let at = match d.content {
         Content::Source | Content::Body | Content::Nothing => Vector3::new(0.0, 0.0, -DEPTH_M + 0.3),
         Content::Dye => Vector3::new(d.down_flow_m, 0.0, -DEPTH_M + NOZZLE_M),

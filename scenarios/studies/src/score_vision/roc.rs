@@ -17,7 +17,7 @@ use world::seeds::Stream;
 
 /// A picture's score and whether it shows a source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Scored {
+pub struct ScoredPicture {
     /// The score.
     pub score: f64,
     /// Whether there is a source.
@@ -46,7 +46,7 @@ pub struct Roc {
 impl Roc {
     /// From some pictures; `name` separates the random numbers of different curves.
     #[must_use]
-    pub fn new(scored: &[Scored], name: &str) -> Self {
+    pub fn new(scored: &[ScoredPicture], name: &str) -> Self {
         let of = |source: bool| -> Vec<f64> { scored.iter().filter(|s| s.source == source).map(|s| s.score).collect() };
         let (mut with, mut without) = (of(true), of(false));
         with.sort_by(f64::total_cmp);
@@ -108,9 +108,10 @@ fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {
 mod tests {
     use super::*;
 
-    fn scored(with: &[f64], without: &[f64]) -> Vec<Scored> {
-        let of =
-            |scores: &[f64], source| -> Vec<Scored> { scores.iter().map(|s| Scored { score: *s, source }).collect() };
+    fn scored(with: &[f64], without: &[f64]) -> Vec<ScoredPicture> {
+        let of = |scores: &[f64], source| -> Vec<ScoredPicture> {
+            scores.iter().map(|s| ScoredPicture { score: *s, source }).collect()
+        };
         [of(with, true), of(without, false)].concat()
     }
 

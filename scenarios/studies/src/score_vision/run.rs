@@ -1,6 +1,6 @@
 //! All scenes: rendered, examined with every method, and counted.
 
-use super::draw::{Drawn, draw};
+use super::draw::{SceneDraw, draw};
 use super::methods::{METHODS, Method};
 use super::pixels::Counts;
 use super::render::{Shot, SizePx, shoot};
@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneRow {
     /// The scene.
-    pub scene: Drawn,
+    pub scene: SceneDraw,
     /// The method.
     pub method: Method,
     /// Its pixels of dye.
@@ -66,7 +66,7 @@ pub fn score(
     spec: &VerifierSpec,
     jobs: usize,
     stop: &AtomicBool,
-    done: impl Fn(&Drawn, &Shot) + Sync,
+    done: impl Fn(&SceneDraw, &Shot) + Sync,
 ) -> Result<Vec<SceneRow>, ScoreError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
     let pool = pool.map_err(|e| ScoreError::Threads { jobs, problem: e.to_string() })?;
@@ -83,7 +83,7 @@ pub fn score(
     Ok(all?.concat())
 }
 
-fn rows(scene: &Drawn, shot: &Shot, spec: &VerifierSpec) -> Vec<SceneRow> {
+fn rows(scene: &SceneDraw, shot: &Shot, spec: &VerifierSpec) -> Vec<SceneRow> {
     let row = |method: Method| {
         let (dye, body, seen) = method.look(&shot.picture, spec);
         SceneRow {

@@ -4,10 +4,10 @@ use super::draw::{BINS, bin};
 use super::figures::{curves, shares};
 use super::methods::{METHODS, Method};
 use super::pixels::{Counts, Ratio, precision, recall};
-use super::roc::{Roc, Scored};
+use super::roc::{Roc, ScoredPicture};
 use super::run::SceneRow;
 use crate::campaign::stats::Interval;
-use output::files::{Kept, ReportError, csv_number, csv_text};
+use output::files::{PendingFiles, ReportError, csv_number, csv_text};
 use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -58,8 +58,9 @@ fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> 
     let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
     let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
     let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
-    let scored: Vec<Scored> =
-        (rows.iter()).map(|r| Scored { score: r.score, source: r.scene.content == super::Content::Source }).collect();
+    let scored: Vec<ScoredPicture> = (rows.iter())
+        .map(|r| ScoredPicture { score: r.score, source: r.scene.content == super::Content::Source })
+        .collect();
     Figures {
         method,
         visibility_m,
@@ -119,7 +120,7 @@ fn percent(r: &Ratio) -> String {
 /// # Errors
 /// If files cannot be written; names each such file. All others are written.
 pub fn write(out: &Folder, plan: &ScenePlan, rows: &[SceneRow]) -> Result<(), ReportError> {
-    let mut kept = Kept::new(out);
+    let mut kept = PendingFiles::new(out);
     let all = figures(rows);
     let head = format!(
         "{} scenes of {} x {} px, seed {}; intervals 95 %\n\n",

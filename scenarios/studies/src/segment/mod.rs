@@ -7,4 +7,4 @@ mod sheet;
 mod write;
 
 pub use picture::{MOST_PIXELS, MOST_SIDE, PictureError, read_picture};
-pub use write::{Segmented, table, write};
+pub use write::{SegmentedPicture, table, write};

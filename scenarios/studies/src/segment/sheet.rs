@@ -1,6 +1,6 @@
 //! All pictures of a segmentation on one sheet.
 
-use super::write::Segmented;
+use super::write::SegmentedPicture;
 use image::imageops::{self, FilterType};
 use image::{ImageFormat, RgbImage};
 use output::charts::canvas::{Anchor, Canvas, Style};
@@ -21,7 +21,7 @@ const GAP: f64 = 14.0;
 const SCALE: f64 = 2.0;
 
 /// The sheet: the picture, each pass, the unions, the remainder, and the results.
-pub(super) fn sheet(s: &Segmented) -> Result<RgbImage, String> {
+pub(super) fn sheet(s: &SegmentedPicture) -> Result<RgbImage, String> {
     let tiles = tiles(s);
     let (w, h) = s.picture.dimensions();
     let tall = (TILE * f64::from(h) / f64::from(w)).clamp(20.0, TALLEST * TILE).round();
@@ -52,7 +52,7 @@ pub(super) fn sheet(s: &Segmented) -> Result<RgbImage, String> {
     Ok(out)
 }
 
-fn tiles(s: &Segmented) -> Vec<(String, RgbImage)> {
+fn tiles(s: &SegmentedPicture) -> Vec<(String, RgbImage)> {
     let (picture, parts) = (&s.picture, &s.parts);
     let mut tiles = vec![("picture".to_string(), picture.clone())];
     if s.spec.colours.dehaze {

@@ -5,7 +5,7 @@ use super::overlay::overlay;
 use super::sheet::sheet;
 use image::RgbImage;
 use output::charts::{mask_png, picture_png};
-use output::files::{Kept, ReportError};
+use output::files::{PendingFiles, ReportError};
 use robots::vision::{Segmentation, Sighting, Target, Verifier, VerifierSpec};
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -14,7 +14,7 @@ use world::files::Folder;
 
 /// A picture, analysed and judged.
 #[derive(Clone, Debug)]
-pub struct Segmented {
+pub struct SegmentedPicture {
     /// The file's name.
     pub name: String,
     /// The picture.
@@ -36,7 +36,7 @@ struct Numbers<'a> {
     sighting: &'a Sighting,
 }
 
-impl Segmented {
+impl SegmentedPicture {
     /// Analyses a picture and judges it.
     #[must_use]
     pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
@@ -53,8 +53,8 @@ impl Segmented {
 ///
 /// # Errors
 /// If files cannot be written; names each such file. All others are written.
-pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
-    let mut kept = Kept::new(out);
+pub fn write(out: &Folder, s: &SegmentedPicture) -> Result<PathBuf, ReportError> {
+    let mut kept = PendingFiles::new(out);
     for pass in &s.parts.passes {
         let name = format!("pass-{}.png", pass.number);
         kept.draw(&name, colours(&s.parts.taken_by(pass.number)));
@@ -90,7 +90,7 @@ fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
 
 /// The passes and the verdict as text.
 #[must_use]
-pub fn table(s: &Segmented) -> String {
+pub fn table(s: &SegmentedPicture) -> String {
     let (w, h) = s.picture.dimensions();
     let all = f64::from(w) * f64::from(h);
     let mut out = format!("{}, {w} x {h}\n\n", s.name);

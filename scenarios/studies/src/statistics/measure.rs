@@ -11,7 +11,7 @@ use super::expected::Expected;
 use super::figure::{PlumeFigure, Statistics};
 use super::series::Series;
 use nalgebra::{Vector2, Vector3};
-use plumes::filaments::{Displaced, Plume};
+use plumes::filaments::{DisplacedConcentration, Plume};
 use plumes::flow::Water;
 use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::Origin;
@@ -197,7 +197,7 @@ impl Watch {
                 }
             }
         }
-        let dye = Displaced::new(plume, water, t_s);
+        let dye = DisplacedConcentration::new(plume, water, t_s);
         for (i, distance) in self.distances.iter().enumerate() {
             let p = self.source.xy() + self.along * *distance;
             for (k, height) in self.heights.iter().enumerate() {

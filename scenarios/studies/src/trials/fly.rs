@@ -8,7 +8,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::DriveCommand;
-use robots::vehicles::Described;
+use robots::vehicles::FolderVehicle;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 
@@ -37,7 +37,7 @@ pub struct Flight {
 
 /// A state on the way.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Flown {
+pub struct FlownState {
     /// Time, s.
     pub t_s: f64,
     /// True state.
@@ -85,7 +85,7 @@ pub fn table(text: &str, drives: &[&str]) -> Result<Vec<(f64, Vec<f64>)>, String
 
 /// The states at the beginning, at the end, and at whole multiples of `every_s`.
 #[must_use]
-pub fn fly(vehicle: &Described, flight: &Flight) -> Vec<Flown> {
+pub fn fly(vehicle: &FolderVehicle, flight: &Flight) -> Vec<FlownState> {
     let mut vehicle = vehicle.clone();
     let [roll, pitch_up] = flight.tilt_rad;
     let R_WB = UnitQuaternion::from_euler_angles(roll, -pitch_up, std::f64::consts::FRAC_PI_2);
@@ -104,7 +104,7 @@ pub fn fly(vehicle: &Described, flight: &Flight) -> Vec<Flown> {
     for k in 0..=steps {
         let t_s = k as f64 * flight.step_s;
         if k % stride == 0 || k == steps {
-            rows.push(Flown { t_s, truth, drives: vehicle.states().to_vec() });
+            rows.push(FlownState { t_s, truth, drives: vehicle.states().to_vec() });
         }
         // Half a step of slack: times of the table are multiples of the step but for rounding.
         let row = (flight.table).partition_point(|(from_s, _)| *from_s <= t_s + 1e-6 * flight.step_s);

@@ -6,11 +6,11 @@ use super::sail::{DEPTH_M, STEP_S, Sailing};
 use super::trial::{Curve, THINNED, Trial, command, depth_of, measured};
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Capabilities, Goal, Manoeuvre, Vertical};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::units::Heading;
 
 /// Holds a point in a current of 0.25 m/s, from ahead, abeam and astern, 90 s each; the first 30 s do not count.
-pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn station(craft: &Vehicle, able: &Capabilities) -> Trial {
     let speed = 0.25;
     let mut points = Vec::new();
     let (mut worst, mut squares, mut n) = (0.0f64, 0.0, 0u32);
@@ -49,7 +49,7 @@ pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
 }
 
 /// A glider's way up and down.
-pub(super) fn sawtooth(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn sawtooth(craft: &Vehicle, able: &Capabilities) -> Trial {
     let mut sailing = Sailing::new(craft, able, Vector3::zeros());
     let north = command(able, Heading::from_deg(0.0), able.top_speed_m_s, DEPTH_M);
     let mut points = Vec::new();

@@ -16,11 +16,11 @@ use super::straight::{dive, speed, stop};
 use super::trial::{Trial, glides, patience_s};
 use super::turns::{headings, turn};
 use robots::guide::GuidanceSpec;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 
 /// All trials that make sense for a vehicle. One without a rudder has no turning circle and no zigzag.
 #[must_use]
-pub fn trials(craft: &Craft) -> Vec<Trial> {
+pub fn trials(craft: &Vehicle) -> Vec<Trial> {
     let able = craft.capabilities(GuidanceSpec::default().tightest_turn_m());
     let mut all = Vec::new();
     if glides(&able) {
@@ -52,6 +52,6 @@ pub fn trials(craft: &Craft) -> Vec<Trial> {
 
 /// Whether a vehicle has a rudder, which turning circle and zigzag need.
 #[must_use]
-pub fn has_rudder(craft: &Craft) -> bool {
+pub fn has_rudder(craft: &Vehicle) -> bool {
     Rudder::fitted(craft).is_some()
 }

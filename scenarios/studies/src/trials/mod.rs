@@ -13,7 +13,7 @@ mod trial;
 mod turns;
 
 pub use figure::figure;
-pub use fly::{Flight, Flown, fly, table};
+pub use fly::{Flight, FlownState, fly, table};
 pub use hull::{Looks, drawn};
 pub use manoeuvres::{has_rudder, trials};
 pub use trial::{Curve, Measured, SteeringRow, Trial};

@@ -2,7 +2,7 @@
 
 use robots::actuate::AutopilotSpec;
 use robots::handoff::{Actuation, ActuatorCommand, Does, DriveCommand};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 
 /// Least share of the strongest fin at which a fin counts as a part of the rudder.
 const LEAST: f64 = 1e-3;
@@ -20,17 +20,17 @@ pub(super) struct Rudder {
 
 impl Rudder {
     /// The rudder of a vehicle; `None` if no fin of it turns it.
-    pub(super) fn fitted(craft: &Craft) -> Option<Self> {
+    pub(super) fn fitted(craft: &Vehicle) -> Option<Self> {
         let plant = match craft {
-            Craft::Finned(_) => {
+            Vehicle::Finned(_) => {
                 return Some(Self {
                     limit_rad: AutopilotSpec::default().fin_limit_deg.get().to_radians(),
                     fins: Vec::new(),
                     thrusters: Vec::new(),
                 });
             }
-            Craft::Kinematic(_) => return None,
-            Craft::Described(vehicle) => vehicle.plant(),
+            Vehicle::Kinematic(_) => return None,
+            Vehicle::Described(vehicle) => vehicle.plant(),
         };
         let turns = |does: &Does| match does {
             // FLU: to starboard is a negative moment about z.
@@ -69,11 +69,11 @@ impl Rudder {
     }
 
     /// Where it is, rad.
-    pub(super) fn angle_rad(&self, craft: &Craft) -> f64 {
+    pub(super) fn angle_rad(&self, craft: &Vehicle) -> f64 {
         match craft {
-            Craft::Finned(vehicle) => vehicle.actuators().rudder_rad,
-            Craft::Kinematic(_) => 0.0,
-            Craft::Described(vehicle) => self.mean(vehicle.states()),
+            Vehicle::Finned(vehicle) => vehicle.actuators().rudder_rad,
+            Vehicle::Kinematic(_) => 0.0,
+            Vehicle::Described(vehicle) => self.mean(vehicle.states()),
         }
     }
 

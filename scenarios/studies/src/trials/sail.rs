@@ -9,7 +9,7 @@ use nalgebra::{Vector2, Vector3};
 use robots::actuate::{AutopilotSpec, Pilot};
 use robots::guide::{Guidance, GuidanceSpec};
 use robots::handoff::{Actuation, Attitude, Capabilities, Command, Estimate, FlowEstimate, Goal};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::frames::{Pose, Truth};
@@ -39,7 +39,7 @@ impl Flow for Current {
 
 /// A vehicle under way.
 pub(super) struct Sailing {
-    craft: Craft,
+    craft: Vehicle,
     pilot: Pilot,
     guidance: Guidance,
     water: Current,
@@ -52,7 +52,7 @@ pub(super) struct Sailing {
 
 impl Sailing {
     /// At rest relative to the water, heading north.
-    pub(super) fn new(craft: &Craft, able: &Capabilities, current: Vector3<f64>) -> Self {
+    pub(super) fn new(craft: &Vehicle, able: &Capabilities, current: Vector3<f64>) -> Self {
         let depth_m = if able.dives { DEPTH_M } else { 0.0 };
         let start = Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(0.0));
         let mut truth = Truth::at_rest(start);

@@ -13,10 +13,10 @@ use super::rudder::Rudder;
 use super::sail::STEP_S;
 use super::trial::{Curve, Measured, SteeringRow, THINNED, Trial, approach, command, cruise, depth_of, measured};
 use robots::handoff::Capabilities;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 
 /// The turning circle, to 540 degrees or for `most_s`.
-pub(super) fn circle(craft: &Craft, able: &Capabilities, rudder: &Rudder, most_s: f64) -> Trial {
+pub(super) fn circle(craft: &Vehicle, able: &Capabilities, rudder: &Rudder, most_s: f64) -> Trial {
     let full = rudder.limit_rad.to_degrees();
     let rows = steered(craft, able, rudder, most_s, |row| (row.heading_deg < 540.0).then_some(full));
     let mut found = circled(&rows).to_vec();
@@ -60,7 +60,7 @@ fn circled(rows: &[SteeringRow]) -> [Measured; 6] {
 }
 
 /// The zigzag of an angle for rudder and heading, until the fifth order or for `most_s`.
-pub(super) fn zigzag(craft: &Craft, able: &Capabilities, rudder: &Rudder, angle_deg: f64, most_s: f64) -> Trial {
+pub(super) fn zigzag(craft: &Vehicle, able: &Capabilities, rudder: &Rudder, angle_deg: f64, most_s: f64) -> Trial {
     let name = if angle_deg < 15.0 { "zigzag 10/10" } else { "zigzag 20/20" };
     let helm_deg = angle_deg.min(rudder.limit_rad.to_degrees());
     let mut orders = Zigzag::new(angle_deg);
@@ -131,7 +131,7 @@ impl Zigzag {
 
 /// A row for each step from cruise on, while `order` gives an angle for the rudder, degrees.
 fn steered(
-    craft: &Craft,
+    craft: &Vehicle,
     able: &Capabilities,
     rudder: &Rudder,
     most_s: f64,

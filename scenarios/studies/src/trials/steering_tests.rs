@@ -2,16 +2,16 @@
 
 use super::*;
 use crate::trials::{has_rudder, trials};
-use rheotaxis::scenario::Beside;
-use robots::vehicles::{Craft, KinematicSpec, RemusSpec, VehicleSpec};
+use rheotaxis::scenario::FolderFiles;
+use robots::vehicles::{KinematicSpec, RemusSpec, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::math;
 
-fn craft(spec: &VehicleSpec) -> Craft {
-    Craft::load(spec, &Beside(Path::new(""))).expect("a vehicle of the program")
+fn craft(spec: &VehicleSpec) -> Vehicle {
+    Vehicle::load(spec, &FolderFiles(Path::new(""))).expect("a vehicle of the program")
 }
 
-fn remus() -> Craft {
+fn remus() -> Vehicle {
     craft(&VehicleSpec::Remus100(RemusSpec::default()))
 }
 

@@ -6,11 +6,11 @@ use super::sail::{STEP_S, Sailing};
 use super::trial::{Curve, THINNED, Trial, command, cruise, cruising, depth_of, measured};
 use nalgebra::Vector3;
 use robots::handoff::Capabilities;
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::units::Heading;
 
 /// Full ahead from rest, 120 s.
-pub(super) fn speed(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn speed(craft: &Vehicle, able: &Capabilities) -> Trial {
     let mut sailing = Sailing::new(craft, able, Vector3::zeros());
     let ahead = command(able, Heading::from_deg(0.0), 2.0 * able.top_speed_m_s, depth_of(able));
     let mut points = Vec::new();
@@ -39,7 +39,7 @@ pub(super) fn speed(craft: &Craft, able: &Capabilities) -> Trial {
 }
 
 /// 5 m down at cruise.
-pub(super) fn dive(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn dive(craft: &Vehicle, able: &Capabilities) -> Trial {
     const BY_M: f64 = 5.0;
     let mut sailing = cruising(craft, able);
     let begun_s = sailing.t_s();
@@ -76,7 +76,7 @@ pub(super) fn dive(craft: &Craft, able: &Capabilities) -> Trial {
 }
 
 /// From cruise to speed zero.
-pub(super) fn stop(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn stop(craft: &Vehicle, able: &Capabilities) -> Trial {
     let mut sailing = cruising(craft, able);
     let begun_s = sailing.t_s();
     let from = sailing.truth.pose.p_WB;

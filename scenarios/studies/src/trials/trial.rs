@@ -5,7 +5,7 @@
 use super::sail::{DEPTH_M, STEP_S, Sailing};
 use nalgebra::Vector3;
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Setpoint, Vertical};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::units::Heading;
 
 /// A curve keeps a point each so many steps: 0.2 s.
@@ -99,7 +99,7 @@ pub(super) fn cruise(able: &Capabilities) -> f64 {
 }
 
 /// Brought to cruise.
-pub(super) fn cruising(craft: &Craft, able: &Capabilities) -> Sailing {
+pub(super) fn cruising(craft: &Vehicle, able: &Capabilities) -> Sailing {
     let mut sailing = Sailing::new(craft, able, Vector3::zeros());
     let north = command(able, Heading::from_deg(0.0), cruise(able), depth_of(able));
     for _ in 0..(90.0 / STEP_S) as u32 {
@@ -109,7 +109,7 @@ pub(super) fn cruising(craft: &Craft, able: &Capabilities) -> Sailing {
 }
 
 /// Under way to the north: at cruise, or on a glide.
-pub(super) fn approach(craft: &Craft, able: &Capabilities) -> Sailing {
+pub(super) fn approach(craft: &Vehicle, able: &Capabilities) -> Sailing {
     if !glides(able) {
         return cruising(craft, able);
     }

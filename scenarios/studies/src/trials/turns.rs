@@ -5,11 +5,11 @@
 use super::sail::STEP_S;
 use super::trial::{Curve, THINNED, Trial, approach, command, cruise, cruising, depth_of, measured, patience_s};
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Vertical};
-use robots::vehicles::Craft;
+use robots::vehicles::Vehicle;
 use world::units::Heading;
 
 /// From cruise, always to starboard: the heading asked is 90 degrees ahead of the nose.
-pub(super) fn turn(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn turn(craft: &Vehicle, able: &Capabilities) -> Trial {
     let mut sailing = approach(craft, able);
     let begun = sailing.truth.pose;
     let (mut turned, mut last) = (0.0, begun.heading());
@@ -74,7 +74,7 @@ pub(super) fn turn(craft: &Craft, able: &Capabilities) -> Trial {
 }
 
 /// Between headings of ±20 degrees.
-pub(super) fn headings(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn headings(craft: &Vehicle, able: &Capabilities) -> Trial {
     let mut sailing = cruising(craft, able);
     let begun_s = sailing.t_s();
     let mut side = 1.0;

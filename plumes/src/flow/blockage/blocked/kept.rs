@@ -1,12 +1,12 @@
 //! The solutions of unsteady water round obstacles, written to bytes and read back. Steady water has one, which it
 //! solves when it is built.
 
-use super::{Blocked, Faces, Solved};
+use super::{Faces, ObstacleFlow, SolutionReport};
 use std::sync::Arc;
 use world::bits::{Reader, Unreadable, Writer};
 use world::fields::Flow;
 
-impl Blocked {
+impl ObstacleFlow {
     /// Writes what has changed since it was built.
     pub(in crate::flow) fn keep(&self, to: &mut Writer) {
         let Self {
@@ -34,7 +34,7 @@ impl Blocked {
                 to.words(list);
             }
         }
-        let Solved { steps, divergence, open_cells: _, cells: _ } = solved;
+        let SolutionReport { steps, divergence, open_cells: _, cells: _ } = solved;
         to.word(*steps as u64);
         to.word(*divergence);
     }

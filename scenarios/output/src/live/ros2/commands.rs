@@ -16,8 +16,8 @@ use crate::ros::MessageKind;
 use crate::scene::frames::BODY;
 use byteorder::LittleEndian;
 use nalgebra::Vector2;
-use rheotaxis::control::{Heard, Question, Seen};
-use robots::handoff::{Answer, Behaviour, Manoeuvre, MoveOrder, Order, Vertical};
+use rheotaxis::control::{Question, QuestionContent, Response};
+use robots::handoff::{Behaviour, Manoeuvre, MotionOrder, MoveOrder, Reply, Vertical};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
@@ -84,13 +84,13 @@ impl RosCommands {
     }
 
     /// The answer to a question: the next command, within the question's deadline.
-    pub(in crate::live) fn answer(&mut self, question: &Question, going: &dyn Fn() -> bool) -> Heard {
+    pub(in crate::live) fn answer(&mut self, question: &Question, going: &dyn Fn() -> bool) -> Response {
         const NAP: Duration = Duration::from_millis(20);
         let mut left = Duration::try_from_secs_f64(question.deadline_s).unwrap_or(Duration::MAX);
         let mut newest = (self.inbox.newest.lock()).unwrap_or_else(PoisonError::into_inner);
         while newest.0 == self.taken {
             if left.is_zero() || !going() {
-                return Heard::Late;
+                return Response::Late;
             }
             let nap = left.min(NAP);
             let waited = self.inbox.came.wait_timeout(newest, nap);
@@ -103,7 +103,7 @@ impl RosCommands {
         let dt_s = question.t_s - self.last_s.replace(question.t_s).unwrap_or(question.t_s);
         match twist(&bytes).and_then(|said| sound(said, &self.frame)) {
             Ok([linear, angular]) => order(question, linear, angular[2], dt_s),
-            Err(why) => Heard::Nonsense(why),
+            Err(why) => Response::Nonsense(why),
         }
     }
 }
@@ -133,9 +133,9 @@ fn sound(((_, frame), linear, angular): Twist, own: &str) -> std::result::Result
     Ok([linear, angular])
 }
 
-fn order(question: &Question, [ahead, left, up]: [f64; 3], yaw_rad_s: f64, dt_s: f64) -> Heard {
-    let Seen::Robot(seen, _) = &question.seen else {
-        return Heard::Nonsense("a gantry takes no TwistStamped".to_string());
+fn order(question: &Question, [ahead, left, up]: [f64; 3], yaw_rad_s: f64, dt_s: f64) -> Response {
+    let QuestionContent::Robot(seen, _) = &question.seen else {
+        return Response::Nonsense("a gantry takes no TwistStamped".to_string());
     };
     let e = &seen.estimate;
     // Compass headings grow to starboard.
@@ -147,15 +147,15 @@ fn order(question: &Question, [ahead, left, up]: [f64; 3], yaw_rad_s: f64, dt_s:
     } else {
         Manoeuvre::Steer { heading }
     };
-    Heard::Answer(Answer {
-        order: Some(Order::Move(MoveOrder {
+    Response::Answer(Reply {
+        order: Some(MotionOrder::Move(MoveOrder {
             id: None,
             manoeuvre,
             vertical: Some(Vertical::Depth((e.depth_m - up * dt_s).max(0.0))),
             speed_m_s: Some(ahead.max(0.0)),
         })),
         behaviour: Some(Behaviour::Other("ros_cmd")),
-        ..Answer::default()
+        ..Reply::default()
     })
 }
 

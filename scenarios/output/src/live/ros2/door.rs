@@ -2,10 +2,10 @@
 
 use super::node::Node;
 use super::state::names;
-use super::state::{Message, Spoken};
+use super::state::{LatchedTopics, Message};
 use super::topics::{self, RosTopic};
 use super::{AREA, MAP, Ros2};
-use crate::live::slots::Numbered;
+use crate::live::slots::CountedValue;
 use crate::ros::{clock, compressed_image, marker_array, nanoseconds, plume_cloud, text, transforms};
 use crate::scene::Scene;
 use crate::scene::frames::{fixed, transform};
@@ -18,14 +18,17 @@ use zenoh::{Result, Session};
 pub(in crate::live) struct Door<'a> {
     node: Node<'a>,
     scene: Arc<Scene>,
-    spoken: Spoken,
+    spoken: LatchedTopics,
 }
 
 impl<'a> Door<'a> {
     /// Joins the graph and says what is known before the run.
     pub(in crate::live) fn open(session: &'a Session, ros2: &Ros2) -> Result<Self> {
-        let mut door =
-            Self { node: Node::join(session, ros2.domain)?, scene: Arc::clone(&ros2.scene), spoken: Spoken::default() };
+        let mut door = Self {
+            node: Node::join(session, ros2.domain)?,
+            scene: Arc::clone(&ros2.scene),
+            spoken: LatchedTopics::default(),
+        };
         let scene = Arc::clone(&ros2.scene);
         let machines = scene.machines.iter();
         let mut still = vec![scene.area_frame(MAP, AREA)];
@@ -57,7 +60,7 @@ impl<'a> Door<'a> {
     }
 
     /// Says a picture that is already a JPEG file.
-    pub(in crate::live) fn picture(&mut self, newest: &Numbered<PictureFrame>, jpeg: &[u8]) {
+    pub(in crate::live) fn picture(&mut self, newest: &CountedValue<PictureFrame>, jpeg: &[u8]) {
         let taken = &newest.value;
         let scene = Arc::clone(&self.scene);
         let Some(machine) = scene.machine(&taken.robot) else {

@@ -24,12 +24,12 @@ pub(super) struct Node<'a> {
     id: String,
     /// The next number of an entity in the session; the node itself has 0.
     next: u32,
-    said: BTreeMap<String, Said>,
+    said: BTreeMap<String, TopicPublisher>,
     _alive: LivelinessToken,
 }
 
 /// A publisher of a topic.
-struct Said {
+struct TopicPublisher {
     by: By,
     gid: [u8; 16],
     messages: i64,
@@ -66,7 +66,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    fn declare(&mut self, topic: &RosTopic, name: &str) -> Result<Said> {
+    fn declare(&mut self, topic: &RosTopic, name: &str) -> Result<TopicPublisher> {
         let RosTopic { kind, qos, .. } = *topic;
         let token = key(self.domain, &self.id).end(End::Publisher, self.next, name, kind, qos);
         self.next += 1;
@@ -88,7 +88,7 @@ impl<'a> Node<'a> {
             ),
             _ => By::Once(publisher.wait()?),
         };
-        Ok(Said {
+        Ok(TopicPublisher {
             by,
             gid: keys::gid(&token),
             messages: 0,

@@ -1,10 +1,10 @@
 //! Messages of a robot's instruments, each with the time of its reading.
 
-use super::state::Of;
+use super::state::MachineMessages;
 use super::topics;
 use crate::ros::{Imu, Range, echo_cloud, fluid_pressure, nanoseconds, twist_stamped, vector3_stamped};
 use crate::scene::frames::BODY;
-use rheotaxis::frame::{At, Heard};
+use rheotaxis::frame::{NewestReadings, TimedReading};
 use robots::handoff::{Attitude, RangeScan};
 
 /// Pressure of the air at the surface, Pa: standard atmosphere.
@@ -13,9 +13,9 @@ const SURFACE_PA: f64 = 101_325.0;
 const WEIGHT_N_M3: f64 = 1025.0 * 9.806_65;
 
 /// Adds the messages of all readings.
-pub(super) fn put(of: &mut Of, heard: &Heard) {
+pub(super) fn put(of: &mut MachineMessages, heard: &NewestReadings) {
     let body = of.machine.frame(BODY);
-    if let Some(At { t_s, value }) = &heard.attitude {
+    if let Some(TimedReading { t_s, value }) = &heard.attitude {
         let attitude = Attitude {
             heading: value.heading,
             roll_rad: value.roll_rad,
@@ -25,12 +25,12 @@ pub(super) fn put(of: &mut Of, heard: &Heard) {
         let imu = Imu { t_ns: nanoseconds(*t_s), frame: &body, attitude: attitude.R_WB(), rates: value.rates_rad_s };
         of.put(&topics::IMU, imu.cdr());
     }
-    if let Some(At { t_s, value }) = &heard.depth {
+    if let Some(TimedReading { t_s, value }) = &heard.depth {
         let pressure_Pa = SURFACE_PA + WEIGHT_N_M3 * value.depth_m;
         let cdr = fluid_pressure(nanoseconds(*t_s), &body, pressure_Pa);
         of.put(&topics::PRESSURE, cdr);
     }
-    if let (Some(At { t_s, value }), Some(limits_m)) = (&heard.altimeter, of.machine.altimeter_m) {
+    if let (Some(TimedReading { t_s, value }), Some(limits_m)) = (&heard.altimeter, of.machine.altimeter_m) {
         let range = Range {
             t_ns: nanoseconds(*t_s),
             frame: &of.machine.frame("altimeter_beam"),
@@ -43,18 +43,18 @@ pub(super) fn put(of: &mut Of, heard: &Heard) {
     if let Some(scan) = &heard.ranging {
         ranging(of, scan, &body);
     }
-    if let Some(At { t_s, value }) = heard.dvl.as_ref().filter(|r| r.value.valid) {
+    if let Some(TimedReading { t_s, value }) = heard.dvl.as_ref().filter(|r| r.value.valid) {
         let cdr = twist_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
         of.put(&topics::DVL, cdr);
     }
-    if let Some(At { t_s, value }) = heard.adcp.as_ref().filter(|r| r.value.valid) {
+    if let Some(TimedReading { t_s, value }) = heard.adcp.as_ref().filter(|r| r.value.valid) {
         let cdr = vector3_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
         of.put(&topics::ADCP, cdr);
     }
 }
 
 /// The echoes of the forward ranging as points, and the nearest.
-fn ranging(of: &mut Of, At { t_s, value: scan }: &At<RangeScan>, body: &str) {
+fn ranging(of: &mut MachineMessages, TimedReading { t_s, value: scan }: &TimedReading<RangeScan>, body: &str) {
     let t_ns = nanoseconds(*t_s);
     of.put(&topics::RANGING, echo_cloud(t_ns, body, scan));
     if let Some((limits_m, view_rad)) = of.machine.ranging {

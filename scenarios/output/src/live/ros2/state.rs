@@ -29,18 +29,18 @@ pub(super) struct Message {
 
 /// What was said last on each latched topic, so that it is said again only when it is new.
 #[derive(Debug, Default)]
-pub(super) struct Spoken {
+pub(super) struct LatchedTopics {
     latched: BTreeMap<String, Vec<u8>>,
 }
 
 /// The messages of one machine.
-pub(super) struct Of<'a> {
+pub(super) struct MachineMessages<'a> {
     pub(super) machine: &'a Machine,
     pub(super) t_ns: u64,
     out: Vec<Message>,
 }
 
-impl<'a> Of<'a> {
+impl<'a> MachineMessages<'a> {
     fn new(machine: &'a Machine, t_ns: u64) -> Self {
         let out = Vec::new();
         Self { machine, t_ns, out }
@@ -59,7 +59,7 @@ impl<'a> Of<'a> {
     }
 }
 
-impl Spoken {
+impl LatchedTopics {
     /// All messages of a frame except the time.
     pub(super) fn messages(&mut self, scene: &Scene, frame: &Frame) -> Vec<Message> {
         let t_ns = nanoseconds(frame.t_s);
@@ -67,14 +67,14 @@ impl Spoken {
         let mut tf = Vec::new();
         for robot in &frame.robots {
             if let Some(machine) = scene.machine(&robot.id) {
-                let mut of = Of::new(machine, t_ns);
+                let mut of = MachineMessages::new(machine, t_ns);
                 self.robot(&mut of, robot, &mut tf);
                 out.append(&mut of.out);
             }
         }
         for gantry in &frame.gantries {
             if let Some(machine) = scene.machine(&gantry.id) {
-                let mut of = Of::new(machine, t_ns);
+                let mut of = MachineMessages::new(machine, t_ns);
                 self.gantry(&mut of, gantry, &mut tf);
                 out.append(&mut of.out);
             }
@@ -86,7 +86,7 @@ impl Spoken {
         out
     }
 
-    fn robot(&mut self, of: &mut Of, r: &RobotFrame, tf: &mut Vec<Transform>) {
+    fn robot(&mut self, of: &mut MachineMessages, r: &RobotFrame, tf: &mut Vec<Transform>) {
         let (t_ns, e, truth) = (of.t_ns, &r.estimate, &r.truth);
         // The estimate is older than the truth: it holds for the time of the readings in it.
         let believed_ns = nanoseconds(e.t_s);
@@ -123,7 +123,7 @@ impl Spoken {
         }
     }
 
-    fn gantry(&mut self, of: &mut Of, g: &GantryFrame, tf: &mut Vec<Transform>) {
+    fn gantry(&mut self, of: &mut MachineMessages, g: &GantryFrame, tf: &mut Vec<Transform>) {
         let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
         tf.extend(slid(of.t_ns, of.machine, &names(of.machine), &positions));
         of.put(&topics::JOINTS, joint_state(of.t_ns, "", &joints(g)));
@@ -139,7 +139,7 @@ impl Spoken {
         }
     }
 
-    fn behaviour(&mut self, of: &mut Of, name: &str) {
+    fn behaviour(&mut self, of: &mut MachineMessages, name: &str) {
         let cdr = text(name);
         if self.is_new(format!("{}/behaviour", of.machine.name), cdr.clone()) {
             of.put(&topics::BEHAVIOUR, cdr);
@@ -147,7 +147,7 @@ impl Spoken {
     }
 
     /// A declaration that was not said before: of its region, if the area is divided.
-    fn declaration(&mut self, of: &mut Of, d: &Declaration, z: f64) {
+    fn declaration(&mut self, of: &mut MachineMessages, d: &Declaration, z: f64) {
         let p = Vector3::new(d.position.x, d.position.y, z);
         let cdr = pose_stamped(nanoseconds(d.t_s), MAP, &p, &UnitQuaternion::identity());
         let which = format!("{}/declaration/{:?}", of.machine.name, d.region);
@@ -162,6 +162,6 @@ impl Spoken {
     }
 }
 
-fn plan_of(of: &Of) -> String {
+fn plan_of(of: &MachineMessages) -> String {
     format!("{}/plan", of.machine.name)
 }

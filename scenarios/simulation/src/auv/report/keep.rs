@@ -1,9 +1,9 @@
 //! What is kept of one robot.
 
 use super::system::Reported;
-use crate::abnormal::{Abnormal, Abnormality, Lookout, OUTSIDE_M};
 use crate::auv::{Log, Mapping};
 use crate::frame::{PictureFrame, PingFrame};
+use crate::incidents::{Incident, IncidentKind, IncidentMonitor, OUTSIDE_M};
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
@@ -96,8 +96,8 @@ pub(super) fn watch(
     clock: &Clock,
     ocean: &Ocean,
     physics: &Physics,
-    lookout: &mut Lookout,
-    events: &mut Vec<Abnormal>,
+    lookout: &mut IncidentMonitor,
+    events: &mut Vec<Incident>,
 ) {
     let p = truth.pose.p_WB;
     let outside_m = -ocean.sides.edge_distance(p.xy()).0;
@@ -107,15 +107,15 @@ pub(super) fn watch(
     let strained = pilot.saturated().map(|_| saturated(pilot, *battery) == Some(true));
     let dithers = (lookout.switches).alternate(decision.behaviour, clock.t_s(), &p);
     let mut see = |what, wrong| lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
-    see(Abnormality::LeftArea, Some(outside_m > OUTSIDE_M));
-    see(Abnormality::NoBottomLock, deaf(readings.dvl.map(|r| r.valid)));
-    see(Abnormality::NoAltitude, deaf(readings.altimeter.map(|r| r.valid)));
-    see(Abnormality::NoFlow, deaf(readings.adcp.map(|r| r.valid)));
-    see(Abnormality::Touched, Some(contact.touching && !vehicle));
-    see(Abnormality::TouchedVehicle, Some(vehicle));
-    see(Abnormality::ThrustersSaturated, strained);
-    see(Abnormality::BatteryEmpty, battery.map(Battery::is_empty));
-    see(Abnormality::Dithering, Some(dithers));
+    see(IncidentKind::LeftArea, Some(outside_m > OUTSIDE_M));
+    see(IncidentKind::NoBottomLock, deaf(readings.dvl.map(|r| r.valid)));
+    see(IncidentKind::NoAltitude, deaf(readings.altimeter.map(|r| r.valid)));
+    see(IncidentKind::NoFlow, deaf(readings.adcp.map(|r| r.valid)));
+    see(IncidentKind::Touched, Some(contact.touching && !vehicle));
+    see(IncidentKind::TouchedVehicle, Some(vehicle));
+    see(IncidentKind::ThrustersSaturated, strained);
+    see(IncidentKind::BatteryEmpty, battery.map(Battery::is_empty));
+    see(IncidentKind::Dithering, Some(dithers));
 }
 
 /// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.

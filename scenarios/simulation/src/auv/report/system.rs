@@ -2,8 +2,8 @@
 //! find what is written to than to write.
 
 use super::keep::{digest, log, score, watch};
-use crate::abnormal::Lookout;
-use crate::auv::{Hull, Log, Mapping, Now, Robots};
+use crate::auv::{Hull, Log, Mapping, OnboardTime, Robots};
+use crate::incidents::IncidentMonitor;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
@@ -29,7 +29,8 @@ pub(super) type Reported<'a> = (
     Option<&'a Battery>,
 );
 
-type Kept<'a> = (&'a Now, Reported<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut Lookout, &'a mut Log);
+type Kept<'a> =
+    (&'a OnboardTime, Reported<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut IncidentMonitor, &'a mut Log);
 
 /// Adds robots to the digest and the score, and watches for what is abnormal.
 pub(crate) fn report(

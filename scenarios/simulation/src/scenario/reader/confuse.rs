@@ -4,7 +4,7 @@ use super::fail::Misfit;
 use super::hint::Form;
 use super::mend::{Mender, SHORT};
 use super::tree::{Group, Item, Kind, Node, Wanted};
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use world::spelling::choose;
 
 impl Mender<'_> {
@@ -17,8 +17,8 @@ impl Mender<'_> {
         let written = self.reading.text[inner.value.clone()].to_string();
         let at = inner.value.clone();
         if let (1, Kind::Group(Group { name: None, bracket: '(', items })) = (group.items.len(), &inner.kind) {
-            let found =
-                Found::error(&node.path, "one pair of parentheses too many").hint("write the fields in a single pair");
+            let found = UnplacedFault::error(&node.path, "one pair of parentheses too many")
+                .hint("write the fields in a single pair");
             self.tell(at, found, Form::Whole);
             self.group(id).expect("it is one").items = items.clone();
             self.node(id).silent |= inner.silent;
@@ -33,7 +33,7 @@ impl Mender<'_> {
                 .map(|(name, i)| format!("{name}: {}", &text[tree.nodes[i.node].value.clone()]));
             let hint = format!("write `({})`", named.collect::<Vec<_>>().join(", "));
             let hint = if hint.contains('\n') || hint.len() > 2 * SHORT { choose("", legal, "fields") } else { hint };
-            let found = Found::error(&node.path, "the fields here have names").hint(hint);
+            let found = UnplacedFault::error(&node.path, "the fields here have names").hint(hint);
             self.tell(at, found, Form::Whole);
             let own: Vec<String> = legal.iter().map(|l| self.own(id, l).to_string()).collect();
             let items = &mut self.group(id).expect("it is one").items;
@@ -48,12 +48,12 @@ impl Mender<'_> {
             items[place].key = Some(own);
             let hole = items[place].node;
             self.dig(hole);
-            let found = Found::error(&node.path, format!("the field `{name}` has no value"));
+            let found = UnplacedFault::error(&node.path, format!("the field `{name}` has no value"));
             self.tell(at, found, Form::Missing((*name).to_string(), hole));
         } else {
             items.remove(place);
             let problem = self.got(&inner, &Misfit::Kind(Wanted::Plain("`name: value`")));
-            let found = Found::error(&node.path, problem).hint(choose("", legal, "fields"));
+            let found = UnplacedFault::error(&node.path, problem).hint(choose("", legal, "fields"));
             self.tell(at, found, Form::Whole);
         }
         true
@@ -62,7 +62,7 @@ impl Mender<'_> {
     /// A value of another kind than the one that belongs there.
     pub(super) fn another_kind(&mut self, id: usize, node: &Node, misfit: &Misfit) -> bool {
         let mut form = if misfit.says_range() { Form::Whole } else { Form::Kind(id) };
-        let mut found = Found::error(&node.path, self.got(node, misfit));
+        let mut found = UnplacedFault::error(&node.path, self.got(node, misfit));
         match (&node.kind, misfit) {
             (Kind::Group(group), Misfit::Kind(Wanted::List)) if group.bracket == '(' => {
                 found = found.hint("write `[ ]` around it");

@@ -1,13 +1,13 @@
 //! Hints how to correct a mistake: the nearest name, what to write, or the legal range.
 
 use super::tree::{Hole, Kind, Placed, Tree, Wanted};
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use std::ops::Range;
 
 /// A mistake. Its hint is known only after the whole text has been read.
 pub(super) struct Told {
     pub at: Range<usize>,
-    pub found: Found,
+    pub found: UnplacedFault,
     pub form: Form,
 }
 

@@ -5,7 +5,7 @@ use super::hint::{Form, Told};
 use super::names::Renamed;
 use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
 use super::value::{Reading, Value};
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use crate::scenario::outline::{Outline, joined};
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
@@ -128,7 +128,7 @@ impl<'a> Mender<'a> {
         settled
     }
 
-    pub(super) fn tell(&mut self, at: Range<usize>, found: Found, form: Form) {
+    pub(super) fn tell(&mut self, at: Range<usize>, found: UnplacedFault, form: Form) {
         self.told.push(Told { at, found, form });
     }
 
@@ -153,7 +153,7 @@ impl<'a> Mender<'a> {
                 let Some(i) = group.items.iter().position(|i| i.key.as_ref() == Some(&name)) else {
                     return false;
                 };
-                let found = Found::error(&node.path, format!("there is no field `{name}`"))
+                let found = UnplacedFault::error(&node.path, format!("there is no field `{name}`"))
                     .hint(choose(&name, &legal, "fields"));
                 let at = group.items[i].key_at.clone();
                 let meant = nearest(&name, &free).map(|meant| self.own(id, meant).to_string());
@@ -170,13 +170,13 @@ impl<'a> Mender<'a> {
                     return false;
                 };
                 let shown = self.shown(id, field);
-                let found = Found::error(&node.path, format!("the field `{shown}` is given twice"));
+                let found = UnplacedFault::error(&node.path, format!("the field `{shown}` is given twice"));
                 self.group(id).expect("it is one").items.remove(i);
                 self.tell(group.items[i].key_at.clone(), found, Form::Whole);
                 true
             }
             (_, What::Variant(name, legal)) => {
-                let found = Found::error(&node.path, format!("there is no choice `{name}`"))
+                let found = UnplacedFault::error(&node.path, format!("there is no choice `{name}`"))
                     .hint(choose(&name, legal, "choices"));
                 let at = node.value.start..node.value.start + name.len();
                 match (nearest(&name, legal), self.group(id)) {
@@ -188,7 +188,7 @@ impl<'a> Mender<'a> {
             }
             (_, What::Unnamed(legal)) => {
                 let problem = self.got(&node, &Misfit::Kind(Wanted::Choice(legal)));
-                let found = Found::error(&node.path, problem).hint(choose("", legal, "choices"));
+                let found = UnplacedFault::error(&node.path, problem).hint(choose("", legal, "choices"));
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
                 true
@@ -198,7 +198,7 @@ impl<'a> Mender<'a> {
                     Kind::Group(g) => (format!("expected `(` after `{name}`, got `{}`", g.bracket), Form::Whole),
                     _ => (format!("`{name}` needs parentheses"), Form::Parentheses(name.clone(), id)),
                 };
-                self.tell(node.value.clone(), Found::error(&node.path, problem), form);
+                self.tell(node.value.clone(), UnplacedFault::error(&node.path, problem), form);
                 self.node(id).silent = true;
                 match self.group(id) {
                     Some(group) if group.bracket == '{' => group.bracket = '(',
@@ -210,8 +210,8 @@ impl<'a> Mender<'a> {
                 true
             }
             (_, What::Bare(name)) => {
-                let found =
-                    Found::error(&node.path, format!("`{name}` has no parentheses")).hint(format!("write `{name}`"));
+                let found = UnplacedFault::error(&node.path, format!("`{name}` has no parentheses"))
+                    .hint(format!("write `{name}`"));
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
                 true
@@ -226,14 +226,14 @@ impl<'a> Mender<'a> {
                     return false;
                 };
                 group.items.iter_mut().for_each(|i| i.key = None);
-                let found = Found::error(&node.path, format!("the values here have no names, got `{name}:`"))
+                let found = UnplacedFault::error(&node.path, format!("the values here have no names, got `{name}:`"))
                     .hint("write the values alone");
                 self.tell(node.whole.clone(), found, Form::Whole);
                 true
             }
             (_, What::Misfit(misfit)) => self.another_kind(id, &node, &misfit),
             (_, What::Refused(refusal)) => {
-                let found = Found::error(&node.path, refusal.to_string());
+                let found = UnplacedFault::error(&node.path, refusal.to_string());
                 let found = if refusal.is_not_finite() { found.hint("give a finite number") } else { found };
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
@@ -286,7 +286,7 @@ impl<'a> Mender<'a> {
                 }
                 None => ("expected a value in the parentheses".to_string(), node.value.clone(), Form::Kind(hole)),
             };
-            self.tell(at, Found::error(&node.path, problem), form);
+            self.tell(at, UnplacedFault::error(&node.path, problem), form);
         }
         true
     }

@@ -20,7 +20,7 @@ mod tree;
 mod value;
 
 use super::fault::Severity;
-use super::fault::{Fault, Found, ScenarioError};
+use super::fault::{Fault, ScenarioError, UnplacedFault};
 use super::unread::unread;
 use mend::Mender;
 pub(super) use names::Renamed;
@@ -50,7 +50,7 @@ const FILLINGS: usize = 3;
 pub fn read<T: DeserializeOwned>(
     name: &str,
     text: &str,
-    meaning: &dyn Fn(&T) -> Vec<Found>,
+    meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
 ) -> Result<T, ScenarioError> {
     read_renamed(name, text, None, meaning)
 }
@@ -60,7 +60,7 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
     name: &str,
     text: &str,
     renamed: Option<Renamed>,
-    meaning: &dyn Fn(&T) -> Vec<Found>,
+    meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
 ) -> Result<T, ScenarioError> {
     let reader =
         ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
@@ -82,11 +82,11 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
 fn mistakes<T: DeserializeOwned>(
     text: &str,
     renamed: Option<Renamed>,
-    meaning: &dyn Fn(&T) -> Vec<Found>,
+    meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
 ) -> Vec<Placed> {
     let Some(tree) = Tree::of(text) else {
         let problem = "brackets are nested more than 128 deep";
-        return vec![(0..0, Found::error("", problem))];
+        return vec![(0..0, UnplacedFault::error("", problem))];
     };
     let mut mender = Mender::new(text, tree, renamed);
     mender.rename();

@@ -3,7 +3,7 @@
 use super::hint::Form;
 use super::mend::Mender;
 use super::tree::Item;
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use crate::scenario::outline::Outline;
 
 /// A field with two names: the type reads both (serde's `alias`), and a text may use one of them.
@@ -55,7 +55,7 @@ impl Mender<'_> {
             item.key = Some(renamed.field.to_string());
         }
         if let Some(at) = wrong_at {
-            let found = Found::error(renamed.elsewhere, renamed.problem).hint(renamed.hint);
+            let found = UnplacedFault::error(renamed.elsewhere, renamed.problem).hint(renamed.hint);
             self.tell(at, found, Form::Whole);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::token::{Token, Tokens};
 use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name};
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use crate::scenario::outline::DEEPEST;
 use crate::scenario::outline::joined;
 use std::ops::Range;
@@ -37,7 +37,7 @@ impl<'a> Parser<'a> {
         let mut tree = Tree::default();
         for at in &tokens.unclosed {
             let problem = "the text in quotes is not closed on its line";
-            let found = Found::error("", problem).hint("end it with `\"`");
+            let found = UnplacedFault::error("", problem).hint("end it with `\"`");
             tree.faults.push((at.clone(), found));
         }
         Self { text, tokens, at: 0, by_indent, open: Vec::new(), told_cut: false, tree }
@@ -88,7 +88,7 @@ impl<'a> Parser<'a> {
     }
 
     fn fault(&mut self, at: Range<usize>, path: &str, problem: &str, hint: &str) {
-        let found = Found::error(path, problem);
+        let found = UnplacedFault::error(path, problem);
         let found = if hint.is_empty() { found } else { found.hint(hint) };
         self.tree.faults.push((at, found));
     }
@@ -294,7 +294,7 @@ impl<'a> Parser<'a> {
         let lines = self.text.lines().count();
         let problem = format!("the file ends at line {lines} before this `{bracket}` is closed");
         let hint = "the file may have been cut off, or a closing bracket is missing";
-        let found = Found::error(path, problem).hint(hint).label("opened here");
+        let found = UnplacedFault::error(path, problem).hint(hint).label("opened here");
         let at = self.tokens.all[opener].at.clone();
         self.tree.faults.push((at, found));
     }

@@ -91,16 +91,16 @@ fn pond(changes: &[(&str, &str)]) -> String {
     })
 }
 
-fn too_shallow(pond: &Pond) -> Vec<Found> {
+fn too_shallow(pond: &Pond) -> Vec<UnplacedFault> {
     let (Bed::Level(level) | Bed::Slope(level)) = &pond.bed;
     let mut found = Vec::new();
     if let Some(Depth::Altitude(m)) = pond.depth
         && m > level.depth_m
     {
-        found.push(Found::error("depth", "is above the surface"));
+        found.push(UnplacedFault::error("depth", "is above the surface"));
     }
     if pond.title.len() > 10 {
-        found.push(Found::error("title", "is too long"));
+        found.push(UnplacedFault::error("title", "is too long"));
     }
     found
 }

@@ -1,12 +1,12 @@
 //! A tree of the values of a RON text with their places.
 
-use crate::scenario::fault::Found;
+use crate::scenario::fault::UnplacedFault;
 use crate::scenario::outline::joined;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A mistake and its place.
-pub(super) type Placed = (Range<usize>, Found);
+pub(super) type Placed = (Range<usize>, UnplacedFault);
 
 /// A value.
 #[derive(Clone, Debug)]

@@ -51,7 +51,7 @@ pub struct Pick {
 
 /// A run that was made anew to show its track.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Shown {
+pub struct RemadeRun {
     /// Which one.
     pub pick: Pick,
     /// How it moved, or why that is not known.
@@ -104,7 +104,7 @@ fn place(row: &RunRow) -> (u8, f64, u64) {
 }
 
 /// The section of the page; `arms` is their number in all.
-pub(super) fn section(page: &mut Page, shown: &[Shown], arms: usize) {
+pub(super) fn section(page: &mut Page, shown: &[RemadeRun], arms: usize) {
     if shown.is_empty() {
         return;
     }
@@ -116,7 +116,7 @@ pub(super) fn section(page: &mut Page, shown: &[Shown], arms: usize) {
         page.paragraph(&format!("Of {arms} arms the first {MOST_ARMS} are shown."));
     }
     page.without_script(STILL);
-    for Shown { pick, film } in shown {
+    for RemadeRun { pick, film } in shown {
         let title = title(pick);
         match film {
             Ok(film) => page.film(&title, film),

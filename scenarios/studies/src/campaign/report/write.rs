@@ -4,11 +4,11 @@ use super::arms::{self, ConditionFigures, arm_names, of_arm};
 use super::page::Page;
 use super::screen::Content;
 use super::text::Table;
-use super::tracks::{self, Shown};
+use super::tracks::{self, RemadeRun};
 use super::walls::Walls;
 use super::{curves, pairs, plots, reliability, tables};
 use crate::campaign::RunRow;
-use output::files::{Kept, ReportError, begin_folder};
+use output::files::{PendingFiles, ReportError, begin_folder};
 use std::path::{Path, PathBuf};
 
 /// What the report says about the campaign in addition to its rows.
@@ -41,12 +41,12 @@ pub struct About<'a> {
     /// Number of runs planned; if there are fewer rows, the report says that it shows a part.
     pub planned: u64,
     /// The runs whose tracks are shown.
-    pub shown: &'a [Shown],
+    pub shown: &'a [RemadeRun],
 }
 
 /// A report that was written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Written {
+pub struct WrittenReport {
     /// The tables as plain text.
     pub text: String,
     /// The files.
@@ -72,7 +72,7 @@ const PAIR_NOTES: &str = "Pairs are runs of the same seed and condition. Success
 ///
 /// # Errors
 /// If the folder cannot be made or files cannot be written; names each such file. All others are written.
-pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, ReportError> {
+pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<WrittenReport, ReportError> {
     let folder = begin_folder(dir, "report")?;
     let names = arm_names(about.arms, rows);
     let grouped: Vec<(&String, Vec<&RunRow>)> = names.iter().map(|name| (name, of_arm(rows, name))).collect();
@@ -84,7 +84,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
     let waiting: Vec<_> = grouped.iter().map(|(name, rows)| curves::not_yet_declared(name, rows)).collect();
     let errors: Vec<_> = grouped.iter().map(|(name, rows)| curves::errors(name, rows)).collect();
 
-    let mut kept = Kept::new(&folder);
+    let mut kept = PendingFiles::new(&folder);
     kept.write("arms.csv", tables::arms_csv(&figures).as_bytes());
     let csv = tables::curves_csv("t_s", &waiting);
     kept.write("not_yet_declared.csv", csv.as_bytes());
@@ -210,7 +210,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         page.paragraph(error);
     }
     kept.write("report.html", page.end().as_bytes());
-    Ok(Written { text: content.text(about.columns), files: kept.done()?, removed: folder.removed().to_vec() })
+    Ok(WrittenReport { text: content.text(about.columns), files: kept.done()?, removed: folder.removed().to_vec() })
 }
 
 /// What counts as a success, and whether figures of several conditions are pooled.

@@ -1,0 +1,125 @@
+//! What a group of filaments contributes at a point, in whole quanta.
+//!
+//! *Source*: none. Sums of whole numbers do not depend on their order (as in reproducible summation, Demmel & Nguyen
+//! 2015, IEEE Trans. Comput. 64, 2060). So a group may be searched in any way, with the same bits.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: a contribution is rounded to a quantum. It is 2⁻³⁰ of the peak of the group's largest filament or less,
+//! unless the smallest is more than 2¹⁸ times as strong; then it is 2⁻⁴⁸ of the peak of that one.
+
+use super::bands::Moment;
+use super::image::{NearWall, QueryPoint};
+use super::index::Question;
+use super::moving_packet::MovingPacket;
+use super::packet::{CUT_SIGMAS, MOST, Packet64, peak};
+use super::store::Store;
+
+/// A question to one group.
+#[derive(Clone, Copy)]
+pub(super) struct GroupQuery<'a> {
+    pub(super) p: [f32; 3],
+    pub(super) spot: &'a QueryPoint<'a>,
+    pub(super) q: &'a Question<'a>,
+    pub(super) s: &'a Store,
+    pub(super) moment: Moment,
+    /// The first member.
+    pub(super) from: usize,
+    /// Farthest along each axis from which a member is felt, m.
+    pub(super) reach: [f32; 3],
+    /// Quanta in a kg/m³.
+    pub(super) quanta: f64,
+}
+
+/// Filaments at a time, and those that feel a wall and are therefore not in the leaf.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PresentMembers {
+    leaf: Packet64,
+    walled: Vec<NearWall>,
+}
+
+/// Quanta in the peak of the largest filament, if the smallest allows it.
+const FINE: f64 = 1_073_741_824.0;
+
+/// Quanta in a kg/m³ for filaments of `kg` between these sizes (horizontal and vertical, m): a power of two.
+pub(super) fn quanta(kg: f64, smallest: [f32; 2], largest: [f32; 2]) -> f64 {
+    let [strongest, weakest] = [smallest, largest].map(|size| peak(kg, size.map(f64::from)));
+    let fine = (FINE / weakest).min(f64::from(MOST) / strongest);
+    // Its mantissa is that of one.
+    f64::from_bits(fine.to_bits() & !((1 << 52) - 1))
+}
+
+/// Farthest along each axis from which a filament of these sizes (horizontal and vertical, m) is felt, m.
+pub(super) fn reach(q: &Question, sizes: [f32; 2]) -> [f32; 3] {
+    let [flat, high] = sizes.map(|size| CUT_SIGMAS * 1.000_1 * size);
+    // The kernel of a filament near a wall ends at its cut along each of two horizontal axes.
+    let flat = if q.room.is_open() { flat } else { std::f32::consts::SQRT_2 * flat };
+    // A filament is mirrored at the bed below it, which over a slope may be higher than the point.
+    [flat, flat, high + 2.0 * q.room.steepest as f32 * flat]
+}
+
+impl GroupQuery<'_> {
+    /// Farthest distance in the plane from which a member is felt, m: of a kernel between walls, the diagonal.
+    pub(super) fn flat_reach(&self) -> f32 {
+        self.reach[0]
+    }
+
+    /// Farthest along each axis from which a filament of these sizes (horizontal and vertical, m) is felt, m.
+    pub(super) fn reach_of(&self, sizes: [f32; 2]) -> [f32; 3] {
+        reach(self.q, sizes)
+    }
+
+    /// A filament of these sizes (m), if it feels a wall.
+    pub(super) fn walled(&self, p: [f32; 3], sizes: [f32; 2]) -> Option<NearWall> {
+        let QueryPoint { room, lookup, .. } = self.spot;
+        NearWall::new(room, lookup, p, sizes, self.s.filament_kg)
+    }
+
+    /// The contribution of a filament that feels a wall.
+    pub(super) fn in_quanta(&self, felt: &NearWall) -> i64 {
+        (felt.add(self.spot) * self.quanta).round() as i64
+    }
+}
+
+impl PresentMembers {
+    /// Becomes those of a leaf on its way that are released at the present time.
+    pub(super) fn work_out(&mut self, moving: &MovingPacket, asked: &GroupQuery) {
+        let GroupQuery { s, q, spot, .. } = asked;
+        let Self { leaf, walled } = self;
+        moving.fill(q.path, &s.size, &asked.moment, leaf);
+        walled.clear();
+        if !spot.room.is_open() {
+            leaf.retain(|p, sizes| {
+                let felt = asked.walled(p, sizes);
+                let free = felt.is_none();
+                walled.extend(felt);
+                free
+            });
+        }
+        leaf.seal(q.path, s.filament_kg * asked.quanta);
+    }
+
+    /// Its contribution, in quanta.
+    pub(super) fn felt(&self, asked: &GroupQuery) -> i64 {
+        let walled = self.walled.iter();
+        let walled = walled.map(|felt| asked.in_quanta(felt));
+        self.leaf.at(asked.q.path, asked.p) + walled.sum::<i64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quanta_are_fine_enough_for_the_weakest_and_not_too_many_for_the_strongest() {
+        for (smallest, largest) in [(0.03_f32, 0.5_f32), (0.03, 6.0), (1e-4, 2.0), (1.0, 1.0)] {
+            let per = quanta(5e-6, [smallest; 2], [largest, largest.min(0.5)]);
+            assert_eq!(per.to_bits() << 12, 0, "a power of two");
+            let weak = peak(5e-6, [f64::from(largest), f64::from(largest.min(0.5))]) * per;
+            let strong = peak(5e-6, [f64::from(smallest); 2]) * per;
+            assert!(strong <= f64::from(MOST) && weak >= 2_f64.powi(6), "{weak} {strong}");
+            assert!(weak >= 2_f64.powi(29) || strong >= 2_f64.powi(47));
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! Where filaments are in the patterns of small eddies, and how these carry them.
+//!
+//! *Source*: see `flow::eddies::small`.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: a coordinate is the filament's place when the pattern began, moved on by the small eddies alone: that
+//! is where the water that is now at the filament would be if only they had moved it. A filament that is released later
+//! takes it from the water that passes the source. Kicks by what is smaller than the finest octave do not change it.
+
+use super::bands::Span;
+use super::rows::Rows;
+use super::store::Store;
+use crate::flow::eddies::{Life, Small, Weights};
+use crate::path::InstructionSet;
+#[cfg(target_arch = "x86_64")]
+use crate::quad::Avx;
+use crate::quad::{Pair, Twice};
+use nalgebra::Vector3;
+use std::ops::Range;
+use world::bits::{Reader, Unreadable, Writer};
+use world::fields::Flow;
+
+/// Coordinates in the patterns of the filaments of a store, one row a filament.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct EddyCoordinates {
+    patterns: usize,
+    /// East, north, up, m.
+    at: Rows<[f32; 3]>,
+    /// The number of the pattern in which each coordinate is.
+    number: Rows<u32>,
+    /// The same of the water at the source at a time, and its velocity without the small eddies, m/s.
+    source: Vec<[f32; 3]>,
+    source_number: Vec<u32>,
+    since_s: f64,
+    source_m_s: [f32; 3],
+}
+
+/// No pattern has this number.
+const NONE: u32 = u32::MAX;
+
+impl EddyCoordinates {
+    pub(super) fn new(small: &Small) -> Self {
+        let patterns = small.patterns();
+        Self {
+            patterns,
+            at: Rows::default(),
+            number: Rows::default(),
+            source: vec![[0.0; 3]; patterns],
+            source_number: vec![NONE; patterns],
+            since_s: 0.0,
+            source_m_s: [0.0; 3],
+        }
+    }
+
+    /// Adds the newest filament, released at a time.
+    pub(super) fn push(&mut self, born_s: f64) {
+        let passed = (born_s - self.since_s) as f32;
+        let u = self.source_m_s;
+        let at = |p: &[f32; 3]| std::array::from_fn(|d| p[d] - passed * u[d]);
+        self.at.extend(self.source.iter().map(at));
+        self.number.extend(self.source_number.iter().copied());
+    }
+
+    /// Removes rows by their sorted places.
+    pub(super) fn remove(&mut self, gone: &[usize]) {
+        self.at.remove(gone, self.patterns);
+        self.number.remove(gone, self.patterns);
+    }
+
+    /// A filament has moved upwards through the water, m.
+    pub(super) fn lift(&mut self, n: usize, way_m: f32) {
+        for at in &mut self.at[n * self.patterns..(n + 1) * self.patterns] {
+            at[2] += way_m;
+        }
+    }
+
+    /// Lets every filament begin where it is, as if all patterns began now.
+    #[cfg(test)]
+    pub(super) fn begin(&mut self) {
+        self.number.fill(NONE);
+    }
+
+    /// Writes all of it.
+    pub(super) fn keep(&self, to: &mut Writer) {
+        let Self { patterns: _, at, number, source, source_number, since_s, source_m_s } = self;
+        to.words(at.as_flattened());
+        to.words(number);
+        to.words(source.as_flattened());
+        to.words(source_number);
+        to.word(*since_s);
+        to.words(source_m_s);
+    }
+
+    /// Reads what [`Self::keep`] wrote of so many filaments.
+    pub(super) fn recall(&mut self, n: usize, from: &mut Reader<'_>) -> Result<(), Unreadable> {
+        let places = |flat: Vec<f32>| -> Vec<[f32; 3]> { flat.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect() };
+        self.at = places(from.exactly(3 * n * self.patterns)?).into();
+        self.number = from.exactly(n * self.patterns)?.into();
+        self.source = places(from.exactly(3 * self.patterns)?);
+        self.source_number = from.exactly(self.patterns)?;
+        self.since_s = from.word()?;
+        let u: Vec<f32> = from.exactly(3)?;
+        self.source_m_s = [u[0], u[1], u[2]];
+        Ok(())
+    }
+
+    /// Brings the coordinates of the water at the source to a time.
+    fn pass_source(&mut self, small: &Small, flow: &dyn Flow, (p_W, local): (Vector3<f64>, [f32; 3]), t_s: f64) {
+        let u = flow.velocity(&p_W, t_s).map(|v| v as f32);
+        let passed = (t_s - self.since_s) as f32;
+        for ((at, number), life) in (self.source.iter_mut().zip(&mut self.source_number)).zip(small.lives(t_s)) {
+            if *number == life.number {
+                for d in 0..3 {
+                    at[d] -= passed * u[d];
+                }
+            } else {
+                *number = life.number;
+                *at = std::array::from_fn(|d| local[d] - life.age_s * u[d]);
+            }
+        }
+        (self.since_s, self.source_m_s) = (t_s, u.into());
+    }
+
+    /// The row of a filament at a place, begun anew for the patterns that have begun meanwhile.
+    fn row(&mut self, n: usize, place: [f32; 3], lives: &[Life]) -> &mut [[f32; 3]] {
+        let range = n * self.patterns..(n + 1) * self.patterns;
+        let row = &mut self.at[range.clone()];
+        for ((at, number), life) in row.iter_mut().zip(&mut self.number[range]).zip(lives) {
+            if *number != life.number {
+                (*at, *number) = (place, life.number);
+            }
+        }
+        row
+    }
+}
+
+/// Carries filaments with the small eddies through a step, or from their release on, and the water at the source, which
+/// is given in the world and from the datum.
+pub(super) fn carry(
+    path: InstructionSet,
+    small: &Small,
+    flow: &dyn Flow,
+    source: (Vector3<f64>, [f32; 3]),
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
+    let Some(mut labels) = store.labels.take() else {
+        return;
+    };
+    match path {
+        // SAFETY: a pair that every machine of the target has.
+        InstructionSet::Portable => unsafe { moved::<Twice>(&mut labels, small, store, range, span) },
+        // SAFETY: this variant is only made after the feature was detected.
+        #[cfg(target_arch = "x86_64")]
+        InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { moved_avx2(&mut labels, small, store, range, span) },
+    }
+    labels.pass_source(small, flow, source, span.to_s);
+    store.labels = Some(labels);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn moved_avx2(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
+    // SAFETY: the pair needs AVX, which is part of this function's features.
+    unsafe { moved::<Avx>(labels, small, store, range, span) };
+}
+
+/// Moves filaments and their rows.
+///
+/// # Safety
+/// The machine must have the instructions of `P`.
+#[inline(always)]
+unsafe fn moved<P: Pair>(
+    labels: &mut EddyCoordinates,
+    small: &Small,
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
+    let middle_s = 0.5 * (span.from_s + span.to_s);
+    let lives = small.lives(middle_s);
+    let middle = (middle_s, &*lives);
+    if range.is_empty() {
+        return;
+    }
+    let mut next = ready(labels, small, store, range.start, middle);
+    let patterns = labels.patterns;
+    for n in range.clone() {
+        let weights = next;
+        // What moves the next filament is on its way while one is moved.
+        if n + 1 < range.end {
+            next = ready(labels, small, store, n + 1, middle);
+        }
+        let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
+        let place = [store.x[n], store.y[n], store.z[n]];
+        let row = &mut labels.at[n * patterns..(n + 1) * patterns];
+        // Half the step ahead first, so that an even cloud stays even to second order.
+        // SAFETY: here and below, as the caller promises.
+        let v = unsafe { small.velocity::<P>(&lives, place[2], &weights, row) };
+        let half = v.map(|v| 0.5 * dt * v);
+        let mut ahead = [[0.0; 3]; MOST];
+        for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
+            *ahead = std::array::from_fn(|d| at[d] + half[d]);
+        }
+        let ahead = &ahead[..row.len()];
+        // SAFETY: as above.
+        let v = unsafe { small.velocity::<P>(&lives, place[2] + half[2], &weights, ahead) };
+        let way = v.map(|v| dt * v);
+        for at in row {
+            for d in 0..3 {
+                at[d] += way[d];
+            }
+        }
+        store.x[n] += way[0];
+        store.y[n] += way[1];
+        store.z[n] += way[2];
+    }
+}
+
+/// Works out what moves a filament at a time (s, and the patterns then), and asks the processor for it. Not a closure,
+/// which would not be compiled for the caller's instructions.
+#[inline(always)]
+fn ready(
+    labels: &mut EddyCoordinates,
+    small: &Small,
+    store: &Store,
+    n: usize,
+    (t_s, lives): (f64, &[Life]),
+) -> Weights {
+    let age_s = t_s - store.born_s[n];
+    let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
+    let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], lives);
+    small.fetch_soon(lives, &weights, row);
+    weights
+}
+
+/// Most patterns.
+const MOST: usize = 2 * crate::flow::eddies::MOST_OCTAVES;

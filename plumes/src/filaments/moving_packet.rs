@@ -1,0 +1,220 @@
+//! The filaments of a leaf on their way through a step: where they are at a moment, over which bed, and how large.
+//!
+//! *Source*: none; see `bands` for the way and `size` for the size.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none of its own. The way is straight, so where it would cut a bend of the bed, it follows the bed.
+
+use super::bands::{Moment, Span};
+use super::lookup::Lookup;
+use super::packet::{LANES, LEAF, Packet64, eights};
+use super::rise::widened;
+use super::size::Size;
+use super::store::Store;
+use crate::flow::ground::NearGround;
+use crate::path::InstructionSet;
+
+/// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
+#[derive(Clone, Debug)]
+pub(super) struct MovingPacket {
+    /// East, north, up.
+    start: [[f32; LEAF]; 3],
+    end: [[f32; LEAF]; 3],
+    born_s: [f64; LEAF],
+    /// Variance by which each is wider for its own entrainment, m², of a buoyant release.
+    grown_m2: Option<[f32; LEAF]>,
+    ground: NearGround,
+    count: usize,
+}
+
+impl Default for MovingPacket {
+    fn default() -> Self {
+        Self {
+            start: [[0.0; LEAF]; 3],
+            end: [[0.0; LEAF]; 3],
+            born_s: [f64::NEG_INFINITY; LEAF],
+            grown_m2: None,
+            ground: NearGround::default(),
+            count: 0,
+        }
+    }
+}
+
+impl MovingPacket {
+    /// Becomes these members of a group that begins at `from`. What is left in other places does not count.
+    pub(super) fn take(&mut self, s: &Store, lookup: &Lookup, from: usize, members: &[u16]) {
+        self.count = members.len();
+        let at = |m: &u16| from + usize::from(*m);
+        let ends = [&s.x, &s.y, &s.z];
+        for (to, of) in self.start.iter_mut().zip(&s.start) {
+            gather(to, of, members.iter().map(at));
+        }
+        for (to, of) in self.end.iter_mut().zip(ends) {
+            gather(to, of, members.iter().map(at));
+        }
+        gather(&mut self.born_s, &s.born_s, members.iter().map(at));
+        if let Some(rise) = &s.rise {
+            let grown = self.grown_m2.get_or_insert([0.0; LEAF]);
+            gather(grown, &rise.grown_m2, members.iter().map(at));
+        }
+        self.ground = lookup.ground;
+    }
+
+    /// The part of its way that each has gone at a moment, and how many are released.
+    fn parts(&self, moment: &Moment) -> ([f32; LEAF], usize) {
+        let Moment { span, now_s, part } = *moment;
+        let mut parts = [part; LEAF];
+        let mut count = self.count;
+        // The newest filaments come last.
+        for l in (0..self.count).rev() {
+            let from_s = self.born_s[l];
+            if from_s <= span.from_s {
+                break;
+            } else if from_s <= now_s {
+                parts[l] = Span { from_s, ..span }.part(now_s);
+            } else {
+                count = l;
+            }
+        }
+        (parts, count)
+    }
+
+    /// Puts those that are released at a moment into a leaf, not [sealed](Packet64::seal) yet.
+    pub(super) fn fill(&self, path: InstructionSet, size: &Size, moment: &Moment, leaf: &mut Packet64) {
+        let (parts, count) = self.parts(moment);
+        leaf.count = count;
+        let way = MotionInputs { moving: self, parts, size, now_s: moment.now_s };
+        match path {
+            InstructionSet::Portable => fill(&way, leaf),
+            // SAFETY: this variant is only made after the feature was detected.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => unsafe { fill_avx2(&way, leaf) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => unsafe { fill_avx512(&way, leaf) },
+        }
+    }
+}
+
+fn gather<T: Copy>(to: &mut [T; LEAF], of: &[T], members: impl Iterator<Item = usize>) {
+    for (to, m) in to.iter_mut().zip(members) {
+        *to = of[m];
+    }
+}
+
+/// What the places, beds and sizes at a moment follow from.
+struct MotionInputs<'a> {
+    moving: &'a MovingPacket,
+    /// The part of its way that each filament has gone.
+    parts: [f32; LEAF],
+    size: &'a Size,
+    now_s: f64,
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn fill_avx2(way: &MotionInputs, leaf: &mut Packet64) {
+    fill(way, leaf);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+fn fill_avx512(way: &MotionInputs, leaf: &mut Packet64) {
+    fill(way, leaf);
+}
+
+/// A coordinate when a part of the way is gone.
+#[inline(always)]
+pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
+    let on = start + part * (end - start);
+    if part < 1.0 { on } else { end }
+}
+
+/// Places, beds and sizes, eight at a time; what is in empty places does not count.
+#[inline(always)]
+#[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
+fn fill(way: &MotionInputs, leaf: &mut Packet64) {
+    let MotionInputs { moving: m, parts, size, now_s } = way;
+    for from in eights(leaf.count) {
+        let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z];
+        for (d, to) in places.into_iter().enumerate() {
+            for l in from..from + LANES {
+                to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
+            }
+        }
+        for l in from..from + LANES {
+            leaf.bed[l] = m.ground.z(leaf.x[l], leaf.y[l]);
+        }
+        for l in from..from + LANES {
+            let (z, bed) = (leaf.z[l], leaf.bed[l]);
+            leaf.z[l] = if z > bed { z } else { bed };
+        }
+        for l in from..from + LANES {
+            leaf.h[l] = size.horizontal(now_s - m.born_s[l]);
+        }
+        if let Some(grown) = &m.grown_m2 {
+            for l in from..from + LANES {
+                leaf.h[l] = widened(leaf.h[l], grown[l]);
+            }
+        }
+        for l in from..from + LANES {
+            leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::ground::Ground;
+    use crate::release::ReleaseSpec;
+    use nalgebra::Vector2;
+    use world::terrain::Terrain;
+
+    /// A leaf on its way from one place to another, the last filaments released within the step.
+    fn moving() -> MovingPacket {
+        let mut new = MovingPacket {
+            ground: Ground::new(&Terrain::Level { depth_m: 5.0 }).near(Vector2::zeros()),
+            count: 30,
+            ..MovingPacket::default()
+        };
+        for l in 0..30 {
+            let a = l as f32;
+            new.start = add(new.start, l, [400.0 + 0.3 * a, -200.0 - 0.2 * a, -3.0]);
+            new.end = add(new.end, l, [403.0 + 0.25 * a, -202.0, -3.5]);
+            new.born_s[l] = if l < 27 { -60.0 + f64::from(l as u16) } else { 1.0 + 0.5 * (l - 27) as f64 };
+        }
+        new
+    }
+
+    fn add(mut to: [[f32; LEAF]; 3], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 3] {
+        for (axis, v) in to.iter_mut().zip(p) {
+            axis[l] = v;
+        }
+        to
+    }
+
+    #[test]
+    fn all_that_are_released_are_on_their_ways() {
+        let (moving, size) = (moving(), Size::new(&ReleaseSpec::default()));
+        let (from_s, to_s) = (0.0, 4.0);
+        let span = Span { from_s, to_s };
+        for (now_s, released) in [(0.0, 27), (1.2, 28), (2.5, 30), (4.0, 30)] {
+            let part = span.part(now_s);
+            let moment = Moment { span, now_s, part };
+            for path in InstructionSet::all() {
+                let mut leaf = Packet64::default();
+                moving.fill(path, &size, &moment, &mut leaf);
+                assert_eq!(leaf.count, released, "{path:?} at {now_s}");
+                for l in 0..released {
+                    let from_s = moving.born_s[l].max(0.0);
+                    let part = Span { from_s, to_s }.part(now_s);
+                    let on = |d: usize| on_way(moving.start[d][l], moving.end[d][l], part);
+                    assert_eq!([leaf.x[l], leaf.y[l], leaf.z[l]], [on(0), on(1), on(2)]);
+                    assert_eq!(leaf.h[l], size.horizontal(now_s - moving.born_s[l]));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Everything that follows a run: its results, live state, progress, pace.
+#![allow(clippy::disallowed_methods, reason = "pace and wall time are for people; neither enters the run")]
+
+use super::args::{RunArgs, Speed};
+use super::lane_observers::LaneObservers;
+use super::progress::Progress;
+use output::files::{ReportError, begin_run};
+use output::follow::Follower;
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
+use output::report::is_result;
+use rheotaxis::control::{Exchange, Response};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::Loaded;
+use rheotaxis::trial::{RunEnd, Trial, Watch, controlled};
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
+use std::time::Duration;
+
+use super::run::RunError;
+use super::say;
+
+/// All that follows one run.
+pub(super) struct RunObserver {
+    results: Follower,
+    live: Option<Live>,
+    progress: Progress,
+    plane: Arc<Plane>,
+    /// Steps after which it ends, if it is to end like another run.
+    left: Option<u64>,
+    /// What came of the last question of each robot.
+    heard: BTreeMap<String, &'static str>,
+    stop: &'static AtomicBool,
+}
+
+impl RunObserver {
+    /// Opens folder, files and port, so that an error in them comes before the run starts.
+    pub(super) fn new(
+        loaded: &Loaded,
+        args: &RunArgs,
+        out: &Path,
+        company: &mut LaneObservers,
+        stop: &'static AtomicBool,
+    ) -> Result<Self, RunError> {
+        let mut results = Follower::new(loaded, args.key.seed(args.seed))?;
+        let progress = Progress::new(loaded, args, &company.bars);
+        let times = match args.speed {
+            Speed::Max => None,
+            Speed::Times(times) => Some(times),
+        };
+        let plane = Arc::new(Plane::new(args.control.allow_control, times));
+        let live = live(args, &mut results, &progress, company, &plane)?;
+        // The folder comes last: a run that cannot start must not remove the files of an earlier run.
+        let own = |name: &str| is_result(&loaded.scenario, name);
+        let out = begin_run(out, (!args.overwrite).then_some(&own))?;
+        if let Some(removed) = say::removed(out.dir(), out.removed()) {
+            progress.say(&removed);
+        }
+        results.write_into(&out, !args.no_record)?;
+        // Where somebody keeps pace with the run, each frame is written at once.
+        let at_once = times.is_some() || !controlled(&loaded.scenario).is_empty();
+        if cores(args) > 1 && !at_once {
+            results = results.beside();
+        }
+        Ok(Self { results, live, progress, plane, left: None, heard: BTreeMap::new(), stop })
+    }
+
+    /// Ends the run after so many steps, as another has ended.
+    pub(super) fn end_after(&mut self, steps: u64) {
+        self.left = Some(steps);
+    }
+
+    /// Whoever controls a robot from another process; `None` without live state.
+    pub(super) fn controller(
+        &self,
+        robot: &str,
+        deadline_s: f64,
+        args: &RunArgs,
+    ) -> Result<Option<LiveController>, RunError> {
+        let Some(live) = &self.live else {
+            return Ok(None);
+        };
+        let stop = self.stop;
+        let times = [deadline_s, args.control.control_wait].map(Duration::from_secs_f64);
+        let going = Arc::new(move || !stop.load(Ordering::Relaxed));
+        let controller = live.controller(robot, times, going)?;
+        let most_s = args.control.control_wait;
+        let key = controller.key();
+        self.progress.say(&format!("{robot} asks at {key}; it waits up to {most_s} s for a controller"));
+        Ok(Some(controller))
+    }
+
+    fn going(&self) -> bool {
+        self.results.well() && !self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Writes the results of the run and prints where they are. Its live state stays with those of the other lanes.
+    pub(super) fn finish(
+        mut self,
+        trial: &Trial,
+        ended: &RunEnd,
+        company: &mut LaneObservers,
+    ) -> Result<RunOutcome, ReportError> {
+        if let Some(live) = &self.live {
+            self.plane.ended();
+            live.end(&ended.digest);
+        }
+        let mut gathered = self.results.finish(trial, ended);
+        let written = gathered.write(trial.simulation.ocean());
+        if let Some(out) = gathered.out() {
+            self.progress.finish(&gathered.summary, out.dir());
+        }
+        if let Some(live) = self.live.take() {
+            company.keep(live);
+        }
+        written.map(|()| gathered.summary.outcome)
+    }
+}
+
+/// How many cores the run may use.
+fn cores(args: &RunArgs) -> usize {
+    let here = available_parallelism().map_or(1, usize::from);
+    match args.threads {
+        0 => here,
+        asked => asked.min(here),
+    }
+}
+
+/// Starts publishing over zenoh.
+fn live(
+    args: &RunArgs,
+    results: &mut Follower,
+    progress: &Progress,
+    company: &mut LaneObservers,
+    plane: &Arc<Plane>,
+) -> Result<Option<Live>, RunError> {
+    if args.no_zenoh {
+        return Ok(None);
+    }
+    let scene = results.scene()?;
+    let run = results.run();
+    let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
+    options.listen = args.zenoh_listen.clone();
+    options.config_file = args.zenoh_config.clone();
+    options.plane = Arc::clone(plane);
+    options.control_from_anywhere = args.control.control_from_anywhere;
+    if args.ros2.ros2 {
+        options.ros2 = Some(Ros2 { domain: args.ros2.domain, scene: Arc::clone(&scene) });
+    }
+    let meta = LiveMeta {
+        scenario_text: run.scenario_text.clone(),
+        scenario_name: run.scenario_name.clone(),
+        seed: run.seed.number(),
+        version: run.version.clone(),
+        scene: Some(scene.document(run.seed.number())),
+    };
+    let live = company.live(&options, meta)?;
+    progress.say(&format!("live on {} under rheotaxis/{}", live.endpoint(), options.run_id));
+    if let Some(notice) = live.notice() {
+        progress.say(notice);
+    }
+    if let Some(warning) = live.warning() {
+        progress.warn(warning);
+    }
+    Ok(Some(live))
+}
+
+impl Watch for RunObserver {
+    fn spun_up(&mut self, share: f64) -> bool {
+        self.progress.spun_up(share);
+        self.results.spun_up(share);
+        self.going()
+    }
+
+    fn developed(&mut self, kept: bool) {
+        self.results.developed(kept);
+        if kept {
+            self.progress.say("spin-up taken from the cache");
+        }
+    }
+
+    fn frame(&mut self, frame: &Arc<Frame>) {
+        self.results.frame(frame);
+        if let Some(live) = &self.live {
+            live.publish(frame);
+        }
+        self.progress.frame(frame);
+    }
+
+    fn plume(&mut self, plume: &PlumeFrame) {
+        self.results.plume(plume);
+        if let Some(live) = &self.live {
+            live.plume(plume);
+        }
+    }
+
+    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
+        match &self.live {
+            None => self.results.water(look),
+            Some(live) => {
+                let water = look();
+                live.water(&water);
+                self.results.water(&|| water.clone());
+            }
+        }
+    }
+
+    fn consulted(&mut self, told: &Exchange) {
+        self.results.consulted(told);
+        let name = told.heard.name();
+        if self.heard.insert(told.robot.clone(), name) != Some(name) {
+            let why = match &told.heard {
+                Response::Nonsense(why) => format!(": {why}"),
+                _ => String::new(),
+            };
+            let line = format!("  {} asked at {:.1} s: {name}{why}", told.robot, told.t_s);
+            self.progress.say(&line);
+        }
+    }
+
+    fn picture(&mut self, picture: &PictureFrame) {
+        if let Some(live) = &self.live {
+            live.picture(picture);
+        }
+        self.results.picture(picture);
+    }
+
+    fn ping(&mut self, ping: &PingFrame) {
+        if let Some(live) = &self.live {
+            live.ping(ping);
+        }
+        self.results.ping(ping);
+    }
+
+    fn go_on(&mut self, t_s: f64) -> bool {
+        let last = self.left.as_mut().is_some_and(|left| {
+            *left = left.saturating_sub(1);
+            *left == 0
+        });
+        // Ctrl-C must end a wait of any length.
+        !last && self.plane.hold(t_s, || self.going())
+    }
+}

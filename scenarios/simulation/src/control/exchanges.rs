@@ -1,0 +1,257 @@
+//! A machine that asks: what it gathers between two questions, its open question, and what it was told.
+
+use super::{Exchange, Question, QuestionContent, Response};
+use crate::score::Score;
+use crate::searchers::SearcherId;
+use bevy_ecs::prelude::{Component, Entity, Resource, World};
+use robots::handoff::{
+    Bounds, ChemicalReading, ExchangeTiming, MotionOrder, Picture, ProbeScan, RangeScan, Readings, Reply, ReplyOutcome,
+    SidescanPing,
+};
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+
+/// All machines that ask, in the order of the scenario.
+#[derive(Resource, Clone, Debug, Default)]
+pub(crate) struct Exchanges(pub Vec<Entity>);
+
+/// What a robot's instruments said since the last question.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Gathered {
+    /// Readings of the chemical sensor.
+    pub readings: u32,
+    /// Those of them with a detection.
+    pub detections: u32,
+    /// Sum of them, as shares of full scale.
+    pub sum: f64,
+    /// The greatest, as a share of full scale.
+    pub highest: f64,
+    /// The newest.
+    pub chemical: Option<ChemicalReading>,
+    /// When the newest detection was, s of the mission; it stays from question to question.
+    pub detected_s: Option<f64>,
+    /// The newest ping of the forward ranging.
+    pub ranging: Option<RangeScan>,
+    /// The newest ping of the sidescan sonar.
+    pub sidescan: Option<SidescanPing>,
+    /// The newest picture.
+    pub picture: Option<Picture>,
+}
+
+impl Gathered {
+    /// Adds the readings of a tick.
+    pub(crate) fn add(&mut self, t_s: f64, readings: &Readings) {
+        if let Some(reading) = readings.chemical {
+            self.readings += 1;
+            self.sum += reading.of_full_scale;
+            self.highest = self.highest.max(reading.of_full_scale);
+            self.chemical = Some(reading);
+            if reading.detected {
+                self.detections += 1;
+                self.detected_s = Some(t_s);
+            }
+        }
+        fn newest<T: Clone>(kept: &mut Option<T>, new: &Option<T>) {
+            if new.is_some() {
+                kept.clone_from(new);
+            }
+        }
+        newest(&mut self.ranging, &readings.ranging);
+        newest(&mut self.sidescan, &readings.sidescan);
+        newest(&mut self.picture, &readings.picture);
+    }
+
+    /// Hands out what was gathered, and begins anew.
+    fn take(&mut self) -> Self {
+        let next = Self { detected_s: self.detected_s, ..Self::default() };
+        std::mem::replace(self, next)
+    }
+}
+
+/// What a gantry's probes said since the last question.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HeadGathered {
+    /// All scans, oldest first.
+    pub scans: Vec<ProbeScan>,
+}
+
+/// The gathered of a robot or of a gantry.
+#[derive(Clone, Debug)]
+pub(crate) enum ReadingsSince {
+    Robot(Box<Gathered>),
+    Gantry(HeadGathered),
+}
+
+/// A machine that asks a searcher outside this program.
+#[derive(Component, Clone, Debug)]
+pub(crate) struct ExchangeState {
+    every: Every,
+    deadline_s: f64,
+    /// Drives of a robot that an order may set; `None` for a gantry.
+    drives: Option<usize>,
+    asked: u64,
+    pub(crate) kept: ReadingsSince,
+    question: Option<Box<Question>>,
+    told: Option<ReplyOutcome>,
+}
+
+impl ExchangeState {
+    /// A robot with so many drives.
+    pub(crate) fn robot(consulted: ExchangeTiming, drives: usize, dt_s: f64) -> Self {
+        Self::new(consulted, Some(drives), dt_s)
+    }
+
+    /// A gantry.
+    pub(crate) fn gantry(consulted: ExchangeTiming, dt_s: f64) -> Self {
+        Self::new(consulted, None, dt_s)
+    }
+
+    fn new(consulted: ExchangeTiming, drives: Option<usize>, dt_s: f64) -> Self {
+        Self {
+            every: Every::period(consulted.period_s, dt_s),
+            deadline_s: consulted.deadline_s,
+            drives,
+            asked: 0,
+            kept: match drives {
+                Some(_) => ReadingsSince::Robot(Box::default()),
+                None => ReadingsSince::Gantry(HeadGathered::default()),
+            },
+            question: None,
+            told: None,
+        }
+    }
+
+    /// Whether it asks in this tick.
+    pub(crate) fn due(&self, clock: &Clock) -> bool {
+        self.every.due(clock)
+    }
+
+    /// Asks.
+    pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(&mut ReadingsSince) -> QuestionContent) {
+        self.question = Some(Box::new(Question {
+            robot: robot.to_string(),
+            number: self.asked,
+            step: clock.step,
+            t_s: clock.t_s(),
+            deadline_s: self.deadline_s,
+            seen: see(&mut self.kept),
+        }));
+        self.asked += 1;
+    }
+
+    /// What it was told in this tick.
+    pub(crate) fn take_told(&mut self) -> Option<ReplyOutcome> {
+        self.told.take()
+    }
+
+    fn fault(&self, answer: &Reply) -> Option<String> {
+        let fault = match (&answer.order, self.drives) {
+            (Some(MotionOrder::Move(order)), Some(drives)) => order.fault(drives),
+            (Some(MotionOrder::Head(order)), None) => order.fault(Bounds::OWN),
+            (Some(MotionOrder::Move(_)), None) => Some("it is an order for a robot: a gantry takes `head`".to_string()),
+            (Some(MotionOrder::Head(_)), Some(_)) => {
+                Some("it is an order for a gantry: a robot takes `goal`, `steer`, `slide` or `drives`".to_string())
+            }
+            (None, _) => None,
+        };
+        fault.or_else(|| answer.declared.and_then(|d| d.fault(Bounds::OWN)))
+    }
+}
+
+impl ReadingsSince {
+    /// What a robot gathered.
+    pub(crate) fn take_robot(&mut self) -> Gathered {
+        match self {
+            ReadingsSince::Robot(gathered) => gathered.take(),
+            ReadingsSince::Gantry(_) => Gathered::default(),
+        }
+    }
+
+    /// What a gantry gathered.
+    pub(crate) fn take_gantry(&mut self) -> HeadGathered {
+        match self {
+            ReadingsSince::Gantry(gathered) => std::mem::take(gathered),
+            ReadingsSince::Robot(_) => HeadGathered::default(),
+        }
+    }
+}
+
+/// The true state of a robot that asks; `None` for a gantry.
+pub(crate) fn truth_of(world: &World, name: &str) -> Option<Truth> {
+    let asking = world.get_resource::<Exchanges>()?;
+    let named = |e: &&Entity| (world.get::<SearcherId>(**e)).is_some_and(|id| id.name == name);
+    let entity = asking.0.iter().find(named)?;
+    world.get::<Truth>(*entity).copied()
+}
+
+/// The questions of this tick that nobody has taken, in the order of the scenario.
+pub(crate) fn take_questions(world: &mut World) -> Vec<Question> {
+    let mut open = Vec::new();
+    for n in 0.. {
+        let Some(entity) = asking(world, n) else {
+            break;
+        };
+        if let Some(mut consulting) = world.get_mut::<ExchangeState>(entity) {
+            open.extend(consulting.question.take().map(|question| *question));
+        }
+    }
+    open
+}
+
+/// The machine in this place among those that ask.
+fn asking(world: &World, n: usize) -> Option<Entity> {
+    world.get_resource::<Exchanges>()?.0.get(n).copied()
+}
+
+/// A question that waits for its answer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OpenQuestion {
+    /// Who asks.
+    pub(crate) robot: String,
+    number: u64,
+    step: u64,
+    t_s: f64,
+}
+
+impl From<&Question> for OpenQuestion {
+    fn from(question: &Question) -> Self {
+        Self { robot: question.robot.clone(), number: question.number, step: question.step, t_s: question.t_s }
+    }
+}
+
+/// Puts in what came of a question, counts it, and returns it as observers see it. An answer that the machine cannot
+/// carry out counts as nonsense.
+pub(crate) fn put_in(world: &mut World, question: OpenQuestion, mut heard: Response) -> Exchange {
+    for n in 0.. {
+        let Some(entity) = asking(world, n) else {
+            break;
+        };
+        let own = (world.get::<SearcherId>(entity)).filter(|id| id.name == question.robot);
+        let Some(place) = own.map(|id| id.place) else {
+            continue;
+        };
+        let Some(mut consulting) = world.get_mut::<ExchangeState>(entity) else {
+            continue;
+        };
+        if let Response::Answer(answer) = &heard
+            && let Some(fault) = consulting.fault(answer)
+        {
+            heard = Response::Nonsense(fault);
+        }
+        consulting.told = Some(match &heard {
+            Response::Answer(answer) => ReplyOutcome::Answer(Box::new(answer.clone())),
+            _ => ReplyOutcome::Nothing,
+        });
+        let mut score = world.resource_mut::<Score>();
+        let own = score.searchers[place].consulted.get_or_insert_default();
+        own.asked += 1;
+        *match &heard {
+            Response::Answer(_) => &mut own.answered,
+            Response::Late => &mut own.late,
+            Response::Absent => &mut own.absent,
+            Response::Gone => &mut own.gone,
+            Response::Nonsense(_) => &mut own.nonsense,
+        } += 1;
+    }
+    Exchange { robot: question.robot, number: question.number, step: question.step, t_s: question.t_s, heard }
+}
