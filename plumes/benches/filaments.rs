@@ -247,9 +247,11 @@ fn ask(bencher: Bencher, n: usize, points: fn(&Plume) -> Vec<Vector3<f64>>) {
     let plume = plume(n);
     let points = points(&plume);
     for p in &points {
-        black_box(plume.at(p));
+        black_box(plume.concentration(p));
     }
-    bencher.counter(ItemsCount::new(points.len())).bench_local(|| points.iter().map(|p| plume.at(p)).sum::<f64>());
+    bencher
+        .counter(ItemsCount::new(points.len()))
+        .bench_local(|| points.iter().map(|p| plume.concentration(p)).sum::<f64>());
 }
 
 /// Queries close to filaments; items are points.
@@ -280,6 +282,6 @@ fn drift_and_five_readings(bencher: Bencher, n: usize) {
         let t = plume.now_s();
         plume.drift(&TwoLayers, t, t + 0.5);
         let five = tracks.next().unwrap_or_default();
-        five.iter().map(|q| plume.at(q)).sum::<f64>()
+        five.iter().map(|q| plume.concentration(q)).sum::<f64>()
     });
 }

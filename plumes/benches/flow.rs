@@ -98,7 +98,7 @@ fn grid_look_up(bencher: Bencher<'_, '_>) {
         })
         .collect();
     bencher.bench_local(|| {
-        let all = black_box(&places).iter().map(|p| grid.at(p[0], p[1], p[2]));
+        let all = black_box(&places).iter().map(|p| grid.sample(p[0], p[1], p[2]));
         all.fold(0.0, |sum, s| sum + s.velocity[0] + s.velocity[2] + s.dk_dz)
     });
 }

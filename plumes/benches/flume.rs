@@ -74,7 +74,7 @@ fn mission(bencher: Bencher) {
             let t = 60.0 + 0.05 * f64::from(n);
             plume.drift(&water, t, t + 0.05);
             for (y, z) in [(-0.0625, -0.125), (0.0625, -0.125), (0.0, -0.075)] {
-                sum += plume.at(&Vector3::new(1.0, y, z));
+                sum += plume.concentration(&Vector3::new(1.0, y, z));
             }
         }
         black_box(sum)

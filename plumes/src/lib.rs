@@ -4,7 +4,5 @@ pub mod error;
 pub mod filaments;
 pub mod flow;
 mod logarithm;
-mod marks;
-mod path;
-mod quad;
 pub mod release;
+mod simd;

@@ -46,7 +46,7 @@ impl Puffs {
 }
 
 impl Concentration for Puffs {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         let from = (self.puffs).partition_point(|c| c.0.x < p.x - self.reach);
         (self.puffs[from..].iter())
             .take_while(|c| c.0.x <= p.x + self.reach)

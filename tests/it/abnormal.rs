@@ -81,7 +81,7 @@ fn frames_carry_what_goes_wrong_and_nothing_else() {
     struct Last(Vec<String>);
     impl Watch for Last {
         fn frame(&mut self, frame: &Arc<Frame>) {
-            self.0 = frame.abnormal.iter().map(|a| a.what.words().to_string()).collect();
+            self.0 = frame.abnormal.iter().map(|a| a.what.label().to_string()).collect();
         }
     }
     let dir = tempfile::tempdir().unwrap();

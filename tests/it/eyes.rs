@@ -27,7 +27,7 @@ struct Dye {
 }
 
 impl Concentration for Dye {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         let way = p.x - self.from_m;
         if way <= 0.0 || self.kg_s == 0.0 {
             return 0.0;

@@ -27,7 +27,7 @@ fn nobodys_search_changes_the_ocean() {
     assert_eq!(with, without);
 
     let time = &loaded.scenario.time;
-    let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 3);
+    let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 3);
     let mut alone = origin.build(&loaded.base_dir).unwrap();
     alone.spin_up(|_| true);
     let mut clock = Clock::new(time.step_s.get());

@@ -1,7 +1,7 @@
 //! Scenarios as users write them: those that come with the program, and any number of everything.
 
 use crate::common;
-use rheotaxis::scenario::{CATALOG, load, load_text, put};
+use rheotaxis::scenario::{CATALOG, load, load_text, set_value};
 use serde_json::Value;
 use std::path::Path;
 use world::registry::Registry;
@@ -130,7 +130,7 @@ fn the_crab_of_the_catalogue_is_the_one_that_is_measured() {
     let mut text = include_str!("../../scenarios/catalog/flume_crab_paper.ron").to_string();
     for change in arm("adaptive").as_array().expect("it changes something") {
         let part = |k: usize| change[k].as_str().expect("a text");
-        text = put(&text, part(0), part(1)).expect("a field");
+        text = set_value(&text, part(0), part(1)).expect("a field");
     }
     let measured = load_text(&Registry::default(), "measured", &text).unwrap().scenario;
     let measured = serde_json::to_value(measured).unwrap();

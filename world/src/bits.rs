@@ -13,7 +13,7 @@ pub trait Word: Copy {
     /// Its bytes.
     const BYTES: usize;
     /// Appends its bytes.
-    fn put(self, to: &mut Vec<u8>);
+    fn append(self, to: &mut Vec<u8>);
     /// The number of these bytes, of which there are [`Self::BYTES`].
     fn get(bytes: &[u8]) -> Self;
 }
@@ -22,7 +22,7 @@ macro_rules! words {
     ($($word:ty)*) => {$(
         impl Word for $word {
             const BYTES: usize = size_of::<$word>();
-            fn put(self, to: &mut Vec<u8>) {
+            fn append(self, to: &mut Vec<u8>) {
                 to.extend_from_slice(&self.to_le_bytes());
             }
             fn get(bytes: &[u8]) -> Self {
@@ -41,7 +41,7 @@ pub struct Writer(Vec<u8>);
 impl Writer {
     /// Appends a number.
     pub fn word(&mut self, value: impl Word) {
-        value.put(&mut self.0);
+        value.append(&mut self.0);
     }
 
     /// Appends a number that may be missing.
@@ -53,11 +53,11 @@ impl Writer {
     }
 
     /// Appends a list and its length.
-    pub fn words<W: Word>(&mut self, values: &[W]) {
+    pub fn write_list<W: Word>(&mut self, values: &[W]) {
         self.word(values.len() as u64);
         self.0.reserve(values.len() * W::BYTES);
         for value in values {
-            value.put(&mut self.0);
+            value.append(&mut self.0);
         }
     }
 
@@ -109,7 +109,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// If the bytes end before the list does.
-    pub fn words<W: Word>(&mut self) -> Result<Vec<W>, Unreadable> {
+    pub fn read_list<W: Word>(&mut self) -> Result<Vec<W>, Unreadable> {
         let n = usize::try_from(self.word::<u64>()?).ok();
         let bytes = n.and_then(|n| n.checked_mul(W::BYTES));
         let bytes = self.take(bytes.ok_or(Unreadable("a list is longer than any memory"))?)?;
@@ -119,9 +119,9 @@ impl<'a> Reader<'a> {
     /// The next list, which must have this length.
     ///
     /// # Errors
-    /// As [`Self::words`]; also if it has another length.
+    /// As [`Self::write_list`]; also if it has another length.
     pub fn exactly<W: Word>(&mut self, n: usize) -> Result<Vec<W>, Unreadable> {
-        let list = self.words()?;
+        let list = self.read_list()?;
         if list.len() == n { Ok(list) } else { Err(Unreadable("a list has another length than it must have")) }
     }
 
@@ -143,8 +143,8 @@ mod tests {
         to.word(7_u32);
         to.maybe(Some(-0.0_f64));
         to.maybe(None::<u128>);
-        to.words(&[f32::NAN, f32::MIN_POSITIVE, f32::from_bits(1)]);
-        to.words(&[] as &[u64]);
+        to.write_list(&[f32::NAN, f32::MIN_POSITIVE, f32::from_bits(1)]);
+        to.write_list(&[] as &[u64]);
         to.into_bytes()
     }
 
@@ -156,8 +156,8 @@ mod tests {
             from.word()?,
             from.maybe::<f64>()?.map(f64::to_bits),
             from.maybe()?,
-            from.words::<f32>()?.into_iter().map(f32::to_bits).collect(),
-            from.words()?,
+            from.read_list::<f32>()?.into_iter().map(f32::to_bits).collect(),
+            from.read_list()?,
         );
         from.end()?;
         Ok(all)
@@ -186,10 +186,10 @@ mod tests {
             to.word(n);
             to.word(1.0_f64);
             let bytes = to.into_bytes();
-            assert!(Reader::new(&bytes).words::<f64>().is_err(), "{n}");
+            assert!(Reader::new(&bytes).read_list::<f64>().is_err(), "{n}");
         }
         let mut to = Writer::default();
-        to.words(&[1.0_f32, 2.0]);
+        to.write_list(&[1.0_f32, 2.0]);
         let bytes = to.into_bytes();
         assert!(Reader::new(&bytes).exactly::<f32>(3).is_err());
         assert_eq!(Reader::new(&bytes).exactly(2), Ok(vec![1.0_f32, 2.0]));

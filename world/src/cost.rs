@@ -141,7 +141,7 @@ pub struct Cost {
 impl Cost {
     /// A cost with one part.
     #[must_use]
-    pub fn of(part: Part) -> Self {
+    pub fn single(part: Part) -> Self {
         Self { parts: vec![part] }
     }
 
@@ -222,10 +222,10 @@ mod tests {
 
     #[test]
     fn what_is_no_number_is_too_much() {
-        let nan = Cost::of(Part::new("a", "x").holds(f64::INFINITY * 0.0));
+        let nan = Cost::single(Part::new("a", "x").holds(f64::INFINITY * 0.0));
         assert!(!nan.fits(1e300));
-        let mut two = Cost::of(Part::new("a", "x").holds(1e308 * 10.0));
-        two.add(Cost::of(Part::new("b", "y").holds(5.0)));
+        let mut two = Cost::single(Part::new("a", "x").holds(1e308 * 10.0));
+        two.add(Cost::single(Part::new("b", "y").holds(5.0)));
         assert!(!two.fits(1e300));
         assert_eq!(two.largest().unwrap().path, "a");
         assert!(Cost::default().fits(0.0));
@@ -246,9 +246,9 @@ mod tests {
 
     #[test]
     fn paths_go_below_another() {
-        let cost = Cost::of(Part::new("grid", "cells")).under("robots[0].map");
+        let cost = Cost::single(Part::new("grid", "cells")).under("robots[0].map");
         assert_eq!(cost.parts[0].path, "robots[0].map.grid");
-        let whole = Cost::of(Part::new("", "hull")).under("robots[0]");
+        let whole = Cost::single(Part::new("", "hull")).under("robots[0]");
         assert_eq!(whole.parts[0].path, "robots[0]");
     }
 

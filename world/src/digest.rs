@@ -42,12 +42,12 @@ impl Digest {
 
     /// Adds numbers by their bits.
     pub fn f64s(&mut self, values: &[f64]) {
-        self.0.words(values, |v| v.to_bits().to_le_bytes());
+        self.0.add_words(values, |v| v.to_bits().to_le_bytes());
     }
 
     /// Adds single-precision numbers by their bits.
     pub fn f32s(&mut self, values: &[f32]) {
-        self.0.words(values, |v| v.to_bits().to_le_bytes());
+        self.0.add_words(values, |v| v.to_bits().to_le_bytes());
     }
 
     /// Adds text and its length.
@@ -78,7 +78,7 @@ impl Hashed {
     }
 
     /// Adds words in little-endian order on every machine.
-    fn words<T: Copy, const N: usize>(&mut self, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
+    fn add_words<T: Copy, const N: usize>(&mut self, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
         for chunk in values.chunks(WAITING / N) {
             let size = chunk.len() * N;
             if self.used + size > WAITING {

@@ -134,7 +134,7 @@ pub trait Flow: Send + Sync {
 /// Something dissolved in the water.
 pub trait Concentration: Send + Sync {
     /// Concentration at `p` (ENU, m), kg/m³, now.
-    fn at(&self, p: &Vector3<f64>) -> f64;
+    fn concentration(&self, p: &Vector3<f64>) -> f64;
 }
 
 /// Still water of constant density.
@@ -152,7 +152,7 @@ impl Flow for Still {
 pub struct Clean;
 
 impl Concentration for Clean {
-    fn at(&self, _p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, _p: &Vector3<f64>) -> f64 {
         0.0
     }
 }

@@ -34,7 +34,7 @@ impl Pose {
     #[must_use]
     pub fn heading(&self) -> Heading {
         let x = self.R_WB * Vector3::x();
-        Heading::of(x.xy())
+        Heading::from_vector(x.xy())
     }
 
     /// (roll, pitch), radians, FLU signs: roll right side down positive, pitch *nose down* positive.

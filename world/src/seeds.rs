@@ -83,7 +83,7 @@ impl Seed {
 
     /// The number and, where there is a secret, the mark of its key, in words.
     #[must_use]
-    pub fn told(self) -> String {
+    pub fn describe(self) -> String {
         match self.key.mark() {
             Some(mark) => format!("{} under the key {mark}", self.number),
             None => self.number.to_string(),

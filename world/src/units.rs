@@ -72,7 +72,7 @@ impl Heading {
 
     /// Direction of an (east, north) vector; north for the zero vector.
     #[must_use]
-    pub fn of(v: Vector2<f64>) -> Self {
+    pub fn from_vector(v: Vector2<f64>) -> Self {
         Self::from_rad(math::atan2(v.x, v.y))
     }
 
@@ -129,7 +129,7 @@ mod tests {
         for deg in [0.0, 45.0, 90.0, 180.0, 270.0, 359.0] {
             let h = Heading::from_deg(deg);
             assert!(h.turn_to(Heading::from_yaw(h.yaw())).abs() < 1e-12);
-            assert!(h.turn_to(Heading::of(h.unit())).abs() < 1e-12);
+            assert!(h.turn_to(Heading::from_vector(h.unit())).abs() < 1e-12);
         }
         assert!((Heading::from_deg(90.0).unit() - Vector2::new(1.0, 0.0)).norm() < 1e-12);
     }

@@ -18,8 +18,8 @@ use super::group::GROUP;
 use super::image::NearWall;
 use super::moving_packet::MovingPacket;
 use super::packet::{CUT_SIGMAS, LANES, LEAF, Packet64, Whole, felt_by};
-use crate::marks::{self, Movemask};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
+use crate::simd::movemask::{self, Movemask};
 
 /// Filaments in a leaflet.
 pub(super) const LEAFLET: usize = 16;
@@ -107,7 +107,7 @@ impl Batch {
         let mut hits = [0; WORDS];
         let total = match path {
             // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { sum::<marks::Portable>(self, p, &mut hits) },
+            InstructionSet::Portable => unsafe { sum::<movemask::Portable>(self, p, &mut hits) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => unsafe { sum_avx2(self, p, &mut hits) },
@@ -188,14 +188,14 @@ impl Packet16 {
 #[target_feature(enable = "avx2")]
 fn sum_avx2(crowd: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { sum::<marks::Avx2>(crowd, p, hits) }
+    unsafe { sum::<movemask::Avx2>(crowd, p, hits) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn sum_avx512(crowd: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { sum::<marks::Avx512>(crowd, p, hits) }
+    unsafe { sum::<movemask::Avx512>(crowd, p, hits) }
 }
 
 /// The sum of the leaflets that are hit, and which these are: their boxes hold the point.

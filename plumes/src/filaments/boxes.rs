@@ -6,8 +6,8 @@
 //!
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
-use crate::marks::{self, LaneMask, Movemask, mark};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
+use crate::simd::movemask::{self, LaneMask, Movemask, mark};
 
 /// Boxes side by side.
 pub(super) const BOXES: usize = 32;
@@ -42,7 +42,7 @@ impl Boxes {
     pub(super) fn hold(&self, path: InstructionSet, p: [f32; 3]) -> u32 {
         match path {
             // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { self.held::<marks::Portable>(p) },
+            InstructionSet::Portable => unsafe { self.held::<movemask::Portable>(p) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => unsafe { hold_avx2(self, p) },
@@ -72,14 +72,14 @@ impl Boxes {
 #[target_feature(enable = "avx2")]
 fn hold_avx2(boxes: &Boxes, p: [f32; 3]) -> u32 {
     // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { boxes.held::<marks::Avx2>(p) }
+    unsafe { boxes.held::<movemask::Avx2>(p) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn hold_avx512(boxes: &Boxes, p: [f32; 3]) -> u32 {
     // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { boxes.held::<marks::Avx512>(p) }
+    unsafe { boxes.held::<movemask::Avx512>(p) }
 }
 
 /// From the least to the greatest of both. What is no number does not count.

@@ -103,7 +103,7 @@ impl PresentMembers {
     pub(super) fn felt(&self, asked: &GroupQuery) -> i64 {
         let walled = self.walled.iter();
         let walled = walled.map(|felt| asked.in_quanta(felt));
-        self.leaf.at(asked.q.path, asked.p) + walled.sum::<i64>()
+        self.leaf.concentration(asked.q.path, asked.p) + walled.sum::<i64>()
     }
 }
 

@@ -30,10 +30,10 @@ impl<'a> DisplacedConcentration<'a> {
 }
 
 impl Concentration for DisplacedConcentration<'_> {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         match self.flow.displacement(p, self.t_s) {
-            Some(way) => self.plume.at(&(p - way)),
-            None => self.plume.at(p),
+            Some(way) => self.plume.concentration(&(p - way)),
+            None => self.plume.concentration(p),
         }
     }
 }

@@ -17,7 +17,7 @@ use super::rebound::Kick;
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::FlowGrid;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -183,7 +183,7 @@ impl DriftContext<'_> {
                     true => n,
                     false => b.outside[l..n].iter().take_while(|o| **o == 0).count(),
                 };
-                c.put(b, l, from + l, to, stay);
+                c.store(b, l, from + l, to, stay);
                 (l, to) = (l + stay, to + stay);
                 if l < n {
                     c.swept.gone.push(from + l);
@@ -290,7 +290,7 @@ fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> 
 
 impl Chunk<'_> {
     /// Writes `n` filaments of a block, from its place `l` on, to `to`. They were at `from`, where their step starts.
-    fn put(&mut self, b: &Block, l: usize, from: usize, to: usize, n: usize) {
+    fn store(&mut self, b: &Block, l: usize, from: usize, to: usize, n: usize) {
         let ends = [(&mut *self.x, &b.x), (&mut *self.y, &b.y), (&mut *self.z, &b.z)];
         for ((end, moved), start) in ends.into_iter().zip(&mut self.start) {
             start[to..to + n].copy_from_slice(&end[from..from + n]);

@@ -12,10 +12,10 @@ use super::bands::Span;
 use super::rows::Rows;
 use super::store::Store;
 use crate::flow::eddies::{Life, Small, Weights};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
-use crate::quad::Avx;
-use crate::quad::{Pair, Twice};
+use crate::simd::f32x4::AvxPair;
+use crate::simd::f32x4::{Pair, PortablePair};
 use nalgebra::Vector3;
 use std::ops::Range;
 use world::bits::{Reader, Unreadable, Writer};
@@ -84,12 +84,12 @@ impl EddyCoordinates {
     /// Writes all of it.
     pub(super) fn keep(&self, to: &mut Writer) {
         let Self { patterns: _, at, number, source, source_number, since_s, source_m_s } = self;
-        to.words(at.as_flattened());
-        to.words(number);
-        to.words(source.as_flattened());
-        to.words(source_number);
+        to.write_list(at.as_flattened());
+        to.write_list(number);
+        to.write_list(source.as_flattened());
+        to.write_list(source_number);
         to.word(*since_s);
-        to.words(source_m_s);
+        to.write_list(source_m_s);
     }
 
     /// Reads what [`Self::keep`] wrote of so many filaments.
@@ -151,7 +151,7 @@ pub(super) fn carry(
     };
     match path {
         // SAFETY: a pair that every machine of the target has.
-        InstructionSet::Portable => unsafe { moved::<Twice>(&mut labels, small, store, range, span) },
+        InstructionSet::Portable => unsafe { moved::<PortablePair>(&mut labels, small, store, range, span) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { moved_avx2(&mut labels, small, store, range, span) },
@@ -164,7 +164,7 @@ pub(super) fn carry(
 #[target_feature(enable = "avx2")]
 fn moved_avx2(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { moved::<Avx>(labels, small, store, range, span) };
+    unsafe { moved::<AvxPair>(labels, small, store, range, span) };
 }
 
 /// Moves filaments and their rows.

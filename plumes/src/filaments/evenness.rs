@@ -63,7 +63,7 @@ impl MixingProfile {
         let gained = self.gained(dt_s, cell);
         let mut off = vec![0.0; CELLS];
         // Exchange between two cells, 1/s.
-        let per: Vec<f64> = (1..CELLS).map(|n| self.at(n as f64 * cell).0 / (cell * cell)).collect();
+        let per: Vec<f64> = (1..CELLS).map(|n| self.diffusivity(n as f64 * cell).0 / (cell * cell)).collect();
         let first = lasts_s * (GROWTH - 1.0) / (GROWTH.powi(STEPS) - 1.0);
         for n in 0..STEPS {
             spread(&mut off, &per, &gained, first * GROWTH.powi(n));
@@ -74,7 +74,7 @@ impl MixingProfile {
     }
 
     /// K_z and its slope at a height.
-    fn at(&self, height: f64) -> (f64, f64) {
+    fn diffusivity(&self, height: f64) -> (f64, f64) {
         let above = self.height.partition_point(|h| *h <= height);
         let n = above.clamp(1, self.k.len() - 1);
         let slope = (self.k[n] - self.k[n - 1]) / (self.height[n] - self.height[n - 1]);
@@ -84,7 +84,7 @@ impl MixingProfile {
     /// What one step adds to even water per second: by cell, as a part of even.
     fn gained(&self, dt_s: f64, cell: f64) -> Vec<f64> {
         let starts = self.starts(dt_s);
-        let here: Vec<(f64, f64)> = starts.iter().map(|h| self.at(*h)).collect();
+        let here: Vec<(f64, f64)> = starts.iter().map(|h| self.diffusivity(*h)).collect();
         let side = (NORMAL.1 / NORMAL.0) as i32;
         let weight = |x: f64| math::exp(-0.5 * x * x);
         let nodes = |from: i32| (from..=side).map(|n| f64::from(n) * NORMAL.0);
@@ -94,7 +94,7 @@ impl MixingProfile {
         for x in nodes(-side) {
             for ((m, h), (k, slope)) in moved.iter_mut().zip(&starts).zip(&here) {
                 let kick = (2.0 * k * dt_s).sqrt() * x;
-                let there = self.at(self.folded(h + kick)).0;
+                let there = self.diffusivity(self.folded(h + kick)).0;
                 let secant = if kick.abs() > 1e-5 * self.depth { (there - k) / kick } else { *slope };
                 *m = (h + kick, 0.25 * dt_s * (slope + secant));
             }

@@ -8,7 +8,7 @@
 
 use super::kernel::BLOCK;
 use super::lookup::{Column, Level, Lookup};
-use crate::quad::{Pair, Quad};
+use crate::simd::f32x4::{F32x4, Pair};
 
 /// The columns of a block, side by side.
 pub(super) struct Columns {
@@ -42,7 +42,7 @@ impl Columns {
 
     /// The lower corner of a column cell.
     #[inline(always)]
-    pub(super) fn at(&self, l: usize) -> u32 {
+    pub(super) fn corner(&self, l: usize) -> u32 {
         self.at[l]
     }
 
@@ -140,14 +140,14 @@ pub(super) unsafe fn fetch<P: Pair, const N: usize>(
                 one::<P>(cells, nodes, column, level, from + 3),
             ]
         };
-        let four = Quad::columns([a.0, b.0, c.0, d.0]);
+        let four = F32x4::columns([a.0, b.0, c.0, d.0]);
         for d in 0..4 {
             water[d][from..from + 4].copy_from_slice(&four[d]);
         }
         if extra.is_none() && slope.is_none() {
             continue;
         }
-        let rise = Quad::columns([a.1, b.1, c.1, d.1]);
+        let rise = F32x4::columns([a.1, b.1, c.1, d.1]);
         if let Some(extra) = extra {
             for l in from..from + 4 {
                 water[0][l] += extra[l] * rise[0][l - from];
@@ -188,7 +188,7 @@ pub(super) unsafe fn trilinear<P: Pair>(
     weight: [f32; 4],
     level: u32,
     part: f32,
-) -> (Quad, Quad) {
+) -> (F32x4, F32x4) {
     let (up_j, up_i) = cells.strides();
     let at = at as usize * up_j + level as usize;
     let [w00, w01, w10, w11] = weight;
@@ -213,7 +213,13 @@ pub(super) unsafe fn trilinear<P: Pair>(
 /// # Safety
 /// As there.
 #[inline(always)]
-unsafe fn one<P: Pair>(cells: &Lookup, nodes: &[[f32; 4]], column: &Columns, level: &Levels, l: usize) -> (Quad, Quad) {
+unsafe fn one<P: Pair>(
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    column: &Columns,
+    level: &Levels,
+    l: usize,
+) -> (F32x4, F32x4) {
     let weight = [column.weight[0][l], column.weight[1][l], column.weight[2][l], column.weight[3][l]];
     // SAFETY: as the caller promises.
     unsafe { trilinear::<P>(cells, nodes, column.at[l], weight, level.below[l], level.part[l]) }

@@ -18,7 +18,7 @@ use super::image::QueryPoint;
 use super::lookup::Lookup;
 pub use super::packet::CUT_SIGMAS;
 use super::store::Store;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 use std::sync::OnceLock;
 
 /// The groups of every band of every store.
@@ -80,7 +80,7 @@ impl Index {
 
     /// Concentration at a point from the datum, kg/m³; zero above the surface. In a solid it is that of the nearest
     /// water.
-    pub(super) fn at(&self, q: &Question, p: [f32; 3]) -> f64 {
+    pub(super) fn concentration(&self, q: &Question, p: [f32; 3]) -> f64 {
         if p[2] > 0.0 {
             return 0.0;
         }

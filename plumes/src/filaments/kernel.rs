@@ -37,10 +37,10 @@
 use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::{level_normals, normals};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
-use crate::quad::Avx;
-use crate::quad::{Pair, Twice};
+use crate::simd::f32x4::AvxPair;
+use crate::simd::f32x4::{Pair, PortablePair};
 
 /// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
@@ -122,7 +122,7 @@ fn step_first<const N: usize>(
 ) {
     match path {
         // SAFETY: these instructions are part of every machine of the target.
-        InstructionSet::Portable => unsafe { body::<Twice, N>(cells, nodes, key, block, work) },
+        InstructionSet::Portable => unsafe { body::<PortablePair, N>(cells, nodes, key, block, work) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => unsafe { body_avx2::<N>(cells, nodes, key, block, work) },
@@ -136,14 +136,14 @@ fn step_first<const N: usize>(
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn body_avx512<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
+    unsafe { body::<AvxPair, N>(cells, nodes, key, block, work) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn body_avx2<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
+    unsafe { body::<AvxPair, N>(cells, nodes, key, block, work) };
 }
 
 /// # Safety
@@ -234,7 +234,7 @@ unsafe fn body<P: Pair, const N: usize>(
     for l in 0..N {
         let c = cells.column(b.x[l], b.y[l]);
         b.outside[l] = u32::from(c.outside);
-        b.moved[l] = u32::from(c.at != column.at(l));
+        b.moved[l] = u32::from(c.at != column.corner(l));
         column.set(l, c);
     }
     for l in 0..N {

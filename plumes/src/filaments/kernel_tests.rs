@@ -1,7 +1,7 @@
 use super::super::fetch::{trilinear, weights};
 use super::*;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::quad::Quad;
+use crate::simd::f32x4::F32x4;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
@@ -79,10 +79,10 @@ fn cells_read_the_grid_as_the_grid_reads_itself() {
             let (q, rise) = unsafe {
                 let weight = weights(c.f, c.g);
                 let (below, part) = (level.below, level.part);
-                trilinear::<Twice>(&cells, &grid.data, c.at, weight, below, part)
+                trilinear::<PortablePair>(&cells, &grid.data, c.at, weight, below, part)
             };
-            let got = Quad::columns([q; 4]).map(|v| v[0]);
-            let want = grid.at(b.x[l], b.y[l], b.z[l]);
+            let got = F32x4::columns([q; 4]).map(|v| v[0]);
+            let want = grid.sample(b.x[l], b.y[l], b.z[l]);
             let p = grid.world([b.x[l], b.y[l], b.z[l]]);
             let slope = grid.ground.floor(p.xy()).slope.map(|v| v as f32);
             // The grid's vertical velocity is that through surfaces of equal parts of the depth.
@@ -92,7 +92,7 @@ fn cells_read_the_grid_as_the_grid_reads_itself() {
             }
             assert!((got[3] - want.k_z).abs() < 1e-6);
             // Next to a level, the slope of either cell is right.
-            let slope = Quad::columns([rise; 4])[3][0] * level.per_m;
+            let slope = F32x4::columns([rise; 4])[3][0] * level.per_m;
             assert!((slope - want.dk_dz).abs() < 1e-6 || !(1e-3..0.999).contains(&level.part));
             assert!((b.bed[l] - want.bed_z).abs() < 1e-5);
             assert!((cells.k_h(c).0 - want.k_h).abs() < 1e-6);

@@ -67,7 +67,7 @@ fn times(until_s: f64) -> impl Iterator<Item = f64> {
 impl SharpestMixing {
     /// The sharpest columns of an area from time 0 to `until_s`, as a plume on a grid of this shape sees them.
     #[must_use]
-    pub fn of(flow: &dyn Flow, area: &Area, terrain: &Terrain, shape: &GridShape, until_s: f64) -> Self {
+    pub fn sharpest(flow: &dyn Flow, area: &Area, terrain: &Terrain, shape: &GridShape, until_s: f64) -> Self {
         let mut columns: Vec<Column> = Vec::new();
         let mut slowest_m_s = f64::INFINITY;
         for t_s in times(until_s) {

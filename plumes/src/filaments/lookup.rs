@@ -11,7 +11,7 @@
 use super::kernel::BLOCK;
 use crate::flow::grid::{FlowGrid, LogLaw};
 use crate::flow::ground::NearGround;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
 pub(super) type Bilinear = [f32; 4];

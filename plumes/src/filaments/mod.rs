@@ -72,7 +72,7 @@ mod tests_water;
 mod tests_waves;
 mod walls;
 
-pub use crate::path::instructions;
+pub use crate::simd::dispatch::instructions;
 pub use cut_off::cut_off;
 pub use displaced::DisplacedConcentration;
 pub use index::CUT_SIGMAS;

@@ -13,7 +13,7 @@ use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
 use crate::flow::ground::NearGround;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 
 /// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]

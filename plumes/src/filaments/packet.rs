@@ -12,7 +12,7 @@
 //! others. The exponential is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments
 //! within reach of any other wall are not in leaves; see the file `image`.
 
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 
 /// Reach of the kernel in standard deviations.
 pub const CUT_SIGMAS: f32 = 4.0;
@@ -109,7 +109,7 @@ impl Packet64 {
 
     /// Concentration at a point in the water, in quanta.
     #[inline]
-    pub(super) fn at(&self, path: InstructionSet, p: [f32; 3]) -> i64 {
+    pub(super) fn concentration(&self, path: InstructionSet, p: [f32; 3]) -> i64 {
         let images = [-p[2] <= self.reach, p[2] - self.highest_bed <= self.reach, self.reach > -self.highest_bed];
         match path {
             InstructionSet::Portable => sum(self, images, p),
@@ -303,11 +303,11 @@ mod tests {
         for n in 0..1000 {
             let a = n as f32 * 0.01;
             let p = [a - 3.0, 2.0 - a, -0.004 * a];
-            let portable = leaf.at(InstructionSet::Portable, p);
+            let portable = leaf.concentration(InstructionSet::Portable, p);
             for path in InstructionSet::all() {
-                assert_eq!(leaf.at(path, p), portable, "{path:?}");
+                assert_eq!(leaf.concentration(path, p), portable, "{path:?}");
             }
         }
-        assert!(leaf.at(InstructionSet::Portable, [1.0, -1.0, -1.5]) > 1000);
+        assert!(leaf.concentration(InstructionSet::Portable, [1.0, -1.0, -1.5]) > 1000);
     }
 }

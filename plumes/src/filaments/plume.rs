@@ -29,8 +29,8 @@ use crate::error::PlumeError;
 use crate::flow::ObstacleFlow;
 use crate::flow::eddies::Small;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::path::InstructionSet;
 use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
+use crate::simd::dispatch::InstructionSet;
 use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -208,7 +208,7 @@ impl Plume {
 }
 
 impl Concentration for Plume {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         let query = Question {
             stores: &self.stores,
             bands: &self.bands,
@@ -217,6 +217,6 @@ impl Concentration for Plume {
             path: self.path,
             now_s: self.now_s,
         };
-        self.index.at(&query, self.grid.local(p))
+        self.index.concentration(&query, self.grid.local(p))
     }
 }

@@ -21,8 +21,8 @@ use super::lookup::Lookup;
 use super::series::{current_time, expansion, logarithm, series};
 use crate::flow::blockage::ObstacleFlow;
 use crate::flow::grid::FlowGrid;
-use crate::path::InstructionSet;
-use crate::quad::Quad;
+use crate::simd::dispatch::InstructionSet;
+use crate::simd::f32x4::F32x4;
 use world::fields::Flow;
 
 /// Greatest growth over a step (rate · time) for the series.
@@ -112,7 +112,7 @@ impl Pollock {
         }
     }
 
-    fn of(&self, [i, j, k]: [usize; 3]) -> &[f32; 6] {
+    fn rates_of_cell(&self, [i, j, k]: [usize; 3]) -> &[f32; 6] {
         &self.rates[(i * (self.n[1] + 1) + j) * self.levels + k]
     }
 
@@ -171,10 +171,10 @@ impl Pollock {
                 // SAFETY: no cell of the block lies beyond the rates, as asserted above.
                 let rates = unsafe { self.rates.get_unchecked(n) };
                 let four = rates[first..].first_chunk().expect("four of the six");
-                Quad::new(four)
+                F32x4::new(four)
             };
-            let low = Quad::columns([at(0, 0), at(1, 0), at(2, 0), at(3, 0)]);
-            let high = Quad::columns([at(0, 2), at(1, 2), at(2, 2), at(3, 2)]);
+            let low = F32x4::columns([at(0, 0), at(1, 0), at(2, 0), at(3, 0)]);
+            let high = F32x4::columns([at(0, 2), at(1, 2), at(2, 2), at(3, 2)]);
             for d in 0..4 {
                 rate[d][from..from + 4].copy_from_slice(&low[d]);
             }
@@ -281,7 +281,7 @@ impl Pollock {
     fn path(&self, mut at: Inside, mut left_s: f64) -> Inside {
         let n = [self.n[0], self.n[1], self.levels];
         for _ in 0..MOST_FACES {
-            let r = self.of(at.cell).map(f64::from);
+            let r = self.rates_of_cell(at.cell).map(f64::from);
             let still = self.still_bed && at.cell[2] == 0;
             // Speeds at the lower faces and their growth; over a no-slip bed, in the current's own time.
             let growth = [r[1] - r[0], r[3] - r[2], (r[5] - r[4]) * if still { 0.5 } else { 1.0 }];

@@ -109,11 +109,11 @@ impl Domain {
     /// Milstein's step as in `kernel`, between two ends, m.
     fn kicked(&self, grid: &FlowGrid, p: &DomainPoint, ends: [f64; 2], kick: Kick) -> f64 {
         let [x, y, z] = self.point(p);
-        let here = grid.at(x, y, z);
+        let here = grid.sample(x, y, z);
         let dt = f64::from(kick.dt_s) * f64::from(kick.part);
         let [one, two] = kick.noise.map(f64::from);
         let way = (2.0 * f64::from(here.k_z) * dt).sqrt() * one;
-        let there = grid.at(x, y, folded(p.z() + way, ends) as f32);
+        let there = grid.sample(x, y, folded(p.z() + way, ends) as f32);
         let slope = f64::from(here.dk_dz);
         let secant = if way.abs() > -1e-5 * p.bed { f64::from(there.k_z - here.k_z) / way } else { slope };
         way + 0.25 * dt * (slope + secant) * (one * one + two * two)

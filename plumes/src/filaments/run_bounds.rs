@@ -7,8 +7,8 @@
 //! *Deviations*: none. Of a thousand neighbours, ten are near a point in the plume. Runs rule out most of the others.
 
 use super::group::GROUP;
-use crate::marks::{self, LaneMask, Movemask, mark};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
+use crate::simd::movemask::{self, LaneMask, Movemask, mark};
 
 /// Neighbours in a run.
 pub(super) const RUN: usize = 32;
@@ -56,7 +56,7 @@ impl RunBounds {
     pub(super) fn runs(path: InstructionSet, sides: [&Self; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
         match path {
             // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { runs::<marks::Portable>(sides, p, reach) },
+            InstructionSet::Portable => unsafe { runs::<movemask::Portable>(sides, p, reach) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 => unsafe { runs_avx2(sides, p, reach) },
@@ -83,14 +83,14 @@ fn side_avx512(ways: Ways) -> RunBounds {
 #[target_feature(enable = "avx2")]
 fn runs_avx2(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
     // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { runs::<marks::Avx2>(sides, p, reach) }
+    unsafe { runs::<movemask::Avx2>(sides, p, reach) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn runs_avx512(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
     // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { runs::<marks::Avx512>(sides, p, reach) }
+    unsafe { runs::<movemask::Avx512>(sides, p, reach) }
 }
 
 #[inline(always)]

@@ -11,8 +11,8 @@ use super::contribution::{GroupQuery, PresentMembers};
 use super::moving_packet::{MovingPacket, on_way};
 use super::packet::LEAF;
 use super::run_bounds::{RUN, RUNS};
-use crate::marks::{self, LaneMask, Movemask, mark};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
+use crate::simd::movemask::{self, LaneMask, Movemask, mark};
 
 /// Coordinates of the members at the start and at the end of their step.
 type Ways<'a> = [[&'a [f32]; 2]; 3];
@@ -33,7 +33,7 @@ pub(super) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
     let mut near = [0; RUNS];
     match asked.q.path {
         // SAFETY: these instructions are part of every machine of the target.
-        InstructionSet::Portable => unsafe { look::<marks::Portable>(asked, &ways, runs, &mut near) },
+        InstructionSet::Portable => unsafe { look::<movemask::Portable>(asked, &ways, runs, &mut near) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         InstructionSet::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
@@ -82,14 +82,14 @@ fn sum(asked: &GroupQuery, near: &Near) -> i64 {
 #[target_feature(enable = "avx2")]
 fn look_avx2(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { look::<marks::Avx2>(asked, ways, runs, near) };
+    unsafe { look::<movemask::Avx2>(asked, ways, runs, near) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn look_avx512(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { look::<marks::Avx512>(asked, ways, runs, near) };
+    unsafe { look::<movemask::Avx512>(asked, ways, runs, near) };
 }
 
 /// Notes the members within reach.

@@ -48,7 +48,7 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
         if ask && n % 7 == 0 {
             let all: Vec<[f64; 5]> = plume.iter().collect();
             let f = all[all.len() / 2];
-            felt += plume.at(&Vector3::new(f[0], f[1], f[2]));
+            felt += plume.concentration(&Vector3::new(f[0], f[1], f[2]));
         }
     }
     (digest(&plume), felt)
@@ -74,7 +74,7 @@ fn while_it_rests_it_can_be_looked_at_in_any_order() {
         assert_eq!(plume.now_s().to_bits(), t_s.to_bits());
         let all: Vec<[f64; 5]> = plume.iter().collect();
         let near = all.iter().step_by(all.len() / 20);
-        let felt = near.map(|f| plume.at(&Vector3::new(f[0], f[1], f[2])).to_bits());
+        let felt = near.map(|f| plume.concentration(&Vector3::new(f[0], f[1], f[2])).to_bits());
         felt.collect::<Vec<u64>>()
     };
     let (dt_s, mut rested) = (0.05, 0);

@@ -120,7 +120,7 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         plume.drift(&water, t_s, t_s + 0.25);
     }
     let all: Vec<Vector3<f64>> = plume.iter().map(|f| Vector3::new(f[0], f[1], f[2])).collect();
-    let felt = all.iter().step_by(20).map(|p| plume.at(&(p + Vector3::new(0.01, 0.02, 0.0))));
+    let felt = all.iter().step_by(20).map(|p| plume.concentration(&(p + Vector3::new(0.01, 0.02, 0.0))));
     let felt = felt.collect();
     let local = all.iter().map(|p| p - centre.push(0.0)).collect();
     (plume.left(), local, felt)

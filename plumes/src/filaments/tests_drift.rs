@@ -95,7 +95,7 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
         p.drift(&Wild, f64::from(k), f64::from(k + 1));
         for f in p.iter() {
             let [x, y, z] = [f[0], f[1], f[2]].map(|v| v as f32);
-            let bed = f64::from(p.grid().at(x, y, z).bed_z);
+            let bed = f64::from(p.grid().sample(x, y, z).bed_z);
             assert!(f[2] <= 0.0 && f[2] >= bed - 1e-5, "{f:?} over {bed}");
             // Where the bed bends, at the edges of the area, the grid spreads the bend over a cell of 20 m.
             let true_bed = terrain.bed_z(f[0], f[1]);

@@ -77,7 +77,7 @@ impl Scene {
     fn fill(&mut self, cells: &Cells, [i, j, k]: [usize; 3]) {
         let bed = |p: Vector2<f64>, plume: &Plume| {
             let [x, y, z] = plume.grid().local(&p.push(0.0));
-            f64::from(plume.grid().at(x, y, z).bed_z)
+            f64::from(plume.grid().sample(x, y, z).bed_z)
         };
         let ds = cells.s[k + 1] - cells.s[k];
         let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
@@ -124,7 +124,7 @@ impl Scene {
         counts.resize(cells.open.len(), 0.0);
         for f in self.plume.all() {
             let c = cells.in_cells(self.plume.grid().world(f).xy());
-            let bed = self.plume.grid().at(f[0], f[1], f[2]).bed_z;
+            let bed = self.plume.grid().sample(f[0], f[1], f[2]).bed_z;
             let s = f64::from((1.0 - f[2] / bed).clamp(0.0, 1.0));
             let of = |d: usize| (c[d].max(0.0) as usize).min(cells.n[d] - 1);
             counts[cells.cell([of(0), of(1), cells.level(s)])] += 1.0;
@@ -141,7 +141,7 @@ impl Scene {
                 let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
                 let grid = self.plume.grid();
                 let [x, y, z] = grid.local(&middle.push(0.0));
-                let depth = -f64::from(grid.at(x, y, z).bed_z);
+                let depth = -f64::from(grid.sample(x, y, z).bed_z);
                 for k in 0..cells.n[2] {
                     let at = cells.cell([i, j, k]);
                     if !cells.open[at] {

@@ -15,7 +15,7 @@ const NOISE: f64 = 0.03;
 
 fn sharpest(k_z: impl Fn(f64) -> f64 + Send + Sync) -> SharpestMixing {
     let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
-    SharpestMixing::of(&water, &basin(), &BED, &GridShape::default(), 600.0)
+    SharpestMixing::sharpest(&water, &basin(), &BED, &GridShape::default(), 600.0)
 }
 
 /// Greatest deviation of a bin after `t_s` in steps of `dt_s`, from an even start.

@@ -112,7 +112,7 @@ fn even_dye_reads_the_same_at_walls_and_corners() {
         let thin = spec.blockage.is_some();
         let want = even(&mut plume, |p| solids.containing(p).is_none());
         for [a, b, z] in PLACES {
-            let got = plume.at(&at(a, b, z)) / want;
+            let got = plume.concentration(&at(a, b, z)) / want;
             assert!((got - 1.0).abs() < if thin { 0.005 } else { 0.02 }, "{a} {b} {z} blocked {thin}: {got}");
         }
     }
@@ -126,11 +126,11 @@ fn answers_between_walls_do_not_depend_on_how_often_was_asked() {
     for spec in [blocked(), WaterSpec::default()] {
         let (_, mut plume) = plume(&spec, &solids);
         even(&mut plume, |p| solids.containing(p).is_none());
-        let fresh = |[a, b, z]: [f64; 3]| plume.clone().at(&at(a, b, z));
+        let fresh = |[a, b, z]: [f64; 3]| plume.clone().concentration(&at(a, b, z));
         let first = PLACES.map(fresh);
         assert!(first.iter().all(|c| *c > 0.0));
         for _ in 0..40 {
-            let again = PLACES.map(|[a, b, z]| plume.at(&at(a, b, z)));
+            let again = PLACES.map(|[a, b, z]| plume.concentration(&at(a, b, z)));
             assert_eq!(again.map(f64::to_bits), first.map(f64::to_bits));
         }
     }
@@ -146,7 +146,7 @@ fn mass(plume: &Plume, p: [f64; 3], solids: &Obstacles) -> f64 {
                 let [a, b] = [(p[0], i), (p[1], j)].map(|(c, v)| ((c / h).round() + f64::from(v) + 0.5) * h);
                 let q = at(a, b, -(f64::from(k) + 0.5) * h);
                 if solids.containing(&q).is_none() {
-                    sum += plume.at(&q);
+                    sum += plume.concentration(&q);
                 }
             }
         }
@@ -176,10 +176,10 @@ fn nothing_is_felt_through_a_thin_wall() {
         put(&mut plume, &at(2.5, -5.0, -2.0));
         // A wall from 3.29 to 3.31, from -8 to -2 across; the nearest faces of cells are at 3 and 4.
         for a in [3.32, 3.45, 3.9, 4.5] {
-            assert_eq!(plume.at(&at(a, -5.0, -2.0)), 0.0, "{a}");
+            assert_eq!(plume.concentration(&at(a, -5.0, -2.0)), 0.0, "{a}");
         }
         for a in [3.28, 3.1, 2.0, 1.0] {
-            assert!(plume.at(&at(a, -5.0, -2.0)) > 0.0, "{a}");
+            assert!(plume.concentration(&at(a, -5.0, -2.0)) > 0.0, "{a}");
         }
     }
 }
@@ -202,7 +202,7 @@ fn every_point_of_the_true_water_answers() {
         let (s, c) = world::math::sin_cos(f64::from(k).to_radians() * 0.5);
         let p = at(2.32 * c, 2.32 * s, -2.0);
         shut += u32::from(!open(&p));
-        let got = plume.at(&p) / want;
+        let got = plume.concentration(&p) / want;
         assert!((got - 1.0).abs() < 0.01, "{k}: {got}");
     }
     assert!(shut > 50, "{shut}");
@@ -242,7 +242,7 @@ fn side_walls_mirror_the_kernel() {
         let want = plume.iter().next().expect("one")[4] / (h * h * h);
         for north in [-0.99, -0.5, 1.0, 2.5, 2.99] {
             for z in [-0.01, -2.0, -3.99] {
-                let got = plume.at(&Vector3::new(0.0, north, z)) / want;
+                let got = plume.concentration(&Vector3::new(0.0, north, z)) / want;
                 assert!((got - 1.0).abs() < 0.01, "{size} {north} {z}: {got}");
             }
         }

@@ -8,8 +8,8 @@ use super::packet::{LEAF, Packet64};
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::path::InstructionSet;
 use crate::release::ReleaseSpec;
+use crate::simd::dispatch::InstructionSet;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::seeds::Stream;
@@ -53,7 +53,7 @@ impl Scene {
     fn at(&self, index: &Index, path: InstructionSet, now_s: f64, p: &Vector3<f64>) -> f64 {
         let query =
             Question { stores: &self.stores, bands: &self.bands, room: &self.room, lookup: &self.lookup, path, now_s };
-        index.at(&query, p.map(|v| v as f32).into())
+        index.concentration(&query, p.map(|v| v as f32).into())
     }
 
     /// All filaments in leaves, in the order of release.
@@ -104,7 +104,7 @@ fn index_finds_all_that_a_full_search_finds_at_any_time_of_a_step() {
             let p = somewhere(&mut r);
             let got = scene.at(&index, InstructionSet::detect(), now_s, &p);
             let q = [p.x as f32, p.y as f32, p.z as f32];
-            let want: i64 = all.iter().map(|l| l.at(InstructionSet::Portable, q)).sum();
+            let want: i64 = all.iter().map(|l| l.concentration(InstructionSet::Portable, q)).sum();
             let want = want as f64 / QUANTA;
             assert!((got - want).abs() <= 1e-5 * want, "{now_s}: {got} {want}");
             hits += usize::from(want > 0.0);

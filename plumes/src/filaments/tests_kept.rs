@@ -55,7 +55,7 @@ fn kept(plume: &Plume) -> Vec<u8> {
 fn felt(plume: &Plume) -> Vec<u64> {
     let beside = |f: [f64; 5]| Vector3::new(f[0] + 0.01, f[1], f[2]);
     let some = plume.iter().step_by(50).map(beside);
-    some.map(|p| plume.at(&p).to_bits()).collect()
+    some.map(|p| plume.concentration(&p).to_bits()).collect()
 }
 
 /// All that decides how filaments go on.

@@ -24,7 +24,7 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
                 let x = (f64::from(i) + 0.5) * side - 4.5 * size;
                 let y = (f64::from(j) + 0.5) * side - 4.5 * size;
                 let z = -(k as f64 + 0.5) * height;
-                sum += p.at(&Vector3::new(x, y, z));
+                sum += p.concentration(&Vector3::new(x, y, z));
             }
         }
     }
@@ -88,7 +88,7 @@ fn a_copy_goes_on_like_the_original_asked_or_not() {
     for k in 200..400 {
         a.drift(&water, f64::from(k), f64::from(k + 1));
         b.drift(&water, f64::from(k), f64::from(k + 1));
-        felt += b.at(&Vector3::new(-60.0, 0.0, -5.0));
+        felt += b.concentration(&Vector3::new(-60.0, 0.0, -5.0));
     }
     let digest = |p: &super::Plume| {
         let mut d = Digest::default();
@@ -97,7 +97,7 @@ fn a_copy_goes_on_like_the_original_asked_or_not() {
     };
     assert_eq!(digest(&a), digest(&b));
     let q = Vector3::new(-60.0, 0.5, -4.5);
-    assert_eq!(a.at(&q).to_bits(), b.at(&q).to_bits());
+    assert_eq!(a.concentration(&q).to_bits(), b.concentration(&q).to_bits());
     assert!(felt > 0.0);
     b.drift(&water, 400.0, 401.0);
     assert_ne!(digest(&a), digest(&b));

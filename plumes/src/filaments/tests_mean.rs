@@ -51,7 +51,7 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
             continue;
         }
         for (q, seen) in points.iter().zip(&mut at_points) {
-            seen.push(p.at(q));
+            seen.push(p.concentration(q));
         }
         for (x, seen) in sections.iter().zip(&mut through) {
             let (dy, dz) = (0.1, 0.1);
@@ -59,7 +59,7 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
             for j in -70..70 {
                 for l in 0..40 {
                     let (y, z) = ((f64::from(j) + 0.5) * dy, -(f64::from(l) + 0.5) * dz);
-                    sum += p.at(&Vector3::new(x - 90.0, y, z));
+                    sum += p.concentration(&Vector3::new(x - 90.0, y, z));
                 }
             }
             seen.push(SPEED * sum * dy * dz);
@@ -105,9 +105,9 @@ fn gaps_of_a_random_release_are_poisson() {
         }
         let gap = p.iter().all(|f| (f[0] - probe.x).abs() > 3.0 * size);
         empty += f64::from(u8::from(gap));
-        faint += f64::from(u8::from(p.at(&probe) < alone));
+        faint += f64::from(u8::from(p.concentration(&probe) < alone));
         // The concentration agrees with the positions: there cannot be no filament within 3σ and more than two at 3σ.
-        assert!(!gap || p.at(&probe) <= 4.0 * alone);
+        assert!(!gap || p.concentration(&probe) <= 4.0 * alone);
     }
     let exact = math::exp(-1.0);
     let slack = 5.0 * (exact * (1.0 - exact) / f64::from(samples)).sqrt();

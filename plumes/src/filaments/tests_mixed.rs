@@ -139,7 +139,8 @@ fn known_limit_a_wedge_as_narrow_as_one_kick_is_left_unmixed_by_less_than_a_fift
 fn part_above(p: &Plume, part: f64, t_s: f64) -> f64 {
     const CELLS: usize = 1200;
     let dz = DEPTH / CELLS as f64;
-    let faces: Vec<f64> = (1..CELLS).map(|n| f64::from(p.grid().at(0.0, 0.0, -(n as f64 * dz) as f32).k_z)).collect();
+    let faces: Vec<f64> =
+        (1..CELLS).map(|n| f64::from(p.grid().sample(0.0, 0.0, -(n as f64 * dz) as f32).k_z)).collect();
     let stiffest = faces.iter().copied().fold(0.0, f64::max) / (dz * dz);
     let steps = (t_s * stiffest / 0.4).ceil();
     let per = t_s / steps / (dz * dz);

@@ -185,7 +185,7 @@ fn dye_near_the_bed_moves_by_the_law_of_the_wall() {
             let at = Vector3::new(-90.0, 0.0, height_m - depth_m);
             let want = water.velocity(&at, 0.0).x;
             let [x, y, z] = p.grid.local(&at);
-            let got = f64::from(p.grid.at(x, y, z).velocity[0]);
+            let got = f64::from(p.grid.sample(x, y, z).velocity[0]);
             assert!((got / want - 1.0).abs() < 0.03, "{got} for {want}, {height_m} m over {depth_m} m");
         }
     }

@@ -103,11 +103,11 @@ fn a_probe_meets_the_dye_where_the_orbit_has_carried_it() {
         let way = water.displacement(&mean, t).unwrap();
         assert!(way.norm() > 0.09);
         let dye = DisplacedConcentration::new(&plume, &water, t);
-        let (met, at_mean) = (dye.at(&(mean + way)), plume.at(&mean));
+        let (met, at_mean) = (dye.concentration(&(mean + way)), plume.concentration(&mean));
         // p − ξ(p) misses the mean place by ak of the orbit, 4 mm, compared with a size of 5 cm: 1 − exp(−0.08²/2).
         assert!((met / at_mean - 1.0).abs() < 0.02, "{met} {at_mean}");
     }
     // Without the orbits there would be nothing at this place half of the time: the dye rises and falls by two sizes.
     let up = Vector3::new(mean.x, mean.y, mean.z + 0.1);
-    assert!(plume.at(&up) < 0.3 * plume.at(&mean));
+    assert!(plume.concentration(&up) < 0.3 * plume.concentration(&mean));
 }

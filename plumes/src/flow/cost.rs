@@ -40,7 +40,7 @@ impl WaterSpec {
         let nodes_of = Part::new(path, format!("{nodes:.1e} nodes of the plume's flow"))
             .holds(nodes * NODE_BYTES)
             .takes(nodes * part * each_s * times.sums());
-        cost.add(Cost::of(match &self.blockage {
+        cost.add(Cost::single(match &self.blockage {
             Some(spec) => nodes_of.by(spec.cell_m.get(), -2.0),
             None => nodes_of,
         }));

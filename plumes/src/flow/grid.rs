@@ -153,7 +153,7 @@ impl FlowGrid {
     /// Trilinear values at a point from the datum, m; the point is first moved into the grid.
     #[inline]
     #[must_use]
-    pub fn at(&self, x: f32, y: f32, z: f32) -> GridSample {
+    pub fn sample(&self, x: f32, y: f32, z: f32) -> GridSample {
         let [nx, ny, nz] = self.dims;
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
         let (i, fi) = split((dx * self.along[0] + dy * self.along[1]) / self.spacing[0], nx);
@@ -241,7 +241,7 @@ mod tests {
         grid.refresh(&Linear, 0.0);
         for (k, p) in places(500).enumerate() {
             let z = -6.0 * (k as f64 * 0.618_034).fract();
-            let got = grid.at(p.x as f32, p.y as f32, z as f32);
+            let got = grid.sample(p.x as f32, p.y as f32, z as f32);
             let want = Linear.velocity(&Vector3::new(p.x, p.y, z), 0.0);
             for d in 0..3 {
                 // f32: positions of 600 m to 6e-5 m, values of order 1 to 1e-7.
@@ -264,7 +264,7 @@ mod tests {
         let (mut worst, mut sum): (f64, f64) = (0.0, 0.0);
         for (k, p) in places(5000).enumerate() {
             let z = water.column(p, 0.0).bed_z() * (k as f64 * 0.618_034).fract();
-            let got = grid.at(p.x as f32, p.y as f32, z as f32);
+            let got = grid.sample(p.x as f32, p.y as f32, z as f32);
             let want = water.velocity(&Vector3::new(p.x, p.y, z), 0.0);
             let off = (Vector3::from(got.velocity.map(f64::from)) - want).norm();
             worst = worst.max(off);
@@ -295,10 +295,10 @@ mod tests {
         grid.refresh(&Linear, 0.0);
         let far = duck_area().world(Vector2::new(5000.0, 0.0));
         let edge = duck_area().world(Vector2::new(597.0, 0.0));
-        let (a, b) = (grid.at(far.x as f32, far.y as f32, 5.0), grid.at(edge.x as f32, edge.y as f32, 0.0));
+        let (a, b) = (grid.sample(far.x as f32, far.y as f32, 5.0), grid.sample(edge.x as f32, edge.y as f32, 0.0));
         for d in 0..3 {
             assert!((a.velocity[d] - b.velocity[d]).abs() < 1e-5);
         }
-        assert!(grid.at(0.0, 0.0, -99.0).velocity[2] < 0.0);
+        assert!(grid.sample(0.0, 0.0, -99.0).velocity[2] < 0.0);
     }
 }

@@ -12,7 +12,7 @@
 use nalgebra::Vector2;
 
 use crate::flow::number::Number;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 
 /// Projector for one rectangle of `cells` of size `h`.
 #[derive(Clone, Debug)]

@@ -194,7 +194,7 @@ impl ReleaseSpec {
             .holds(most * FILAMENT_BYTES)
             .takes(most * (1.0 - rising) * times.drifts() * each_s)
             .by(value, power);
-        Cost::of(part)
+        Cost::single(part)
     }
 }
 

@@ -236,7 +236,7 @@ fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
     let at = seen.estimate.position;
     let towards = |point: Vector2<f64>| {
         let way = point - at;
-        (way.norm() > 0.0).then(|| (Heading::of(way), way.norm()))
+        (way.norm() > 0.0).then(|| (Heading::from_vector(way), way.norm()))
     };
     match *asked {
         Manoeuvre::Course { course } => Some((course, f64::INFINITY)),

@@ -183,7 +183,7 @@ impl Behave for Cloverleaf {
             if number == 0 {
                 let right = up_flow.turned(FRAC_PI_2).unit();
                 // The first line leads from the vehicle's side to the other; the turns then close this leaf.
-                self.turn = Side::of((seen.estimate.position - self.centre).dot(&right));
+                self.turn = Side::from_rightward((seen.estimate.position - self.centre).dot(&right));
             }
             let half = half_leaf(self.leaves);
             self.first = up_flow.opposite().turned(self.turn.sign() * half);
@@ -209,8 +209,8 @@ mod tests {
 
     fn memory(at: Vector2<f64>, up_deg: f64) -> PlumeMemory {
         let mut m = PlumeMemory { up_flow: Some(Heading::from_deg(up_deg)), ..PlumeMemory::default() };
-        m.lose(Lcdp::at(0.0, v(500.0, 0.0)), Heading::from_deg(up_deg));
-        m.lose(Lcdp::at(1.0, at), Heading::from_deg(up_deg));
+        m.lose(Lcdp::new_at(0.0, v(500.0, 0.0)), Heading::from_deg(up_deg));
+        m.lose(Lcdp::new_at(1.0, at), Heading::from_deg(up_deg));
         m
     }
 
@@ -297,10 +297,10 @@ mod tests {
                 let found = corners(&params, &mut memory(v(0.0, 0.0), up_deg), v(0.0, 5.0));
                 // From the end of the first line to the start of the second: the leaf's middle is down-flow.
                 let down = Heading::from_deg(up_deg).opposite();
-                assert!(Heading::of(found[1] + found[2]).turn_to(down).abs() < 1e-9);
+                assert!(Heading::from_vector(found[1] + found[2]).turn_to(down).abs() < 1e-9);
                 // The lines all turn to the same side, by 360/n degrees each.
                 let ways: Vec<Heading> =
-                    (found.chunks_exact(2).take(leaves as usize)).map(|w| Heading::of(w[1] - w[0])).collect();
+                    (found.chunks_exact(2).take(leaves as usize)).map(|w| Heading::from_vector(w[1] - w[0])).collect();
                 for w in ways.windows(2) {
                     let turn = w[0].turn_to(w[1]).abs();
                     assert!((turn - TAU / f64::from(leaves)).abs() < 1e-9);

@@ -170,7 +170,7 @@ impl ZigZag {
         let along = Vector2::new(-met.y, met.x);
         let pull = near.iter().filter(|n| n.dot(&met).abs() < 0.5).map(|n| -n.dot(&along)).sum::<f64>();
         let sign = if pull.abs() > 0.5 { pull } else { c.dot(&along) };
-        Phase::Along { course: Heading::of(along * if sign < 0.0 { -1.0 } else { 1.0 }), before: course }
+        Phase::Along { course: Heading::from_vector(along * if sign < 0.0 { -1.0 } else { 1.0 }), before: course }
     }
 
     fn begin(&self, seen: &Observation, up_flow: Option<Heading>) -> Phase {
@@ -204,7 +204,7 @@ impl Behave for ZigZag {
             (Phase::ToCorner, _) if !arrived => return Stride::Keep,
             (Phase::Begin | Phase::ToCorner, up) => self.begin(seen, up),
             (Phase::Blind(_), up @ Some(_)) => self.begin(seen, up),
-            (Phase::Blind(c), None) if against(c) => Phase::Blind(Heading::of(reflected(c.unit(), &near))),
+            (Phase::Blind(c), None) if against(c) => Phase::Blind(Heading::from_vector(reflected(c.unit(), &near))),
             (Phase::Leg(c), Some(up)) if against(c) => self.react(up, c, &near),
             (Phase::Along { course, .. }, Some(up)) if against(course) => self.react(up, course, &near),
             (Phase::Along { before, .. }, Some(up)) if !near.is_empty() => {

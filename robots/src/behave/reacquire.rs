@@ -175,7 +175,7 @@ impl Behave for Bowtie {
         };
         let centre = point.position + up_flow.unit() * self.lead_m();
         let right = up_flow.turned(FRAC_PI_2).unit();
-        let here = Side::of((seen.estimate.position - centre).dot(&right));
+        let here = Side::from_rightward((seen.estimate.position - centre).dot(&right));
         self.second = Some(self.line(centre, up_flow, here.other(), seen));
         track(self.line(centre, up_flow, here, seen))
     }
@@ -193,7 +193,7 @@ mod tests {
         let mut list = LostPoints::new(std::num::NonZeroUsize::new(6).expect("6 > 0"));
         for north in norths {
             let position = Vector2::new(0.0, *north);
-            list.add(Lcdp::at(0.0, position), up);
+            list.add(Lcdp::new_at(0.0, position), up);
         }
         PlumeMemory { up_flow: Some(up), lost: list, ..PlumeMemory::default() }
     }
@@ -246,7 +246,7 @@ mod tests {
         let length = |radius_m: f64| {
             let (from, to) = lines_of(radius_m, &Params::default(), &[0.0], 18.0)[0];
             // The angle to up-flow stays.
-            assert!((Heading::of(to - from).deg() - 345.0).abs() < 1e-9);
+            assert!((Heading::from_vector(to - from).deg() - 345.0).abs() < 1e-9);
             (to - from).norm()
         };
         let paper_m = 6.0 / math::sin(15f64.to_radians());

@@ -70,7 +70,8 @@ impl Passes {
         let v = position - from;
         let (along, off) = (v.dot(&u), u.perp(&v).abs());
         let (most_m, most_rad) = ON_LINE;
-        let on = along > 0.0 && along < length && off < most_m && course.turn_to(Heading::of(way)).abs() < most_rad;
+        let on =
+            along > 0.0 && along < length && off < most_m && course.turn_to(Heading::from_vector(way)).abs() < most_rad;
         on.then_some(number)
     }
 }

@@ -77,12 +77,12 @@ impl CounterTurn {
             lambda_s: params.lambda_s.get(),
             beta_rad: params.beta_deg.get().to_radians(),
             begun: false,
-            last: Lcdp::at(0.0, nalgebra::Vector2::zeros()),
+            last: Lcdp::new_at(0.0, nalgebra::Vector2::zeros()),
         })
     }
 
     fn turn(&self, seen: &Observation, up_flow: Heading, memory: &mut PlumeMemory) -> Manoeuvre {
-        let nose = Side::of(up_flow.turn_to(seen.estimate.attitude.heading));
+        let nose = Side::from_rightward(up_flow.turn_to(seen.estimate.attitude.heading));
         memory.leaves = nose;
         Manoeuvre::Course { course: up_flow.turned(nose.other().sign() * self.beta_rad) }
     }

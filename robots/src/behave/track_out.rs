@@ -201,7 +201,7 @@ mod tests {
         let mut list = LostPoints::new(NonZeroUsize::new(6).expect("6 > 0"));
         for (east, north) in lost {
             let position = Vector2::new(*east, *north);
-            list.add(Lcdp::at(0.0, position), up);
+            list.add(Lcdp::new_at(0.0, position), up);
         }
         PlumeMemory { up_flow: Some(up), leaves, lost: list, ..PlumeMemory::default() }
     }
@@ -229,7 +229,7 @@ mod tests {
     fn shrinks_as_the_newest_points_gather() {
         let share = |easts: &[f64]| {
             let points: Vec<_> = (easts.iter().enumerate())
-                .map(|(k, e)| Lcdp::at(k as f64, Vector2::new(*e, 40.0 * k as f64)))
+                .map(|(k, e)| Lcdp::new_at(k as f64, Vector2::new(*e, 40.0 * k as f64)))
                 .collect();
             Near::default().share(&points, Heading::from_deg(90.0))
         };
@@ -242,7 +242,7 @@ mod tests {
         let near = Params { near: Some(Near::default()), ..Params::default() };
         let mut m = memory(Side::Left, &[(50.0, 0.0)]);
         for k in 0..3 {
-            m.lcdps.add(Lcdp::at(f64::from(k), Vector2::new(50.0, 0.0)));
+            m.lcdps.add(Lcdp::new_at(f64::from(k), Vector2::new(50.0, 0.0)));
         }
         let o = seen(0.0, Vector2::zeros(), 0.0, None);
         let mut b = UpAcross::new(&near).expect("legal");

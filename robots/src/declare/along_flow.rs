@@ -83,7 +83,7 @@ impl AlongFlow {
             let (low, high) = y.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
             high - low < most_m.get()
         });
-        (along && across).then(|| (first.1.position, Evidence::of(leading.iter().map(|(_, p)| *p))))
+        (along && across).then(|| (first.1.position, Evidence::from_points(leading.iter().map(|(_, p)| *p))))
     }
 }
 
@@ -101,7 +101,7 @@ mod tests {
     }
 
     fn at(east: f64, north: f64) -> Lcdp {
-        Lcdp::at(0.0, v(east, north))
+        Lcdp::new_at(0.0, v(east, north))
     }
 
     #[test]
@@ -157,7 +157,7 @@ mod tests {
             norths in proptest::collection::vec(-50.0..50.0f64, 3..7), deg in 0.0..360.0,
         ) {
             let up = Heading::from_deg(deg);
-            let points: Vec<_> = norths.iter().map(|n| Lcdp::at(0.0, up.unit() * *n)).collect();
+            let points: Vec<_> = norths.iter().map(|n| Lcdp::new_at(0.0, up.unit() * *n)).collect();
             let mut turned = points.clone();
             turned.reverse();
             let rule = AlongFlow::default();

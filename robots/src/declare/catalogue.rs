@@ -25,7 +25,7 @@ pub enum Points {
 impl Points {
     /// Those points of a searcher.
     #[must_use]
-    pub fn of(self, memory: &PlumeMemory) -> &[Lcdp] {
+    pub fn select(self, memory: &PlumeMemory) -> &[Lcdp] {
         match self {
             Points::Lost => memory.lost.all(),
             Points::Lcdps => memory.lcdps.all(),

@@ -35,7 +35,7 @@ fn mission(way: usize, near: usize, scatter_m: f64, rng: &mut Stream) -> Vec<Lcd
     (0..way + near)
         .map(|k| {
             let at = if k < way { along(k) } else { SOURCE };
-            Lcdp::at(90.0 * k as f64, at + off())
+            Lcdp::new_at(90.0 * k as f64, at + off())
         })
         .collect()
 }
@@ -117,7 +117,7 @@ fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
             off = fix_off;
             stay.take_fix(&fix, FixMove::Stay);
             whole.take_fix(&fix, FixMove::Whole);
-            let believed = Lcdp::at(p.t_s, p.position + off);
+            let believed = Lcdp::new_at(p.t_s, p.position + off);
             stay.add(believed);
             whole.add(believed);
         }

@@ -85,7 +85,7 @@ impl SizF {
         let radius_m = self.size.radius_m(points, up_flow, fix_m);
         let (left, near) = self.left(points, up_flow, radius_m);
         let first = left.first().filter(|_| near)?;
-        Some((first.position, Evidence::of(&left)))
+        Some((first.position, Evidence::from_points(&left)))
     }
 
     /// The points that are left in the end, most up-flow first, and whether all lie within `radius_m` of their mean;

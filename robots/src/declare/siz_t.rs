@@ -116,7 +116,7 @@ impl SizT {
         let (low, high) = first.iter().fold((corner, corner), |(l, h), p| (l.inf(&p.position), h.sup(&p.position)));
         let mean = first.iter().map(|p| p.position).sum::<Vector2<f64>>() / first.len() as f64;
         let near = (high - low).norm() <= self.size.diagonal_m(points, up_flow, fix_m);
-        near.then(|| (mean, Evidence::of(&first)))
+        near.then(|| (mean, Evidence::from_points(&first)))
     }
 }
 

@@ -28,6 +28,6 @@ pub(crate) fn belief(best: usize, informed: bool, credible_95: f64) -> Belief {
 
 /// Last detection points (east, north), m, a second apart.
 pub(crate) fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
-    let point = |(k, (east, north)): (usize, &(f64, f64))| Lcdp::at(k as f64, Vector2::new(*east, *north));
+    let point = |(k, (east, north)): (usize, &(f64, f64))| Lcdp::new_at(k as f64, Vector2::new(*east, *north));
     places.iter().enumerate().map(point).collect()
 }

@@ -136,7 +136,7 @@ mod tests {
     fn across(easts: &[f64]) -> Vec<Lcdp> {
         let point = |(k, east): (usize, &f64)| {
             // Far apart along the flow: that does not count.
-            Lcdp::at(k as f64, Vector2::new(*east, 40.0 * k as f64))
+            Lcdp::new_at(k as f64, Vector2::new(*east, 40.0 * k as f64))
         };
         easts.iter().enumerate().map(point).collect()
     }

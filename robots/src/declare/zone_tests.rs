@@ -16,7 +16,7 @@ fn memory(places: &[(f64, f64)]) -> PlumeMemory {
     let most = NonZeroUsize::new(20).expect("20 is not zero");
     let mut memory = PlumeMemory::new(most, most);
     for (k, (east, north)) in places.iter().enumerate() {
-        let point = Lcdp::at(k as f64, Vector2::new(*east, *north));
+        let point = Lcdp::new_at(k as f64, Vector2::new(*east, *north));
         memory.lose(point, Heading::from_deg(0.0));
     }
     memory

@@ -63,7 +63,7 @@ pub enum DriveFault {
 
 impl DriveFault {
     /// In words, for people; `unit` is that of the set-points.
-    pub(super) fn words(&self, unit: &str) -> String {
+    pub(super) fn describe(&self, unit: &str) -> String {
         match self {
             Self::Stuck => "stuck".to_string(),
             Self::StuckAt(value) => format!("stuck at {} {unit}", value.get()).trim_end().to_string(),

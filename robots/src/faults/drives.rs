@@ -39,7 +39,7 @@ impl DriveFaults {
     /// If the vehicle has no drive of a name: `mistakes` finds that before a run.
     #[must_use]
     pub fn new(faults: &[FaultSpec], dt_s: f64, drives: &[NamedDrive]) -> Self {
-        let failing = |fault: &FaultSpec| match fault.what.of() {
+        let failing = |fault: &FaultSpec| match fault.what.subject() {
             Of::Drive(name, how) => {
                 let place = drives.iter().position(|d| d.name == name).unwrap_or_else(|| {
                     panic!("a fault is of the drive {name}, which the vehicle has not; check the scenario")

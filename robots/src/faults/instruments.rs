@@ -41,7 +41,7 @@ impl SensorFaults {
         let fluorometer = sensors.get::<FluorometerSpec>();
         Self {
             faults: (faults.iter())
-                .filter_map(|fault| match fault.what.of() {
+                .filter_map(|fault| match fault.what.subject() {
                     Of::Instrument(what, amiss) => Some((fault.span(dt_s), what, amiss)),
                     Of::Drive(..) => None,
                 })

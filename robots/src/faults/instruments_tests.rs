@@ -28,7 +28,7 @@ const UNTIL_S: f64 = 80.0;
 /// 0.1 µg/L everywhere: a hundredth of full scale, below the threshold.
 struct Faint;
 impl Concentration for Faint {
-    fn at(&self, _: &Vector3<f64>) -> f64 {
+    fn concentration(&self, _: &Vector3<f64>) -> f64 {
         0.1 * KG_M3_PER_UG_L
     }
 }

@@ -37,7 +37,7 @@ pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[Na
             let help = "leave it out for a fault that lasts";
             say("until_s", problem, Some(help.to_string()));
         }
-        match fault.what.of() {
+        match fault.what.subject() {
             Of::Instrument(what, _) if !sensors.has(what.field()) => {
                 let (field, problem) = (what.field(), lacks(what));
                 let help = format!(
@@ -109,7 +109,7 @@ fn misfit(all: &[NamedDrive], name: &str, how: &DriveFault) -> Option<(Option<&'
 }
 
 fn of_one_thing(a: &FaultSpec, b: &FaultSpec) -> bool {
-    match (a.what.of(), b.what.of()) {
+    match (a.what.subject(), b.what.subject()) {
         (Of::Instrument(a, _), Of::Instrument(b, _)) => a == b,
         (Of::Drive(a, _), Of::Drive(b, _)) => a == b,
         _ => false,
@@ -123,7 +123,7 @@ mod tests {
     use super::*;
     use crate::sense::CompassSpec;
 
-    fn told(faults: &[FaultSpec], drives: &[NamedDrive]) -> Vec<(String, String)> {
+    fn find_mistakes(faults: &[FaultSpec], drives: &[NamedDrive]) -> Vec<(String, String)> {
         let sensors = SensorsSpec::default().with(CompassSpec::default());
         let found = mistakes(faults, &sensors, Some(drives));
         assert!(found.iter().all(|m| m.help.is_some()));
@@ -178,7 +178,7 @@ mod tests {
                 "holds at the same time as faults[0], which is of the same thing",
             ),
         ] {
-            assert_eq!(told(&faults, set), [(field.to_string(), problem.to_string())]);
+            assert_eq!(find_mistakes(&faults, set), [(field.to_string(), problem.to_string())]);
         }
     }
 
@@ -190,6 +190,6 @@ mod tests {
             fault(0.0, None, Faulty::Rudder(FinFault::Dead)),
             fault(0.0, None, drive("propeller", DriveFault::StuckAt(Finite::new(900.0)))),
         ];
-        assert_eq!(told(&faults, &NamedDrive::fins()), []);
+        assert_eq!(find_mistakes(&faults, &NamedDrive::fins()), []);
     }
 }

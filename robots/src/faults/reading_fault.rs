@@ -38,7 +38,7 @@ impl Instrument {
     }
 
     /// What people call it.
-    pub(super) fn words(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Self::Depth => "depth sensor",
             Self::Dvl => "Doppler log",
@@ -83,7 +83,7 @@ impl ReadingFault {
     }
 
     /// In words, for people.
-    pub(super) fn words(&self) -> String {
+    pub(super) fn describe(&self) -> String {
         match self {
             Self::Silent => "silent".to_string(),
             Self::Stuck => "stuck".to_string(),

@@ -71,7 +71,7 @@ pub(super) enum Of<'a> {
 
 impl Faulty {
     /// What it is of.
-    pub(super) fn of(&self) -> Of<'_> {
+    pub(super) fn subject(&self) -> Of<'_> {
         match self {
             Self::Fluorometer(how) => Of::Instrument(Instrument::Fluorometer, how.into()),
             Self::Compass(how) => Of::Instrument(Instrument::Compass, how.into()),
@@ -93,16 +93,16 @@ impl Faulty {
 
     /// In words, for people.
     #[must_use]
-    pub fn words(&self) -> String {
-        match self.of() {
-            Of::Instrument(what, how) => format!("{} {}", what.words(), how.words()),
+    pub fn describe(&self) -> String {
+        match self.subject() {
+            Of::Instrument(what, how) => format!("{} {}", what.label(), how.describe()),
             Of::Drive(name, how) => {
                 let unit = match self {
                     Self::Rudder(_) | Self::SternPlane(_) => "degrees",
                     Self::Propeller(_) => "rpm",
                     _ => "",
                 };
-                format!("{} {}", name.replace('_', " "), how.words(unit))
+                format!("{} {}", name.replace('_', " "), how.describe(unit))
             }
         }
     }
@@ -157,7 +157,7 @@ mod tests {
                 "rudder stuck at 5".to_string(),
             ),
         ] {
-            assert_eq!(what.words(), words);
+            assert_eq!(what.describe(), words);
         }
     }
 

@@ -16,14 +16,14 @@ use world::units::Heading;
 /// The course to take instead of a commanded course at `position`.
 pub(super) fn cage(course: Heading, position: Vector2<f64>, sides: &Sides, width_m: f64) -> Heading {
     let wanted = course.unit();
-    altered(wanted, position, sides, width_m).unwrap_or_else(|| Heading::of(wanted))
+    altered(wanted, position, sides, width_m).unwrap_or_else(|| Heading::from_vector(wanted))
 }
 
 /// The course to take instead of one with this unit vector; `None` if no edge stands against it.
 pub(super) fn altered(wanted: Vector2<f64>, position: Vector2<f64>, sides: &Sides, width_m: f64) -> Option<Heading> {
     let (nearest_m, normal) = sides.edge_distance(position);
     if nearest_m < 0.0 {
-        return Some(Heading::of(-normal));
+        return Some(Heading::from_vector(-normal));
     }
     if nearest_m >= width_m {
         return None;
@@ -36,9 +36,9 @@ pub(super) fn altered(wanted: Vector2<f64>, position: Vector2<f64>, sides: &Side
         }
     }
     if left.norm() < 1e-9 {
-        return Some(Heading::of(-normal));
+        return Some(Heading::from_vector(-normal));
     }
-    (left != wanted).then(|| Heading::of(left))
+    (left != wanted).then(|| Heading::from_vector(left))
 }
 
 /// Whether a position is farther outside than allowed.

@@ -24,16 +24,16 @@ pub(super) fn compensate(
     if through_water.norm() <= limit_m_s {
         let speed = through_water.norm();
         // If drift alone gives the wanted speed, keep the nose on the course.
-        let heading = if speed > 1e-9 { Heading::of(through_water) } else { course };
+        let heading = if speed > 1e-9 { Heading::from_vector(through_water) } else { course };
         return (heading, speed);
     }
     let across = flow - along * flow.dot(&along);
     let left_for_along = limit_m_s * limit_m_s - across.norm_squared();
     if left_for_along <= 0.0 {
-        return (Heading::of(through_water), limit_m_s);
+        return (Heading::from_vector(through_water), limit_m_s);
     }
     let kept = along * left_for_along.sqrt() - across;
-    (Heading::of(kept), limit_m_s)
+    (Heading::from_vector(kept), limit_m_s)
 }
 
 #[cfg(test)]
@@ -71,7 +71,7 @@ mod tests {
             prop_assert!(v <= 2.0 + 1e-9);
             let ground = h.unit() * v + flow;
             // Flow is at most 1.7 m/s, so the course can be kept; the limit only costs speed.
-            prop_assert!(ground.norm() < 1e-9 || course.turn_to(Heading::of(ground)).abs() < 1e-6);
+            prop_assert!(ground.norm() < 1e-9 || course.turn_to(Heading::from_vector(ground)).abs() < 1e-6);
             prop_assert!(ground.norm() <= speed + 1e-9);
         }
     }

@@ -36,7 +36,7 @@ pub(super) struct FollowLine {
 impl FollowLine {
     /// A line; its ends must differ.
     pub(super) fn new(from: Vector2<f64>, to: Vector2<f64>, limits: LineLimits) -> Self {
-        Self { from, to, alpha: Heading::of(to - from), limits }
+        Self { from, to, alpha: Heading::from_vector(to - from), limits }
     }
 
     /// Direction of the line (eq. 7).

@@ -42,7 +42,7 @@ impl GoToPoint {
         let to = self.point - position;
         let distance_m = to.norm();
         self.arrived |= distance_m < self.radius_m;
-        let bearing = Heading::of(to);
+        let bearing = Heading::from_vector(to);
         if let Some(last) = self.bearing.replace(bearing) {
             self.wound_rad += last.turn_to(bearing);
         }

@@ -65,7 +65,7 @@ impl Guidance {
             filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),
             spec: Box::new(spec.clone()),
             mode: Mode::Free,
-            known: Known::of(Heading::from_rad(0.0)),
+            known: Known::from_course(Heading::from_rad(0.0)),
             goal_id: None,
             done: false,
             aborted: false,
@@ -154,7 +154,7 @@ impl Guidance {
     fn moved(&self, est: &Estimate, goal: &Goal, wanted: &HoverDemand, sides: &Sides) -> Command {
         let speed = wanted.velocity_m_s.norm();
         let over_ground_m_s = if speed > 0.0 {
-            let course = Heading::of(wanted.velocity_m_s);
+            let course = Heading::from_vector(wanted.velocity_m_s);
             let course = cage(course, est.position, sides, self.spec.cage_m.get());
             course.unit() * speed.min(self.spec.water_speed_limit_m_s.get())
         } else {
@@ -272,7 +272,7 @@ fn straight(goal: &Goal) -> Option<Command> {
 
 fn course_over_ground(est: &Estimate) -> Heading {
     let v = est.v_ground();
-    if v.norm() > SLOWEST_COURSE_M_S { Heading::of(v) } else { est.attitude.heading }
+    if v.norm() > SLOWEST_COURSE_M_S { Heading::from_vector(v) } else { est.attitude.heading }
 }
 
 #[cfg(test)]

@@ -63,7 +63,7 @@ impl Hovering {
         let to = |point: Vector2<f64>, reached_m: f64, heading: Option<Heading>| {
             let way = point - at.position;
             let distance_m = way.norm();
-            let along = (distance_m > NEAR_M).then(|| Heading::of(way));
+            let along = (distance_m > NEAR_M).then(|| Heading::from_vector(way));
             let speed = speed_m_s.min(APPROACH_1_S * distance_m);
             let velocity_m_s = if distance_m > 0.0 { way * (speed / distance_m) } else { Vector2::zeros() };
             HoverDemand { velocity_m_s, heading: heading.or(along), done: distance_m < reached_m }

@@ -21,16 +21,16 @@ pub(super) struct Known {
 }
 
 impl Known {
-    pub(super) fn of(course: Heading) -> Self {
+    pub(super) fn from_course(course: Heading) -> Self {
         let unit = course.unit();
-        let again = Heading::of(unit);
+        let again = Heading::from_vector(unit);
         Self { course, unit, again: (again, again.unit()) }
     }
 
     /// Exchanges it for another course, unless that has the same bits.
     pub(super) fn exchange(&mut self, course: Heading) {
         if self.course.rad().to_bits() != course.rad().to_bits() {
-            *self = Self::of(course);
+            *self = Self::from_course(course);
         }
     }
 }
@@ -41,12 +41,12 @@ mod tests {
 
     #[test]
     fn it_always_knows_the_newest_course() {
-        let mut known = Known::of(Heading::from_deg(0.0));
+        let mut known = Known::from_course(Heading::from_deg(0.0));
         for deg in [0.0, 10.0, 10.0, 10.000_000_000_001, 350.0, 0.0] {
             let course = Heading::from_deg(deg);
             known.exchange(course);
             assert_eq!(known.unit, course.unit());
-            let again = Heading::of(course.unit());
+            let again = Heading::from_vector(course.unit());
             assert_eq!(known.again, (again, again.unit()));
         }
     }

@@ -24,7 +24,7 @@ impl Bounds {
 
     /// Those for a strategy: of another crate, or of this program.
     #[must_use]
-    pub fn of(own: bool) -> Self {
+    pub fn for_origin(own: bool) -> Self {
         if own { Self::OWN } else { Self::ANY }
     }
 

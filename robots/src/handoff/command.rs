@@ -33,7 +33,7 @@ impl MoveSetpoint {
     pub fn steered(&self) -> Setpoint {
         let speed = self.over_ground_m_s.norm();
         Setpoint {
-            heading: if speed > 0.0 { Heading::of(self.over_ground_m_s) } else { self.heading },
+            heading: if speed > 0.0 { Heading::from_vector(self.over_ground_m_s) } else { self.heading },
             water_speed_m_s: speed,
             vertical: self.vertical,
         }

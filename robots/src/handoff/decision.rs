@@ -134,7 +134,7 @@ impl Verdict {
 
     /// The same for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Verdict::CannotTell => "cannot tell",
             told => told.name(),

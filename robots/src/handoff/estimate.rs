@@ -42,7 +42,7 @@ impl FlowEstimate {
     /// Where the water goes.
     #[must_use]
     pub fn heading(&self) -> Heading {
-        Heading::of(self.velocity)
+        Heading::from_vector(self.velocity)
     }
 
     /// Where the water comes from.

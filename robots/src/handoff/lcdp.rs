@@ -29,7 +29,7 @@ pub struct Lcdp {
 impl Lcdp {
     /// A point of which only time and place matter.
     #[must_use]
-    pub fn at(t_s: f64, position: Vector2<f64>) -> Self {
+    pub fn new_at(t_s: f64, position: Vector2<f64>) -> Self {
         Self { t_s, position, of_full_scale: 0.0, flow: None }
     }
 
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn flow_frame_by_hand() {
-        let p = Lcdp::at(0.0, Vector2::new(3.0, 4.0));
+        let p = Lcdp::new_at(0.0, Vector2::new(3.0, 4.0));
         // Water to the east: x_flow is east, y_flow north.
         let east = p.in_flow(Heading::from_deg(270.0));
         assert!((east - Vector2::new(3.0, 4.0)).norm() < 1e-12);

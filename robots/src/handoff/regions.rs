@@ -39,7 +39,7 @@ impl RegionState {
 
     /// The same, for reports.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             RegionState::Waiting => "not searched",
             RegionState::Searching => "search not ended",

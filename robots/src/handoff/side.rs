@@ -21,7 +21,7 @@ impl Side {
 
     /// The side of a signed distance or turn, right positive.
     #[must_use]
-    pub fn of(rightward: f64) -> Self {
+    pub fn from_rightward(rightward: f64) -> Self {
         if rightward < 0.0 { Side::Left } else { Side::Right }
     }
 

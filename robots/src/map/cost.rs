@@ -42,7 +42,7 @@ impl GridSpec {
 
     fn cost(&self) -> Cost {
         let cells = self.cells();
-        Cost::of(Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES))
+        Cost::single(Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES))
     }
 }
 

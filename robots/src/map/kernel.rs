@@ -120,7 +120,7 @@ impl Kernel {
     }
 
     /// The vehicle's place for which it was made, in the grid's own axes, m.
-    pub(super) fn at(&self) -> [f64; 3] {
+    pub(super) fn place(&self) -> [f64; 3] {
         self.at
     }
 

@@ -154,7 +154,7 @@ impl ParticleFilter {
         let places = (0..count).map(|_| extent_m.map(|e| e * rng.uniform())).collect();
         Ok(Self {
             kernel: Kernel::within(grid, with.places, &spec.trajectory),
-            shifts: Shifts::of(&spec.doubt, count, &mut rng),
+            shifts: Shifts::from_doubt(&spec.doubt, count, &mut rng),
             seen_at: Vec::new(),
             ln_evidence: 0.0,
             spec: spec.clone(),
@@ -175,7 +175,8 @@ impl ParticleFilter {
         let mut places = &self.places;
         if let Some(shifts) = &mut self.shifts {
             self.seen_at.clear();
-            let shifted = (self.places.iter().zip(shifts.at(t_s))).map(|(p, by)| [p[0] + by[0], p[1] + by[1], p[2]]);
+            let shifted =
+                (self.places.iter().zip(shifts.displacements(t_s))).map(|(p, by)| [p[0] + by[0], p[1] + by[1], p[2]]);
             self.seen_at.extend(shifted);
             places = &self.seen_at;
         }
@@ -198,9 +199,9 @@ impl ParticleFilter {
 
     /// Draws every other particle anew from the releases that may have been met; then all have the same weight.
     fn send_back(&mut self, t_s: f64) {
-        let shifts: Option<Vec<_>> = self.shifts.as_mut().map(|s| s.at(t_s).collect());
+        let shifts: Option<Vec<_>> = self.shifts.as_mut().map(|s| s.displacements(t_s).collect());
         let releases: Vec<_> = self.with.watch.history.releases().collect();
-        let (at, plane) = (self.kernel.at(), self.with.belief.belief().grid.n[2] == 1);
+        let (at, plane) = (self.kernel.place(), self.with.belief.belief().grid.n[2] == 1);
         for (i, place) in self.places.iter_mut().enumerate().step_by(2) {
             let by = shifts.as_ref().map_or([0.0; 2], |s| s[i]);
             // Releases outside the area are impossible: draw another one, a few times.

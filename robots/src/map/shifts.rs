@@ -21,8 +21,8 @@ pub(super) struct Shifts {
 
 impl Shifts {
     /// Before the first fix; `None` if navigation is taken to be true.
-    pub(super) fn of(doubt: &DoubtSpec, particles: usize, rng: &mut Stream) -> Option<Self> {
-        let mut new = Self { stated: Stated::of(doubt)?, drawn: vec![[0.0; 4]; particles] };
+    pub(super) fn from_doubt(doubt: &DoubtSpec, particles: usize, rng: &mut Stream) -> Option<Self> {
+        let mut new = Self { stated: Stated::from_doubt(doubt)?, drawn: vec![[0.0; 4]; particles] };
         new.draw(rng);
         Some(new)
     }
@@ -40,7 +40,7 @@ impl Shifts {
     }
 
     /// By how much each particle's source appears displaced at `t_s`, m.
-    pub(super) fn at(&mut self, t_s: f64) -> impl Iterator<Item = [f64; 2]> {
+    pub(super) fn displacements(&mut self, t_s: f64) -> impl Iterator<Item = [f64; 2]> {
         let [fix_m, rate, dt] = self.stated.parts(t_s);
         (self.drawn.iter()).map(move |d| [0, 1].map(|a| fix_m * d[a] + rate * dt * d[a + 2]))
     }
@@ -61,25 +61,25 @@ mod tests {
         let doubt =
             DoubtSpec { fix_m: NonNegative::new(5.0), drift_m_s: NonNegative::new(0.2), ..DoubtSpec::default() };
         let mut rng = Stream::new(1, "auv0", "shifts");
-        assert!(Shifts::of(&DoubtSpec::default(), 9, &mut rng).is_none());
+        assert!(Shifts::from_doubt(&DoubtSpec::default(), 9, &mut rng).is_none());
         let n = 20_000;
-        let mut shifts = Shifts::of(&doubt, n, &mut rng).expect("an error");
-        assert!(shifts.at(3.0).all(|d| d == [0.0; 2]));
+        let mut shifts = Shifts::from_doubt(&doubt, n, &mut rng).expect("an error");
+        assert!(shifts.displacements(3.0).all(|d| d == [0.0; 2]));
         shifts.fixed(10.0, &mut rng);
         let rms = |all: &[[f64; 2]]| {
             let sum: f64 = all.iter().map(|d| d[0] * d[0] + d[1] * d[1]).sum();
             (sum / (2 * all.len()) as f64).sqrt()
         };
-        let first: Vec<_> = shifts.at(10.0).collect();
-        let same: Vec<_> = shifts.at(10.0).collect();
+        let first: Vec<_> = shifts.displacements(10.0).collect();
+        let same: Vec<_> = shifts.displacements(10.0).collect();
         assert_eq!(first, same);
         // 40 000 numbers: the standard error of their root mean square is 0.35 %.
         assert!((rms(&first) / 5.0 - 1.0).abs() < 0.015, "{}", rms(&first));
-        let later: Vec<_> = shifts.at(40.0).collect();
+        let later: Vec<_> = shifts.displacements(40.0).collect();
         let want = f64::sqrt(5.0 * 5.0 + 6.0 * 6.0);
         assert!((rms(&later) / want - 1.0).abs() < 0.015, "{}", rms(&later));
         shifts.keep(&[7, 7, 3]);
-        let kept: Vec<_> = shifts.at(40.0).collect();
+        let kept: Vec<_> = shifts.displacements(40.0).collect();
         assert_eq!(kept, [later[7], later[7], later[3]]);
     }
 }

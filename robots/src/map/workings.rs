@@ -95,7 +95,7 @@ impl Workings {
         };
         Ok(Self {
             watch: Watch::new(&grid, trajectory.history(release_s), update_s),
-            belief: LogBelief::over(&cells, &grid, Stated::of(doubt)),
+            belief: LogBelief::over(&cells, &grid, Stated::from_doubt(doubt)),
             places,
             evidence: Evidence::new(false_detection, doubt, update_s)?,
             likelihood: vec![1.0; grid.len()],

@@ -87,7 +87,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn at(t_s: f64, east: f64, north: f64) -> Lcdp {
-        Lcdp::at(t_s, Vector2::new(east, north))
+        Lcdp::new_at(t_s, Vector2::new(east, north))
     }
 
     fn times(points: &[Lcdp]) -> Vec<f64> {

@@ -80,7 +80,7 @@ mod tests {
     use nalgebra::Vector2;
 
     fn at(t_s: f64, north: f64) -> Lcdp {
-        Lcdp::at(t_s, Vector2::new(0.0, north))
+        Lcdp::new_at(t_s, Vector2::new(0.0, north))
     }
 
     #[test]

@@ -96,8 +96,8 @@ mod tests {
             let mut memory = PlumeMemory::default();
             let mut o = seen(0.0, Vector2::zeros(), 0.0, None);
             memory.take_fixes(&o, rule);
-            memory.lose(Lcdp::at(10.0, Vector2::zeros()), up);
-            memory.last_detection = Some(Lcdp::at(30.0, Vector2::zeros()));
+            memory.lose(Lcdp::new_at(10.0, Vector2::zeros()), up);
+            memory.last_detection = Some(Lcdp::new_at(30.0, Vector2::zeros()));
             // The fix at 40 s moves the vehicle by 10 m since the start at 0 s.
             o.estimate.t_s = 40.0;
             o.estimate.fix_jump = Vector2::new(10.0, 0.0);

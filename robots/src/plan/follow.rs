@@ -58,7 +58,7 @@ impl Follow {
     /// The part of the path still ahead.
     #[must_use]
     pub fn rest(&self) -> Vec<Vector3<f64>> {
-        let mut rest = vec![self.at(self.s_m)];
+        let mut rest = vec![self.point_at(self.s_m)];
         let next = self.upto_m.partition_point(|s| *s <= self.s_m);
         rest.extend(&self.points[next..]);
         rest
@@ -77,20 +77,20 @@ impl Follow {
             let leg = (self.points[k + 1] - self.points[k]).xy();
             let foot = self.upto_m[k] + (p_W - self.points[k]).xy().dot(&leg) / leg.norm();
             let s = foot.clamp(lo, hi);
-            let d = (self.at(s) - p_W).xy().norm();
+            let d = (self.point_at(s) - p_W).xy().norm();
             if d < best.0 {
                 best = (d, s);
             }
         }
         self.s_m = best.1;
-        let ahead = self.at(self.s_m + self.ahead_m);
+        let ahead = self.point_at(self.s_m + self.ahead_m);
         let to = (ahead - p_W).xy();
         let beyond = self.points.len() > 1 && self.s_m >= length - 1e-9;
-        let course = if to.norm() > 1e-6 { Heading::of(to) } else { self.last_course() };
+        let course = if to.norm() > 1e-6 { Heading::from_vector(to) } else { self.last_course() };
         Steer {
             course,
             z_m: ahead.z,
-            off_m: if beyond { 0.0 } else { (self.at(self.s_m) - p_W).xy().norm() },
+            off_m: if beyond { 0.0 } else { (self.point_at(self.s_m) - p_W).xy().norm() },
             left_m: length - self.s_m,
         }
     }
@@ -98,11 +98,11 @@ impl Follow {
     fn last_course(&self) -> Heading {
         let n = self.points.len();
         let leg = if n > 1 { (self.points[n - 1] - self.points[n - 2]).xy() } else { nalgebra::Vector2::y() };
-        Heading::of(leg)
+        Heading::from_vector(leg)
     }
 
     /// The point after `s_m` metres (seen from above); beyond the end, on the extended last leg.
-    fn at(&self, s_m: f64) -> Vector3<f64> {
+    fn point_at(&self, s_m: f64) -> Vector3<f64> {
         let n = self.points.len();
         let length = self.upto_m[n - 1];
         if s_m >= length {

@@ -119,7 +119,7 @@ impl PlannerParams for Params {
             .holds(8.0 * steps * 24.0)
             .takes(plans * steps * STEP_S)
             .by(self.step_m.get(), -1.0);
-        Cost::of(descent)
+        Cost::single(descent)
     }
 }
 

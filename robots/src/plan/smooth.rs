@@ -114,7 +114,7 @@ fn first_turn(room: &FreeSpace, start: &From, to: &Vector3<f64>, radius_m: f64) 
             continue;
         }
         // The course of the tangent: the direction to the centre, turned by asin(r / d).
-        let course = Heading::of(away).turned(turn * math::asin(radius_m / d));
+        let course = Heading::from_vector(away).turned(turn * math::asin(radius_m / d));
         let angle = wrap_tau(turn * (course.rad() - start.heading.rad()));
         let angle = if TAU - angle < 1e-9 { 0.0 } else { angle };
         let tangent_m = (d * d - radius_m * radius_m).sqrt();
@@ -141,7 +141,7 @@ pub(super) fn round(
     let Some(second) = points.get(1) else {
         return (made, tightest);
     };
-    let aside = start.heading.turn_to(Heading::of(second.xy() - points[0].xy())).abs();
+    let aside = start.heading.turn_to(Heading::from_vector(second.xy() - points[0].xy())).abs();
     if aside > STRAIGHT_RAD {
         match first_turn(room, start, second, radius_m) {
             Some(turn) => {
@@ -158,7 +158,7 @@ pub(super) fn round(
             break;
         };
         let (a, b) = ((corner - last).xy(), (next - corner).xy());
-        let turn = Heading::of(a).turn_to(Heading::of(b));
+        let turn = Heading::from_vector(a).turn_to(Heading::from_vector(b));
         if a.norm() < 1e-9 || b.norm() < 1e-9 || turn.abs() < STRAIGHT_RAD {
             made.push(corner);
             continue;
@@ -172,7 +172,7 @@ pub(super) fn round(
             let t = r * tan;
             let enter = corner + (last - corner) * (t / a.norm());
             let leave = corner + (next - corner) * (t / b.norm());
-            let side = Heading::of(a).turned(FRAC_PI_2 * turn.signum()).unit();
+            let side = Heading::from_vector(a).turned(FRAC_PI_2 * turn.signum()).unit();
             let bow = arc(enter, enter.xy() + side * r, turn, leave.z);
             if free(room, &enter, &bow) {
                 made.push(enter);

@@ -161,7 +161,7 @@ impl Fluorometer {
             return None;
         }
         let p = truth.pose.point(self.p_BS);
-        let c = dye.at(&p);
+        let c = dye.concentration(&p);
         assert!(
             c.is_finite(),
             "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke \
@@ -187,7 +187,7 @@ mod tests {
     /// The same concentration everywhere, µg/L.
     struct Even(f64);
     impl Concentration for Even {
-        fn at(&self, _p: &Vector3<f64>) -> f64 {
+        fn concentration(&self, _p: &Vector3<f64>) -> f64 {
             self.0 * KG_M3_PER_UG_L
         }
     }
@@ -261,7 +261,7 @@ mod tests {
     /// Dye in the eastern half only.
     struct East;
     impl Concentration for East {
-        fn at(&self, p: &Vector3<f64>) -> f64 {
+        fn concentration(&self, p: &Vector3<f64>) -> f64 {
             if p.x > 0.0 { 5.0 * KG_M3_PER_UG_L } else { 0.0 }
         }
     }

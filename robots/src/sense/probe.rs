@@ -131,7 +131,7 @@ impl Probes {
         }
         let mut scan = ProbeScan { t_s: clock.t_s(), volts: [self.bottom_v; MAX_PROBES], count: tips.len() };
         for ((channel, p), volts) in self.channels.iter_mut().zip(tips).zip(&mut scan.volts) {
-            let c = dye.at(p);
+            let c = dye.concentration(p);
             assert!(
                 c.is_finite(),
                 "the concentration at {p:?} is not a finite number: the plume model or the head's position broke \
@@ -160,7 +160,7 @@ mod tests {
     /// Concentration that grows to the left, kg/m³ per metre, from zero at y = 0.
     struct Slope(f64);
     impl Concentration for Slope {
-        fn at(&self, p: &Vector3<f64>) -> f64 {
+        fn concentration(&self, p: &Vector3<f64>) -> f64 {
             (self.0 * p.y).max(0.0)
         }
     }

@@ -100,7 +100,7 @@ impl SensorParams for RangingSpec {
         let each_s = BEAM_S[0] + obstacles * BEAM_S[1] + self.max_range_m.get() * BEAM_S[2];
         let rate_hz = self.rate_hz.get();
         let what = format!("{:.0} beams per second", beams * rate_hz);
-        Cost::of(Part::new("rate_hz", what).takes(times.mission_s * rate_hz * beams * each_s).by(rate_hz, 1.0))
+        Cost::single(Part::new("rate_hz", what).takes(times.mission_s * rate_hz * beams * each_s).by(rate_hz, 1.0))
     }
 }
 

@@ -124,7 +124,7 @@ impl SensorParams for SidescanSpec {
             .holds(PASSES_BYTES)
             .takes(times.mission_s * used * samples * each_s)
             .by(rate_hz, 1.0);
-        Cost::of(part)
+        Cost::single(part)
     }
 }
 

@@ -126,17 +126,17 @@ impl Kind for Sensors {
 
     fn built_in() -> Vec<Row<Self>> {
         vec![
-            Row::of::<FluorometerSpec>(),
-            Row::of::<DvlSpec>(),
-            Row::of::<AdcpSpec>(),
-            Row::of::<CompassSpec>(),
-            Row::of::<DepthSpec>(),
-            Row::of::<CtdSpec>(),
-            Row::of::<AltimeterSpec>(),
-            Row::of::<LblSpec>(),
-            Row::of::<RangingSpec>(),
-            Row::of::<SidescanSpec>(),
-            Row::of::<CameraSpec>(),
+            Row::new::<FluorometerSpec>(),
+            Row::new::<DvlSpec>(),
+            Row::new::<AdcpSpec>(),
+            Row::new::<CompassSpec>(),
+            Row::new::<DepthSpec>(),
+            Row::new::<CtdSpec>(),
+            Row::new::<AltimeterSpec>(),
+            Row::new::<LblSpec>(),
+            Row::new::<RangingSpec>(),
+            Row::new::<SidescanSpec>(),
+            Row::new::<CameraSpec>(),
         ]
     }
 }

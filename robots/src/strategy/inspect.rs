@@ -129,7 +129,7 @@ impl Inspect {
         Ok(Self {
             places: spec.places.iter().map(place).collect(),
             vertical,
-            post: PostDeclaration::new(&after)?.told(),
+            post: PostDeclaration::new(&after)?.for_told_places(),
             now: 0,
             surveying: false,
             goal: Goal::none_yet(vertical, spec.speed_m_s.get()),

@@ -277,7 +277,7 @@ impl Side {
         let (front, back) = (from_top(near, height_m), from_top(far, height_m));
         let ground_m = 0.5 * (front + back);
         Object {
-            place: row.at(self.port, ground_m),
+            place: row.ground_position(self.port, ground_m),
             contrast,
             port: self.port,
             along_m: row.along_m,

@@ -49,7 +49,7 @@ pub struct Row {
 impl Row {
     /// Believed place (east, north) of a ground range on a side, m.
     #[must_use]
-    pub fn at(&self, port: bool, ground_m: f64) -> Vector2<f64> {
+    pub fn ground_position(&self, port: bool, ground_m: f64) -> Vector2<f64> {
         let turn = if port { -FRAC_PI_2 } else { FRAC_PI_2 };
         self.place + self.heading.turned(turn).unit() * ground_m
     }
@@ -195,7 +195,8 @@ mod tests {
         let w = fly(&Bed::bare(1), 5.0);
         let row = &w.rows()[3];
         // Heading north.
-        let (port, starboard) = (row.at(true, 7.0) - row.place, row.at(false, 7.0) - row.place);
+        let (port, starboard) =
+            (row.ground_position(true, 7.0) - row.place, row.ground_position(false, 7.0) - row.place);
         assert!((port - Vector2::new(-7.0, 0.0)).norm() < 1e-9);
         assert!((starboard - Vector2::new(7.0, 0.0)).norm() < 1e-9);
     }

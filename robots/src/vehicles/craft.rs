@@ -139,11 +139,11 @@ impl Vehicle {
 
     /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
     #[must_use]
-    pub fn told(&self) -> &[String] {
+    pub fn doubts(&self) -> &[String] {
         match self {
-            Self::Finned(vehicle) => vehicle.told(),
+            Self::Finned(vehicle) => vehicle.doubts(),
             Self::Kinematic(_) => &[],
-            Self::Described(vehicle) => vehicle.told(),
+            Self::Described(vehicle) => vehicle.doubts(),
         }
     }
 

@@ -75,10 +75,10 @@ impl Description {
     /// If its URDF cannot be read.
     pub fn of_vehicle(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
         let named = |urdf: &Option<String>, moves: &[Motion]| {
-            Self::of(&UrdfText::open(urdf.as_deref(), files, REMUS100)?, moves)
+            Self::from_urdf(&UrdfText::open(urdf.as_deref(), files, REMUS100)?, moves)
         };
         let in_folder = |folder: &str, comes_with: bool| {
-            urdf_of(folder, comes_with, files, |text, file| Self::of(text, &of_drives(&file.drives)))
+            urdf_of(folder, comes_with, files, |text, file| Self::from_urdf(text, &of_drives(&file.drives)))
         };
         match spec {
             VehicleSpec::Remus100(remus) => named(&remus.urdf, &of_fins()),
@@ -95,10 +95,10 @@ impl Description {
     pub fn of_gantry(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
         let text = UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?;
-        Self::of(&text, &[])
+        Self::from_urdf(&text, &[])
     }
 
-    fn of(text: &UrdfText, moves: &[Motion]) -> Result<Self, RobotError> {
+    fn from_urdf(text: &UrdfText, moves: &[Motion]) -> Result<Self, RobotError> {
         let fail = |problem: String| text.fault(problem);
         let mut robot = parse(&text.text).map_err(fail)?;
         check_tree(&robot).map_err(fail)?;
@@ -125,7 +125,7 @@ impl Description {
             parent: joint.parent.link.clone(),
             child: joint.child.link.clone(),
             pose: pose_of(&joint.origin),
-            kind: JointKind::of(&joint.joint_type),
+            kind: JointKind::from_urdf(&joint.joint_type),
             axis: (Vector3::from(joint.axis.xyz.0).try_normalize(0.0)).unwrap_or_else(Vector3::x),
         };
         let mut joints: Vec<Mount> = robot.joints.iter().map(mount).collect();
@@ -203,7 +203,7 @@ mod tests {
             <mesh filename="hull.stl"/></geometry></collision></link></robot>"#;
         let files = InMemory::default().with("hulls/a.urdf", text.as_bytes());
         let text = UrdfText::open(Some("hulls/a.urdf"), &files, REMUS100).unwrap();
-        let urdf = Description::of(&text, &[]).unwrap().urdf;
+        let urdf = Description::from_urdf(&text, &[]).unwrap().urdf;
         let here = std::env::current_dir().unwrap();
         let path = here.join("hulls/hull.stl");
         let url = format!("filename=\"file://{}\"", path.display());

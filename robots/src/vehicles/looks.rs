@@ -72,7 +72,7 @@ impl JointKind {
     }
 
     /// Of a joint of a URDF. Kinds that nothing here moves count as fixed.
-    pub(super) fn of(kind: &JointType) -> Self {
+    pub(super) fn from_urdf(kind: &JointType) -> Self {
         match kind {
             JointType::Revolute => Self::Revolute,
             JointType::Continuous => Self::Continuous,

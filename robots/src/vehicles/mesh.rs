@@ -15,7 +15,7 @@ use world::obstacles::{LONGEST_MESH_BYTES, Wrong, mesh_corners, mesh_triangles};
 /// All corners in a file; the error says what is wrong with it and where, but not its path.
 pub(super) fn points(name: &Path, files: &dyn Files) -> Result<Vec<Vector3<f64>>, String> {
     let bytes = files.bytes(name, LONGEST_MESH_BYTES)?;
-    let corners = mesh_corners(&bytes, name).map_err(at)?;
+    let corners = mesh_corners(&bytes, name).map_err(locate)?;
     if corners.len() < 4 {
         return Err("needs at least four corners".into());
     }
@@ -25,10 +25,10 @@ pub(super) fn points(name: &Path, files: &dyn Files) -> Result<Vec<Vector3<f64>>
 /// All triangles in a file; the error as that of [`points`].
 pub(super) fn triangles(name: &Path, files: &dyn Files) -> Result<Vec<[Vector3<f64>; 3]>, String> {
     let bytes = files.bytes(name, LONGEST_MESH_BYTES)?;
-    let all = mesh_triangles(&bytes, name).map_err(at)?;
+    let all = mesh_triangles(&bytes, name).map_err(locate)?;
     Ok(all.into_iter().map(|t| t.map(Vector3::from)).collect())
 }
 
-fn at((place, problem): Wrong) -> String {
+fn locate((place, problem): Wrong) -> String {
     if place.is_empty() { problem } else { format!("at {}: {problem}", place.trim_start_matches([':', ' '])) }
 }

@@ -71,7 +71,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     check_tree(&robot).map_err(fail)?;
     let body = root(&robot).map_err(fail)?.name.clone();
     let links = place(&robot, &body).map_err(fail)?;
-    let ballast = Ballast::of(&robot, &links).map_err(fail)?;
+    let ballast = Ballast::from_links(&robot, &links).map_err(fail)?;
     let mut shapes = Vec::new();
     for link in &robot.links {
         let pose = &links[&link.name];

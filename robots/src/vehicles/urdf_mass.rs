@@ -32,7 +32,7 @@ pub(super) struct Ballast {
 
 impl Ballast {
     /// Sum over all links: a link may be a frame without mass, the whole may not.
-    pub(super) fn of(robot: &Robot, links: &BTreeMap<String, Pose>) -> Result<Self, String> {
+    pub(super) fn from_links(robot: &Robot, links: &BTreeMap<String, Pose>) -> Result<Self, String> {
         let mut pieces = Vec::new();
         for link in &robot.links {
             let (name, inertial) = (&link.name, &link.inertial);

@@ -12,7 +12,7 @@ use world::physics::Shape;
 const GOOD: &str = include_str!("../../urdf/remus100.urdf");
 
 fn parse(text: &str) -> Result<Hull, String> {
-    let c = Coefficients::of(ParameterSet::Remus100);
+    let c = Coefficients::from_set(ParameterSet::Remus100);
     let files = InMemory::default();
     read(&as_file(text, "/no/such/place/auv.urdf", &files), &c).map_err(|e| e.to_string())
 }
@@ -135,7 +135,7 @@ fn wrong_masses_are_told() {
 fn a_mass_within_the_tolerance_is_used_and_told() {
     let heavy = |text: &str| parse(text).expect("within 1 %");
     let built_in = heavy(GOOD);
-    let published = Coefficients::of(ParameterSet::Remus100);
+    let published = Coefficients::from_set(ParameterSet::Remus100);
     assert_eq!(built_in.coefficients, published, "eight digits are no difference");
     assert_eq!(built_in.told, [""; 0]);
 
@@ -215,7 +215,7 @@ fn a_heavier_hull_sinks() {
     };
     let (neutral, heavy) = (sinks("31.029385"), sinks("31.2"));
     assert!(neutral.abs() < 1e-9, "{neutral}");
-    let c = Coefficients::of(ParameterSet::Remus100);
+    let c = Coefficients::from_set(ParameterSet::Remus100);
     let expected = -(31.2 - c.mass_kg) * world::units::GRAVITY_M_S2 / (31.2 + c.added[2]);
     assert!((heavy / expected - 1.0).abs() < 2e-3, "{heavy} m/s2, not {expected}");
 }

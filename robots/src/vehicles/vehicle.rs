@@ -31,7 +31,7 @@ impl Remus100 {
     /// # Errors
     /// If a file cannot be read, or if the URDF is wrong or does not fit the hydrodynamic parameters.
     pub fn load(spec: &RemusSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let coefficients = Coefficients::of(spec.parameters);
+        let coefficients = Coefficients::from_set(spec.parameters);
         let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
         let hull = urdf::read(&text, &coefficients)?;
         Ok(Self {
@@ -51,7 +51,7 @@ impl Remus100 {
 
     /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
     #[must_use]
-    pub fn told(&self) -> &[String] {
+    pub fn doubts(&self) -> &[String] {
         &self.hull.told
     }
 

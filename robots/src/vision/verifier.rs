@@ -77,7 +77,7 @@ pub enum Lack {
 impl Sighting {
     /// The verdict in words.
     #[must_use]
-    pub fn words(&self) -> &'static str {
+    pub fn label(&self) -> &'static str {
         match self.lacks {
             None => "a source giving off dye",
             Some(Lack::Dye) => "no source: too little dye",

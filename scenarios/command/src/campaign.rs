@@ -94,7 +94,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
                 "{}{part}: {}{before}; {}",
                 campaign.name,
                 count(runs, "run"),
-                campaign.spec.seeds.words()
+                campaign.spec.seeds.describe()
             ));
         }
         // Printed even with --quiet, because something damaged the folder.
@@ -158,7 +158,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
 }
 
 fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
-    let status = Status::of(&args.dir)?;
+    let status = Status::examine(&args.dir)?;
     let manifest = &status.manifest;
     let adaptive = status.wanted.runs < manifest.runs;
     say::line(format_args!(
@@ -170,7 +170,7 @@ fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
         status.blocks_done,
         count(status.wanted.blocks(manifest), "block")
     ));
-    say::line(format_args!("  {}", status.seeds.words()));
+    say::line(format_args!("  {}", status.seeds.describe()));
     for arm in &status.arms {
         say::line(format_args!(
             "  arm {}: {}, {} successful, {} failed",
@@ -206,7 +206,7 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
 }
 
 fn rerun(args: &RerunArgs) -> Exit {
-    let found = Manifest::of(&args.dir).and_then(|manifest| {
+    let found = Manifest::open(&args.dir).and_then(|manifest| {
         let row = read_row(&args.dir, args.run)?;
         let mut campaign = manifest.campaign()?;
         campaign.key = args.key.get();

@@ -29,9 +29,9 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     if let Some(block) = args.block {
         blocks(runs, block.next_multiple_of(campaign.n_arms()));
     }
-    say::line(format_args!("  {}", seeds.words()));
+    say::line(format_args!("  {}", seeds.describe()));
     for arm in &campaign.spec.arms {
-        say::line(format_args!("  arm {}: {}", arm.name, arm.words()));
+        say::line(format_args!("  arm {}: {}", arm.name, arm.describe()));
     }
     let shown = conditions.min(12);
     for condition in (0..shown).filter(|_| conditions > 1) {

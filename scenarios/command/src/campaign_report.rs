@@ -16,7 +16,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     };
     let spec = &read.campaign.spec;
     let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
-    let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
+    let sets: Vec<String> = spec.arms.iter().map(Arm::describe).collect();
     if let Some(arm) = args.against.as_ref().filter(|arm| !arms.contains(arm)) {
         let there = format!("the arms of this campaign: {}", arms.join(", "));
         say::error(format!("--against: there is no arm \"{arm}\""), Some(&there));
@@ -31,7 +31,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
         version: &read.manifest.version,
         arms: &arms,
         sets: &sets,
-        seeds: &spec.seeds.words(),
+        seeds: &spec.seeds.describe(),
         success: &read.success,
         against: args.against.as_deref(),
         columns: say::columns(),
@@ -87,7 +87,7 @@ struct Read {
 }
 
 fn read(args: &ReportArgs) -> Result<Read, CampaignError> {
-    let manifest = Manifest::of(&args.dir)?;
+    let manifest = Manifest::open(&args.dir)?;
     let campaign = manifest.campaign()?;
     Ok(Read {
         planned: wanted(&campaign, &args.dir, &manifest).runs,

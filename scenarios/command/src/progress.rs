@@ -130,7 +130,7 @@ impl Progress {
         say::line(format_args!(
             "{}: {} after {:.0} s ({} filaments, {})",
             self.name,
-            summary.outcome.words(),
+            summary.outcome.label(),
             run.totals.mission_s,
             run.totals.filaments,
             match run.real_time_factor_with_spin_up {
@@ -176,7 +176,7 @@ fn declared_lines(robot: &RobotSummary) -> Vec<String> {
     let quiet = |state| matches!(state, RegionState::Declared | RegionState::UpFlowEdge);
     for (k, region) in (0..).zip(&robot.regions) {
         if !quiet(region.state) {
-            let said = format!("subregion {}: {}", region.name, region.state.words());
+            let said = format!("subregion {}: {}", region.name, region.state.label());
             by_region.push((k, said));
         }
     }
@@ -212,7 +212,7 @@ fn declaration(d: &DeclarationSummary) -> String {
         }
     }
     if d.verdict != Verdict::Unchecked {
-        said += &format!("; {}", d.verdict.words());
+        said += &format!("; {}", d.verdict.label());
     }
     said
 }

@@ -178,7 +178,7 @@ impl Work<'_> {
             bar.inc(1);
             let new = u64::from(run.success);
             let found = found.fetch_add(new, Ordering::Relaxed) + new;
-            bar.set_message(match left.words() {
+            bar.set_message(match left.describe() {
                 Some(left) => format!("found {found} | about {left} left in all"),
                 None => format!("found {found}"),
             });
@@ -188,13 +188,13 @@ impl Work<'_> {
             // Without a terminal there is no bar.
             if bar.is_hidden() && !args.quiet {
                 let (id, runs) = (&reference.row.id, count(so_far.runs.len() as u64, "trial"));
-                match left.words() {
+                match left.describe() {
                     Some(left) => say::note(format_args!("{id}: {runs} done, about {left} left in all")),
                     None => say::note(format_args!("{id}: {runs} done")),
                 }
             }
             if let (Some(dir), Some(table)) = (&args.keep, tables.get_mut(k)) {
-                table.put(so_far);
+                table.merge(so_far);
                 table.write(dir, so_far)?;
             }
             let begun = rows.iter().filter(|r| !r.runs.is_empty());

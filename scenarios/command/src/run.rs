@@ -10,7 +10,7 @@ use output::live::LiveError;
 use output::report::is_result;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::error::AssembleError;
-use rheotaxis::lanes::{LaneError, Lanes, alike};
+use rheotaxis::lanes::{LaneError, Lanes, group_by_ocean};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
 use rheotaxis::trial::{NotControlled, consulted, controlled};
@@ -92,7 +92,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     let ready = writable;
     let seed = args.key.seed(args.seed);
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
-    for group in alike(&runs, cost::limit()) {
+    for group in group_by_ocean(&runs, cost::limit()) {
         let group: Vec<_> = group.into_iter().map(|n| &ready[n]).collect();
         exit = exit.worse(together(&group, args, kept.as_ref(), stop));
         if stop.load(Ordering::Relaxed) {

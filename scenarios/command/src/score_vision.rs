@@ -59,7 +59,7 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     say::line(table(&rows));
     let mut failures = unsaved.into_inner().expect("nobody panics with it");
     failures.extend(write(&out, &plan, &rows).err());
-    if let Some(error) = ReportError::of(failures) {
+    if let Some(error) = ReportError::combine(failures) {
         return Err(error.into());
     }
     say::line(format_args!(

@@ -38,7 +38,7 @@ fn several(images: &[PathBuf], spec: &VerifierSpec) -> Exit {
                 let sighting = verifier.judge(&picture);
                 read += 1;
                 verified += u64::from(sighting.verified);
-                say::line(format_args!("{}: {}", image.display(), sighting.words()));
+                say::line(format_args!("{}: {}", image.display(), sighting.label()));
             }
             Err(error) => say::error(&error, error.help()),
         }

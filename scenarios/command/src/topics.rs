@@ -46,7 +46,7 @@ fn ros2_topics(schema: bool) -> Exit {
          are ids of the scenario.\n"
     ));
     for topic in live::ros_topics() {
-        let (kind, qos) = (topic.kind.name(), topic.qos.words());
+        let (kind, qos) = (topic.kind.name(), topic.qos.label());
         say::line(format_args!("{}  {kind}  ({qos})", topic.name));
         say::line(format_args!("    {}\n", topic.what));
     }

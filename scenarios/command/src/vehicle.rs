@@ -91,7 +91,7 @@ fn stem(folder: &Path) -> String {
 
 fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
     let craft = loaded(&args.folder)?;
-    for doubt in craft.told() {
+    for doubt in craft.doubts() {
         say::line(format_args!("doubt: {doubt}"));
     }
     let Vehicle::Described(vehicle) = &craft else {
@@ -111,7 +111,7 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
         write_whole(&out, svg.as_bytes()).map_err(plainly)?;
     }
     say::line(out.display());
-    let n = craft.told().len();
+    let n = craft.doubts().len();
     say::line(match n {
         0 => "no doubts".to_string(),
         1 => "1 doubt".to_string(),

@@ -44,7 +44,7 @@ pub enum ReportError {
 impl ReportError {
     /// One error for several; `None` if there are none.
     #[must_use]
-    pub fn of(mut failures: Vec<ReportError>) -> Option<Self> {
+    pub fn combine(mut failures: Vec<ReportError>) -> Option<Self> {
         match failures.len() {
             0 | 1 => failures.pop(),
             _ => Some(ReportError::Several(failures)),
@@ -161,7 +161,7 @@ impl<'a> PendingFiles<'a> {
 
     /// The paths of all files that were written, or all errors.
     pub fn done(self) -> Result<Vec<PathBuf>, ReportError> {
-        match ReportError::of(self.failures) {
+        match ReportError::combine(self.failures) {
             None => Ok(self.files),
             Some(error) => Err(error),
         }

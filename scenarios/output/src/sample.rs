@@ -136,7 +136,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 let home = (k - declare_at) as f64 / (n - declare_at) as f64;
                 from + (Vector2::new(150.0, -500.0) - from) * home
             };
-            let heading = Heading::of(aim - p);
+            let heading = Heading::from_vector(aim - p);
             p = aim;
             let in_plume = k < declare_at && away < 800.0 && across.abs() < 9.0;
             let behaviour = match k {
@@ -220,7 +220,7 @@ pub(crate) fn scored(frames: &[Frame]) -> Score {
         for r in &f.robots {
             let p = r.truth.pose.p_WB;
             let n = place(&mut score, &r.id);
-            score.at(n, &p);
+            score.moved_to(n, &p);
             let own = &mut score.searchers[n];
             own.misplaced((r.estimate.position - p.xy()).norm());
             if r.detected {

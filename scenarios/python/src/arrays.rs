@@ -13,13 +13,13 @@ pub(crate) trait Element: Copy {
     /// Its size, bytes.
     const SIZE: usize;
     /// Writes it, in the machine's order of bytes.
-    fn put(self, to: &mut [u8]);
+    fn write(self, to: &mut [u8]);
 }
 
 impl Element for f64 {
     const TYPE: &'static str = "float64";
     const SIZE: usize = 8;
-    fn put(self, to: &mut [u8]) {
+    fn write(self, to: &mut [u8]) {
         to.copy_from_slice(&self.to_ne_bytes());
     }
 }
@@ -27,7 +27,7 @@ impl Element for f64 {
 impl Element for f32 {
     const TYPE: &'static str = "float32";
     const SIZE: usize = 4;
-    fn put(self, to: &mut [u8]) {
+    fn write(self, to: &mut [u8]) {
         to.copy_from_slice(&self.to_ne_bytes());
     }
 }
@@ -35,7 +35,7 @@ impl Element for f32 {
 impl Element for i64 {
     const TYPE: &'static str = "int64";
     const SIZE: usize = 8;
-    fn put(self, to: &mut [u8]) {
+    fn write(self, to: &mut [u8]) {
         to.copy_from_slice(&self.to_ne_bytes());
     }
 }
@@ -43,7 +43,7 @@ impl Element for i64 {
 impl Element for bool {
     const TYPE: &'static str = "bool";
     const SIZE: usize = 1;
-    fn put(self, to: &mut [u8]) {
+    fn write(self, to: &mut [u8]) {
         to[0] = u8::from(self);
     }
 }
@@ -52,7 +52,7 @@ impl Element for bool {
 pub(crate) fn array<'py, T: Element>(py: Python<'py>, values: &[T], shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     let memory = PyByteArray::new_with(py, values.len() * T::SIZE, |bytes| {
         for (to, value) in bytes.chunks_exact_mut(T::SIZE).zip(values) {
-            value.put(to);
+            value.write(to);
         }
         Ok(())
     })?;

@@ -77,7 +77,7 @@ impl PyRunResult {
         Ok(Self {
             facts: Facts {
                 success: good.contains(&summary.outcome),
-                outcome_words: summary.outcome.words().to_string(),
+                outcome_words: summary.outcome.label().to_string(),
                 digest: made.ended.digest,
                 t_s: made.ended.t_s,
                 steps: made.ended.steps,

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rheotaxis::explain as explained;
-use rheotaxis::scenario::{CATALOG, Loaded, ScenarioError, load, load_text, parse, put};
+use rheotaxis::scenario::{CATALOG, Loaded, ScenarioError, load, load_text, parse, set_value};
 use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -45,7 +45,7 @@ impl PyScenario {
     }
 
     fn tree(&self) -> PyResult<Tree> {
-        Tree::of(&self.loaded.scenario).map_err(other)
+        Tree::from_value(&self.loaded.scenario).map_err(other)
     }
 
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Loaded> {
@@ -53,7 +53,7 @@ impl PyScenario {
         for (path, value) in changes {
             let path: String = path.extract()?;
             let path = bracketed(parts(&path).filter(|p| !p.starts_with(char::is_uppercase)));
-            text = put(&text, &path, &to_ron(&value)?).map_err(|problem| {
+            text = set_value(&text, &path, &to_ron(&value)?).map_err(|problem| {
                 let refused = ScenarioError::File {
                     path: self.loaded.path.display().to_string(),
                     problem: format!("`{path}` cannot be set: {problem}"),

@@ -33,7 +33,7 @@ pub(crate) enum Tree {
 
 impl Tree {
     /// The tree of a value.
-    pub(crate) fn of(value: &impl Serialize) -> Result<Self, Unfit> {
+    pub(crate) fn from_value(value: &impl Serialize) -> Result<Self, Unfit> {
         value.serialize(Planter)
     }
 
@@ -208,7 +208,7 @@ macro_rules! items {
             type Ok = Tree;
             type Error = Unfit;
             fn $add<T: ?Sized + Serialize>(&mut self, value: &T) -> Result<(), Unfit> {
-                self.0.push(Tree::of(&value)?);
+                self.0.push(Tree::from_value(&value)?);
                 Ok(())
             }
             fn end(self) -> Result<Tree, Unfit> {
@@ -235,7 +235,7 @@ macro_rules! fields {
                 name: &'static str,
                 value: &T,
             ) -> Result<(), Unfit> {
-                self.0.push((name.to_string(), Tree::of(&value)?));
+                self.0.push((name.to_string(), Tree::from_value(&value)?));
                 Ok(())
             }
             fn end(self) -> Result<Tree, Unfit> {

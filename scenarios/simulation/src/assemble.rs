@@ -56,12 +56,12 @@ impl Simulation {
         base_dir: &Path,
         seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
-        let origin = Origin::of(scenario, base_dir, seed);
+        let origin = Origin::from_scenario(scenario, base_dir, seed);
         let mut world = World::new();
         world.insert_resource(origin.build(base_dir)?);
         let seed = origin.seed();
         let tick = Self::furnish(&mut world, registry, scenario, base_dir, seed, Frames::Made)?;
-        Ok(Self::of(world, tick, origin))
+        Ok(Self::from_world(world, tick, origin))
     }
 
     /// Puts everything into a world that has an ocean.
@@ -78,13 +78,13 @@ impl Simulation {
     ) -> Result<Tick, AssembleError> {
         furnish(world, scenario)?;
         world.insert_resource(Topics::new(topics(registry)));
-        let fleet = Fleet::of(scenario);
+        let fleet = Fleet::from_scenario(scenario);
         launch(world, &fleet, scenario, base_dir, seed)?;
         schedule(world, &fleet, registry, frames)
     }
 
     /// Of a world that is furnished.
-    pub(crate) fn of(world: World, tick: Tick, origin: Origin) -> Self {
+    pub(crate) fn from_world(world: World, tick: Tick, origin: Origin) -> Self {
         Self { world, tick, origin }
     }
 

@@ -190,8 +190,8 @@ impl SpinUps {
         }
     }
 
-    fn put(&self, key: &[u8; 32], state: &SpunUp) {
-        if let Err(error) = self.shelf.put(key, &state.bytes()) {
+    fn store(&self, key: &[u8; 32], state: &SpunUp) {
+        if let Err(error) = self.shelf.store(key, &state.bytes()) {
             self.note(error.into());
         }
     }
@@ -217,7 +217,7 @@ impl SpinUps {
         if let Some(key) = key
             && begun.elapsed() >= self.least
         {
-            self.put(&key, &state);
+            self.store(&key, &state);
         }
         Some(SpinUp { state, kept: false })
     }

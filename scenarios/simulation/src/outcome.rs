@@ -25,7 +25,7 @@ pub enum RunOutcome {
 impl RunOutcome {
     /// In words, for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             RunOutcome::Found => "source found",
             RunOutcome::NotFound => "source not found",

@@ -213,7 +213,7 @@ impl Score {
     }
 
     /// Searcher `n` has moved to a place (ENU, m), which also counts for how near it came to a source.
-    pub fn at(&mut self, n: usize, p_W: &Vector3<f64>) {
+    pub fn moved_to(&mut self, n: usize, p_W: &Vector3<f64>) {
         let away = (self.sources.iter()).map(|s| (s - p_W).xy().norm_squared());
         let nearest_m = away.fold(f64::INFINITY, f64::min).sqrt();
         let searcher = &mut self.searchers[n];
@@ -243,7 +243,7 @@ mod tests {
         let mut score = Score::new(vec![Vector3::new(10.0, 0.0, -5.0)]);
         let (near, idle) = (score.join("near"), score.join("idle"));
         for x in [0.0, 3.0, 6.0, 3.0] {
-            score.at(near, &Vector3::new(x, 0.0, 0.0));
+            score.moved_to(near, &Vector3::new(x, 0.0, 0.0));
         }
         score.searchers[idle].moved(&Vector3::zeros());
         assert_eq!(score.closest_m(), 4.0);

@@ -72,11 +72,11 @@ impl Trial {
         let scenario: &Scenario = &loaded.scenario;
         let simulation = Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;
         let sources = simulation.ocean().sources();
-        Ok(Self::of(scenario, simulation, sources))
+        Ok(Self::from_simulation(scenario, simulation, sources))
     }
 
     /// A run of a scenario that is assembled, in an ocean with these sources (ENU, m).
-    pub(crate) fn of(scenario: &Scenario, simulation: Simulation, sources: Vec<Vector3<f64>>) -> Self {
+    pub(crate) fn from_simulation(scenario: &Scenario, simulation: Simulation, sources: Vec<Vector3<f64>>) -> Self {
         Self { simulation, scenario: scenario.clone(), progress: Progress::new(sources), controllers: BTreeMap::new() }
     }
 
@@ -234,7 +234,7 @@ impl Trial {
                 declaration.digest_into(&mut digest);
             }
         }
-        digest.text(outcome.words());
+        digest.text(outcome.label());
         digest.hex()
     }
 
@@ -258,7 +258,7 @@ impl Trial {
     /// What the summary shows of each machine that has its own part in it, by id.
     #[must_use]
     pub fn apparatus(&self) -> BTreeMap<String, serde_json::Value> {
-        let all = Fleet::of(&self.scenario);
+        let all = Fleet::from_scenario(&self.scenario);
         let part = |a: &dyn Machine| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
         all.all().filter_map(part).collect()
     }

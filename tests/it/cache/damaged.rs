@@ -55,7 +55,7 @@ fn a_whole_file_with_another_content_is_an_error_and_no_panic() {
         let longer = [content.as_slice(), &[0]].concat();
         let cut = lengths.iter().map(|l| &content[..*l]);
         for bytes in cut.chain([longer.as_slice(), &vec![0; n][..]]) {
-            assert!(shelf().put(&key, bytes).unwrap());
+            assert!(shelf().store(&key, bytes).unwrap());
             let kept = all(&place);
             let (trial, taken) = developed(&loaded, 1, &kept);
             assert!(!taken, "{}: {} of {n} bytes", loaded.name, bytes.len());

@@ -19,7 +19,7 @@ fn seen(trial: &Trial) -> Vec<[u64; 4]> {
     let at = |[x, y, z, ..]: [f64; 5]| {
         let p = Vector3::new(x + 0.01, y, z);
         let v = ocean.velocity(&p, 0.0);
-        [ocean.plume().at(&p), v.x, v.y, v.z].map(f64::to_bits)
+        [ocean.plume().concentration(&p), v.x, v.y, v.z].map(f64::to_bits)
     };
     ocean.plume().iter().step_by(100).map(at).collect()
 }

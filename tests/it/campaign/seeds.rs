@@ -2,7 +2,7 @@
 
 use super::{ends, folder, rows};
 use crate::common;
-use rheotaxis::scenario::put;
+use rheotaxis::scenario::set_value;
 use std::fs;
 use std::path::Path;
 use studies::campaign::RunRow;
@@ -32,9 +32,9 @@ fn a_row_is_the_run_of_its_seed_digest_and_all() {
     let pond = fs::read_to_string(dir.join("pond.ron")).unwrap();
     for row in [&one[2], &one[5], &other[3]] {
         let rate = row.condition.strip_prefix("sources[0].rate_g_s=").unwrap();
-        let mut text = put(&pond, "sources[0].rate_g_s", rate).unwrap();
+        let mut text = set_value(&pond, "sources[0].rate_g_s", rate).unwrap();
         if row.arm == "slow" {
-            text = put(&text, "robots[0].strategy.speed_m_s", "1.2").unwrap();
+            text = set_value(&text, "robots[0].strategy.speed_m_s", "1.2").unwrap();
         }
         fs::write(dir.join("by_hand.ron"), text).unwrap();
         let seed = row.seed.to_string();

@@ -37,7 +37,7 @@ fn best_median_and_worst_run_of_each_arm_are_made_anew() {
     assert!(!none.contains(FILM) && !none.contains("<script"));
 
     // A row of another version of the program is told, and its run is not shown for it.
-    let campaign = Manifest::of(&dir.join("out")).unwrap().campaign().unwrap();
+    let campaign = Manifest::open(&dir.join("out")).unwrap().campaign().unwrap();
     let row = rows(&dir.join("out")).swap_remove(3);
     assert!(campaign.film(&row).is_ok());
     let other = |row: RunRow| campaign.film(&row).expect_err("not that run");

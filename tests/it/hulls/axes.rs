@@ -80,7 +80,7 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
         let mut vehicle = boxed(kind, axis);
         assert!((way(&vehicle, 2) - along).norm() < 1e-12, "{kind} {axis}");
         assert_eq!(vehicle.capabilities().dives, along.z != 0.0);
-        assert_eq!(vehicle.told(), [""; 0]);
+        assert_eq!(vehicle.doubts(), [""; 0]);
         // And there it pushes the hull.
         let deep = Pose::level(Vector3::new(0.0, 0.0, -20.0), Heading::from_deg(90.0));
         let pushed = vehicle.step(&Truth::at_rest(deep), &still(1025.0), &DriveCommand::new(&[0.0, 0.0, 20.0]), 0.02);
@@ -90,13 +90,13 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
 
 #[test]
 fn an_axis_that_does_not_count_or_is_none_is_told() {
-    let told = boxed("fixed", "<axis xyz=\"0 0 1\"/>").told().join("; ");
+    let told = boxed("fixed", "<axis xyz=\"0 0 1\"/>").doubts().join("; ");
     assert!(
         told.starts_with("drives[2].link: joint \"middle_joint\" of the URDF has the axis 0 0 1, which does not count"),
         "{told}"
     );
     // Exporters write zeros for joints without an axis.
-    assert_eq!(boxed("fixed", "<axis xyz=\"0 0 0\"/>").told(), [""; 0]);
+    assert_eq!(boxed("fixed", "<axis xyz=\"0 0 0\"/>").doubts(), [""; 0]);
     for none in ["0 0 0", "0 NaN 1"] {
         let axis = format!("<axis xyz=\"{none}\"/>");
         let said = refused(&box_file(), &box_urdf("continuous", &axis));

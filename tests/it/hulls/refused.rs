@@ -22,7 +22,7 @@ fn changed(ron: &[(&str, &str)], urdf: &[(&str, &str)]) -> Result<Vec<String>, S
     std::fs::write(at(lauv.urdf.0), with(lauv.urdf.1, urdf)).expect("a file");
     let said = |text: String| text.replace(&dir.path().display().to_string(), "");
     Vehicle::load(&VehicleSpec::File("my_auv".into()), &FolderFiles(dir.path()))
-        .map(|craft| craft.told().to_vec())
+        .map(|craft| craft.doubts().to_vec())
         .map_err(|e| said(e.to_string()))
 }
 

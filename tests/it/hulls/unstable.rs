@@ -82,7 +82,7 @@ fn damping_beyond_that_of_hulls_is_doubted() {
     let told = |times: f64| {
         let dir = folder(&[(DRAG, &drag(times))]);
         let craft = Vehicle::load(&VehicleSpec::File("lauv".into()), &FolderFiles(dir.path()));
-        craft.expect("legal").told().join("; ")
+        craft.expect("legal").doubts().join("; ")
     };
     assert_eq!(told(10.0), "");
     let doubt = told(1000.0);

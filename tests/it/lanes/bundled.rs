@@ -2,7 +2,7 @@
 
 use super::{alone, cut};
 use crate::common::with_fields;
-use rheotaxis::lanes::alike;
+use rheotaxis::lanes::group_by_ocean;
 use rheotaxis::scenario::{Loaded, cost, load_text};
 use rheotaxis::trial::Trial;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn timeless(row: RunRow) -> RunRow {
 
 /// How many of these runs go in lanes together, group by group.
 fn groups(runs: &[(&Loaded, Seed)]) -> Vec<usize> {
-    let groups = alike(runs, cost::MEMORY);
+    let groups = group_by_ocean(runs, cost::MEMORY);
     groups.iter().map(Vec::len).collect()
 }
 

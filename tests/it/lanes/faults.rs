@@ -1,7 +1,7 @@
 //! Robots with faults in lanes of one ocean.
 
 use super::{alone, cut, in_lanes};
-use rheotaxis::lanes::alike;
+use rheotaxis::lanes::group_by_ocean;
 use rheotaxis::scenario::{Loaded, cost, load_text, template};
 use world::registry::Registry;
 
@@ -26,7 +26,7 @@ fn robots_with_faults_share_an_ocean_and_fly_as_alone() {
     })
     .collect();
     let runs: Vec<_> = all.iter().map(|l| (l, super::SEED.into())).collect();
-    assert_eq!(alike(&runs, cost::MEMORY), [[0, 1, 2, 3, 4]]);
+    assert_eq!(group_by_ocean(&runs, cost::MEMORY), [[0, 1, 2, 3, 4]]);
     let (ends, _) = in_lanes(&all.iter().collect::<Vec<_>>());
     let mut digests = Vec::new();
     for (end, loaded) in ends.into_iter().zip(&all) {

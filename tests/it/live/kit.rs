@@ -41,7 +41,7 @@ pub(super) fn meta() -> LiveMeta {
 /// The document of a scene, as a run publishes it.
 pub(super) fn scene_document() -> String {
     let path = root().join("scenarios/catalog/uniform_channel.ron");
-    Scene::of(&load(&path).unwrap()).unwrap().document(7)
+    Scene::from_scenario(&load(&path).unwrap()).unwrap().document(7)
 }
 
 pub(super) fn options(run: &str) -> LiveOptions {

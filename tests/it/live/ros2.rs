@@ -23,7 +23,7 @@ use zenoh_ext::{AdvancedSubscriberBuilderExt, HistoryConfig};
 fn scene() -> Scene {
     let of = |name: &str| {
         let path = root().join("scenarios/catalog").join(name);
-        Scene::of(&scenario::load(&path).unwrap()).unwrap()
+        Scene::from_scenario(&scenario::load(&path).unwrap()).unwrap()
     };
     let (mut scene, flume) = (of("harbour_3d.ron"), of("flume_crab.ron"));
     scene.machines.extend(flume.machines);

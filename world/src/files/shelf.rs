@@ -126,7 +126,7 @@ impl Shelf {
     ///
     /// # Errors
     /// If the folder cannot be made or written, or if the disk is full.
-    pub fn put(&self, key: &[u8; 32], content: &[u8]) -> Result<bool, ShelfError> {
+    pub fn store(&self, key: &[u8; 32], content: &[u8]) -> Result<bool, ShelfError> {
         let bytes = (HEAD + content.len() + SEAL) as u64;
         let before = self.added.fetch_add(bytes, Ordering::Relaxed);
         if bytes > self.most || (before > 0 && before + bytes > self.most / SHARE) {

@@ -36,7 +36,7 @@ fn what_was_put_is_found_and_may_be_put_again() {
     assert_eq!(shelf.get(&KEY).unwrap(), Found::Nothing);
     assert_eq!(shelf.stock().unwrap(), Stock::default());
     for content in [&b"one"[..], b"", b"another"] {
-        assert!(shelf.put(&KEY, content).unwrap());
+        assert!(shelf.store(&KEY, content).unwrap());
         assert_eq!(shelf.get(&KEY).unwrap(), whole(content));
     }
     assert_eq!(shelf.get(&[8; 32]).unwrap(), Found::Nothing);
@@ -48,7 +48,7 @@ fn a_file_that_is_not_whole_is_never_taken_for_one() {
     let dir = tempfile::tempdir().unwrap();
     let shelf = shelf(dir.path(), 1 << 20);
     let content: Vec<u8> = (0..200).collect();
-    shelf.put(&KEY, &content).unwrap();
+    shelf.store(&KEY, &content).unwrap();
     let path = files(&shelf).remove(0);
     let good = fs::read(&path).unwrap();
     let broken = |bytes: &[u8], what: &str| {
@@ -67,7 +67,7 @@ fn a_file_that_is_not_whole_is_never_taken_for_one() {
     broken(b"a,b\n1,2\n", "foreign");
     broken(&vec![0; 5000], "foreign and long");
     // Whole, but another key's.
-    shelf.put(&[8; 32], &content).unwrap();
+    shelf.store(&[8; 32], &content).unwrap();
     let other = files(&shelf).remove(0);
     broken(&fs::read(other).unwrap(), "another key's");
     fs::write(&path, &good).unwrap();
@@ -82,7 +82,7 @@ fn the_least_recently_used_go_first_and_what_is_not_ours_stays() {
     // Each by a process of its own; three fit.
     let one = |most| shelf(dir.path(), most);
     for (n, key) in keys[..3].iter().enumerate() {
-        assert!(one(3500).put(key, &content).unwrap());
+        assert!(one(3500).store(key, &content).unwrap());
         let path = files(&one(0)).pop().unwrap();
         age(&path, 1000 - n as u64);
     }
@@ -92,7 +92,7 @@ fn the_least_recently_used_go_first_and_what_is_not_ours_stays() {
     fs::write(&similar, "not ours").unwrap();
     // The first is read again; so the second goes.
     assert_eq!(one(3500).get(&keys[0]).unwrap(), whole(&content));
-    assert!(one(3500).put(&keys[3], &content).unwrap());
+    assert!(one(3500).store(&keys[3], &content).unwrap());
     let there = keys.map(|key| one(0).get(&key).unwrap() != Found::Nothing);
     assert_eq!(there, [true, false, true, true]);
     assert!(notes.exists() && similar.exists());
@@ -106,12 +106,12 @@ fn the_least_recently_used_go_first_and_what_is_not_ours_stays() {
 fn one_process_fills_only_its_share() {
     let dir = tempfile::tempdir().unwrap();
     let shelf = shelf(dir.path(), 10_000);
-    let put = |n: u8, bytes: usize| shelf.put(&[n; 32], &vec![n; bytes]).unwrap();
+    let put = |n: u8, bytes: usize| shelf.store(&[n; 32], &vec![n; bytes]).unwrap();
     assert!(!put(0, 10_000), "no room for it at all");
     // The first may be larger than the share; then it has been used up.
     assert!(put(1, 4000) && !put(2, 10));
     let shelf = Shelf::new(dir.path().join("other"), 10_000);
-    let put = |n: u8, bytes: usize| shelf.put(&[n; 32], &vec![n; bytes]).unwrap();
+    let put = |n: u8, bytes: usize| shelf.store(&[n; 32], &vec![n; bytes]).unwrap();
     assert!(put(1, 1000) && put(2, 1000) && !put(3, 1000) && put(4, 10));
 }
 
@@ -128,7 +128,7 @@ fn files_of_killed_processes_go_and_those_under_way_stay() {
     };
     let (old, new) = (named(0), named(1));
     age(&old, 7200);
-    assert!(shelf.put(&KEY, b"x").unwrap());
+    assert!(shelf.store(&KEY, b"x").unwrap());
     assert!(!old.exists() && new.exists());
     assert_eq!(shelf.stock().unwrap().files, 1);
     shelf.clear().unwrap();
@@ -149,7 +149,7 @@ fn many_at_once_leave_whole_files_below_the_bound() {
                     let shelf = shelf(dir, 60_000);
                     match shelf.get(&[n; 32]).unwrap() {
                         Found::Whole(found) => assert_eq!(found, content(n)),
-                        Found::Nothing => assert!(shelf.put(&[n; 32], &content(n)).unwrap()),
+                        Found::Nothing => assert!(shelf.store(&[n; 32], &content(n)).unwrap()),
                         Found::Broken => panic!("half a file was seen"),
                     }
                 }
@@ -169,19 +169,19 @@ fn what_cannot_be_used_is_named() {
     let dir = tempfile::tempdir().unwrap();
     // A file where the folder should be.
     fs::write(dir.path().join("kept"), "a file").unwrap();
-    let said = shelf(dir.path(), 999).put(&KEY, b"x").unwrap_err();
+    let said = shelf(dir.path(), 999).store(&KEY, b"x").unwrap_err();
     assert!(said.to_string().contains("kept"), "{said}");
     // A folder, or a device, where a file should be.
     let shelf = Shelf::new(dir.path().join("other"), 1 << 20);
-    shelf.put(&KEY, b"x").unwrap();
+    shelf.store(&KEY, b"x").unwrap();
     let path = files(&shelf).remove(0);
     fs::remove_file(&path).unwrap();
     fs::create_dir(&path).unwrap();
     let said = shelf.get(&KEY).unwrap_err().to_string();
     assert!(said.contains("it is a folder"), "{said}");
-    assert!(shelf.put(&KEY, b"x").is_err());
+    assert!(shelf.store(&KEY, b"x").is_err());
     fs::remove_dir(&path).unwrap();
     symlink("/dev/zero", &path).unwrap();
-    assert!(shelf.get(&KEY).is_err() && shelf.put(&KEY, b"x").is_err());
+    assert!(shelf.get(&KEY).is_err() && shelf.store(&KEY, b"x").is_err());
     assert_eq!(files(&shelf), [path]);
 }

@@ -57,7 +57,7 @@ impl Registry {
                 problem: format!("there is a `{name}` already; give yours another name"),
             });
         }
-        self.added.push(Added { kind: TypeId::of::<K>(), row: Arc::new(Row::<K>::of::<S>()) });
+        self.added.push(Added { kind: TypeId::of::<K>(), row: Arc::new(Row::<K>::new::<S>()) });
         Ok(self)
     }
 

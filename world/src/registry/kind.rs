@@ -101,7 +101,7 @@ macro_rules! kind {
             const WHAT: &'static str = concat!($($what),+);
 
             fn built_in() -> Vec<$crate::registry::Row<Self>> {
-                vec![$($crate::registry::Row::of::<$row>()),*]
+                vec![$($crate::registry::Row::new::<$row>()),*]
             }
         }
 

@@ -21,7 +21,7 @@ pub struct Row<K: Kind> {
 impl<K: Kind> Row<K> {
     /// The row of parameters `S`.
     #[must_use]
-    pub fn of<S: Listed + DeserializeOwned + JsonSchema>() -> Self
+    pub fn new<S: Listed + DeserializeOwned + JsonSchema>() -> Self
     where
         K: Takes<S>,
     {

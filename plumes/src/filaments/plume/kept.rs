@@ -103,17 +103,17 @@ fn keep(store: &Store, to: &mut Writer) {
     to.word(*left);
     to.maybe(size.stirred());
     for list in [x, y, z, bed] {
-        to.words(list);
+        to.write_list(list);
     }
-    to.words(number);
-    to.words(born_s);
+    to.write_list(number);
+    to.write_list(born_s);
     if let Some(rise) = rise {
         let numbers = |e: &Element| {
             let Element { shared_m3, own_m3, momentum_m4_s, passed_m4_s2 } = *e;
             [shared_m3, own_m3, momentum_m4_s, passed_m4_s2]
         };
-        to.words(&rise.elements.iter().flat_map(numbers).collect::<Vec<f64>>());
-        to.words(&rise.grown_m2);
+        to.write_list(&rise.elements.iter().flat_map(numbers).collect::<Vec<f64>>());
+        to.write_list(&rise.grown_m2);
     }
     if let Some(labels) = labels {
         labels.keep(to);
@@ -124,7 +124,7 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
     store.released = from.word()?;
     store.left = from.word()?;
     store.size.stir(from.maybe()?);
-    store.x = from.words()?;
+    store.x = from.read_list()?;
     let n = store.x.len();
     store.y = from.exactly(n)?;
     store.z = from.exactly(n)?;

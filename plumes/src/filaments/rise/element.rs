@@ -86,7 +86,7 @@ impl Thread {
     #[cfg(test)]
     pub(super) fn rise(&self, e: &mut Element, z_m: f64, dt_s: f64, at: impl Fn(f64) -> Around) -> f64 {
         let mut one = super::simd::RisingLanes { elements: [*e], z_m: [z_m], dt_s: [dt_s] };
-        one.rise(crate::path::InstructionSet::Portable, self, at);
+        one.rise(crate::simd::dispatch::InstructionSet::Portable, self, at);
         [*e] = one.elements;
         one.z_m[0]
     }

@@ -9,7 +9,7 @@
 
 use super::cube_root::cube_roots;
 use super::element::{ACROSS, ALONG, Around, Element, SHARED, Thread};
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 use std::f64::consts::{PI, TAU};
 
 /// Largest part by which a scale changes in a step of the integration.
@@ -74,10 +74,10 @@ impl<const N: usize> RisingLanes<N> {
 
     #[inline(always)]
     fn risen(&mut self, thread: &Thread, at: impl Fn(f64) -> Around) {
-        let (mut e, mut z, dt_s) = (ElementLanes::of(&self.elements), self.z_m, self.dt_s);
+        let (mut e, mut z, dt_s) = (ElementLanes::gather(&self.elements), self.z_m, self.dt_s);
         let mut left_s = dt_s;
         while left_s.iter().any(|left| *left > 0.0) {
-            let around = AmbientLanes::of(&z, &at);
+            let around = AmbientLanes::gather(&z, &at);
             let here = thread.rates(&e, &around);
             let longest_s = here.longest_s(&e, &around);
             let (mut step_s, mut half_s) = ([0.0; N], [0.0; N]);
@@ -89,7 +89,7 @@ impl<const N: usize> RisingLanes<N> {
             for l in 0..N {
                 middle_z[l] = z[l] + half_s[l] * here.rise[l];
             }
-            let middle = thread.rates(&e.on(&here, &half_s), &AmbientLanes::of(&middle_z, &at));
+            let middle = thread.rates(&e.on(&here, &half_s), &AmbientLanes::gather(&middle_z, &at));
             let next = e.on(&middle, &step_s);
             for l in 0..N {
                 // One that has arrived stays as it is, whatever its rates.
@@ -113,7 +113,7 @@ impl<const N: usize> RisingLanes<N> {
 
 impl<const N: usize> AmbientLanes<N> {
     #[inline(always)]
-    fn of(z: &[f64; N], at: impl Fn(f64) -> Around) -> Self {
+    fn gather(z: &[f64; N], at: impl Fn(f64) -> Around) -> Self {
         let mut new = Self { speed: [0.0; N], dissipation: [0.0; N], n2: [0.0; N], largest: [0.0; N] };
         for (l, z) in z.iter().enumerate() {
             let around = at(*z);
@@ -128,7 +128,7 @@ impl<const N: usize> AmbientLanes<N> {
 
 impl<const N: usize> ElementLanes<N> {
     #[inline(always)]
-    fn of(some: &[Element; N]) -> Self {
+    fn gather(some: &[Element; N]) -> Self {
         Self {
             shared: some.map(|e| e.shared_m3),
             own: some.map(|e| e.own_m3),

@@ -2,8 +2,8 @@
 
 use super::element::{Around, Element, Thread};
 use super::simd::RisingLanes;
-use crate::path::InstructionSet;
 use crate::release::BuoyancySpec;
+use crate::simd::dispatch::InstructionSet;
 use world::math;
 use world::ranges::Finite;
 

@@ -5,8 +5,8 @@ use super::super::tests_water::{Given, basin, source};
 use super::element::Element;
 use crate::flow::GridShape;
 use crate::flow::tests_water::{duck, duck_area, duck_bed};
-use crate::path::InstructionSet;
 use crate::release::{BuoyancySpec, SourceSpec};
+use crate::simd::dispatch::InstructionSet;
 use nalgebra::Vector3;
 use world::bits::{Reader, Writer};
 use world::fields::{Concentration, Flow, Mixing};
@@ -106,7 +106,7 @@ fn no_excess_is_neutral_to_the_bit() {
         drifted(&mut p, &stream, 100, 0.5);
         let s = &p.stores[0];
         let beside = Vector3::new(f64::from(s.x[400]), f64::from(s.y[400]) + 0.1, f64::from(s.z[400]));
-        (format!("{:?} {:?} {:?}", s.x, s.y, s.z), p.at(&beside).to_bits())
+        (format!("{:?} {:?} {:?}", s.x, s.y, s.z), p.concentration(&beside).to_bits())
     };
     assert_eq!(places(outfall(0.0, 1.0)), places(neutral));
 }
@@ -138,7 +138,7 @@ fn rising_filaments_are_the_same_on_every_way() {
     let state = |p: &Plume| {
         let s = &p.stores[0];
         let beside = |n: usize| Vector3::new(s.x[n] + 0.2, s.y[n], s.z[n]).map(f64::from);
-        let felt: Vec<u64> = (0..s.x.len()).step_by(97).map(|n| p.at(&beside(n)).to_bits()).collect();
+        let felt: Vec<u64> = (0..s.x.len()).step_by(97).map(|n| p.concentration(&beside(n)).to_bits()).collect();
         format!("{:?} {:?} {felt:?}", s.z, elements(p))
     };
     let mut first = fresh(InstructionSet::Portable, 1);

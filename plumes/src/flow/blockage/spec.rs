@@ -95,7 +95,7 @@ impl BlockageSpec {
             .holds(cells * CELL_BYTES)
             .takes(cells * CELL_S * times_solved)
             .by(self.cell_m.get(), -2.0);
-        Cost::of(part)
+        Cost::single(part)
     }
 
     pub(super) fn check(&self) -> Result<(), PlumeError> {

@@ -8,10 +8,10 @@
 //! `path`, with the same bits.
 
 use super::stretch::LENGTH;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
-use crate::quad::Avx;
-use crate::quad::{Pair, Quad, Twice, fetch_soon};
+use crate::simd::f32x4::AvxPair;
+use crate::simd::f32x4::{F32x4, Pair, PortablePair, fetch_soon};
 use nalgebra::Vector2;
 
 /// A patch of the stretch at one time: where it begins (cells), and its weight.
@@ -48,9 +48,9 @@ impl EddyField<'_> {
     }
 
     /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
-    pub(super) fn at(&self, q: [f32; 3]) -> [f32; 3] {
+    pub(super) fn velocity(&self, q: [f32; 3]) -> [f32; 3] {
         // SAFETY: a pair that every machine of the target has.
-        let v = unsafe { velocities::<Twice, 1>(self, &Cells::of(self, &q.map(|q| [q]))) };
+        let v = unsafe { velocities::<PortablePair, 1>(self, &Cells::locate(self, &q.map(|q| [q]))) };
         v.map(|v| v[0])
     }
 
@@ -58,7 +58,7 @@ impl EddyField<'_> {
     pub(super) fn carry(&self, path: InstructionSet, turned: &ChannelAxes, dt_s: &[f32], p: [&mut [f32]; 3]) {
         match path {
             // SAFETY: a pair that every machine of the target has.
-            InstructionSet::Portable => unsafe { carry::<Twice>(self, turned, dt_s, p) },
+            InstructionSet::Portable => unsafe { carry::<PortablePair>(self, turned, dt_s, p) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { carry_avx2(self, turned, dt_s, p) },
@@ -70,7 +70,7 @@ impl EddyField<'_> {
 #[target_feature(enable = "avx2")]
 fn carry_avx2(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], p: [&mut [f32]; 3]) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { carry::<Avx>(now, turned, dt_s, p) }
+    unsafe { carry::<AvxPair>(now, turned, dt_s, p) }
 }
 
 /// Filaments that are carried side by side.
@@ -81,13 +81,13 @@ const BLOCK: usize = 8;
 #[inline(always)]
 unsafe fn carry<P: Pair>(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
     let (a, l) = (turned.along, turned.left);
-    let mut next = BlockPoints::of(turned, [x, y, z], 0);
-    let mut next_cells = Cells::of(now, &next.q);
+    let mut next = BlockPoints::from_block(turned, [x, y, z], 0);
+    let mut next_cells = Cells::locate(now, &next.q);
     for from in (0..dt_s.len()).step_by(BLOCK) {
         let (places, cells) = (next, next_cells);
         // The nodes of the next block are on their way while this one is carried.
-        next = BlockPoints::of(turned, [x, y, z], from + BLOCK);
-        next_cells = Cells::of(now, &next.q);
+        next = BlockPoints::from_block(turned, [x, y, z], from + BLOCK);
+        next_cells = Cells::locate(now, &next.q);
         for cells in &next_cells {
             cells.fetch_soon(now);
         }
@@ -103,7 +103,7 @@ unsafe fn carry<P: Pair>(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], [x
             }
         }
         // SAFETY: as above.
-        let v = unsafe { velocities::<P, BLOCK>(now, &Cells::of(now, &q)) };
+        let v = unsafe { velocities::<P, BLOCK>(now, &Cells::locate(now, &q)) };
         for n in 0..BLOCK {
             p[0][n] += dt[n] * (v[0][n] * a.x + v[1][n] * l.x);
             p[1][n] += dt[n] * (v[0][n] * a.y + v[1][n] * l.y);
@@ -133,7 +133,7 @@ struct BlockPoints {
 impl BlockPoints {
     /// Those of the filaments from a number on.
     #[inline(always)]
-    fn of(turned: &ChannelAxes, all: [&[f32]; 3], from: usize) -> Self {
+    fn from_block(turned: &ChannelAxes, all: [&[f32]; 3], from: usize) -> Self {
         let (centre, a, l) = (turned.centre, turned.along, turned.left);
         let [x, y, z] = all;
         let p = [block(x, from), block(y, from), block(z, from)];
@@ -173,7 +173,7 @@ struct Cells<const N: usize> {
 impl<const N: usize> Cells<N> {
     /// Those of places (along, left, up), in both patches.
     #[inline(always)]
-    fn of(now: &EddyField, q: &[[f32; N]; 3]) -> [Self; 2] {
+    fn locate(now: &EddyField, q: &[[f32; N]; 3]) -> [Self; 2] {
         // Not by a closure, which would not be compiled for the caller's instructions.
         let [older, younger] = &now.patches;
         [Self::of_one(now, older, q), Self::of_one(now, younger, q)]
@@ -231,14 +231,14 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &EddyField, cells: &[Cells<N>
         );
         let mut v = [[0.0; N]; 3];
         for from in (0..N).step_by(4) {
-            let mut four = [Quad::new(&[0.0; 4]); 4];
+            let mut four = [F32x4::new(&[0.0; 4]); 4];
             for (l, four) in four.iter_mut().enumerate().take(N - from) {
                 let n = from + l;
                 let (near, far) = (near[n] as usize, far[n] as usize);
                 // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
                 *four = unsafe { one::<P>(now.nodes, [near, far], sheet, [f[n], g[n], h[n]]) };
             }
-            let four = Quad::columns(four);
+            let four = F32x4::columns(four);
             for (v, four) in v.iter_mut().zip(four) {
                 for (v, four) in v[from..].iter_mut().zip(four) {
                     *v = four;
@@ -265,7 +265,7 @@ const FARTHEST: f32 = 1e9;
 /// # Safety
 /// The cell's eight nodes must exist, and the machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn one<P: Pair>(nodes: &[[f32; 4]], [near, far]: [usize; 2], sheet: usize, [f, g, h]: [f32; 3]) -> Quad {
+unsafe fn one<P: Pair>(nodes: &[[f32; 4]], [near, far]: [usize; 2], sheet: usize, [f, g, h]: [f32; 3]) -> F32x4 {
     // SAFETY: as the caller promises.
     let [right, left] = unsafe { [line::<P>(nodes, near, far, h), line::<P>(nodes, near + sheet, far + sheet, h)] };
     let [behind, ahead] = right.add(left.sub(right).times(g)).apart();

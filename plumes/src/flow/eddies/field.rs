@@ -23,7 +23,7 @@ use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape};
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -144,7 +144,7 @@ impl EddiesSpec {
             .holds(nodes * NODE_BYTES)
             .takes(nodes * NODE_S)
             .by(up, 2.0);
-        let mut cost = Cost::of(part);
+        let mut cost = Cost::single(part);
         if self.small.is_some() {
             cost.add(small::cost().under("small"));
         }
@@ -202,7 +202,7 @@ impl Eddies {
     pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let d = p.xy() - self.centre;
         let now = self.now(t_s);
-        let v = now.at([d.dot(&self.along), d.dot(&self.left), p.z].map(|v| v as f32));
+        let v = now.velocity([d.dot(&self.along), d.dot(&self.left), p.z].map(|v| v as f32));
         let [u, v, w] = v.map(f64::from);
         let plane = self.along * u + self.left * v;
         Vector3::new(plane.x, plane.y, w)

@@ -7,7 +7,7 @@
 //! *Deviations*: none. The arithmetic is written once, without fused multiply-add, and compiled for each version of
 //! `path`, with the same bits.
 
-use crate::path::InstructionSet;
+use crate::simd::dispatch::InstructionSet;
 use world::math;
 
 /// Complex coefficients or values of four lines side by side: their real parts, and their imaginary parts.

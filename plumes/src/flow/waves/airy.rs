@@ -102,7 +102,7 @@ impl Airy {
         ((up + down) / self.rest, (up - down) / self.rest)
     }
 
-    fn at(&self, p: &Vector3<f64>, t_s: f64) -> State {
+    fn state(&self, p: &Vector3<f64>, t_s: f64) -> State {
         let (c, s) = self.shape(p.z);
         let way = self.along.dot(&p.xy()) * self.k;
         let (sin, cos) = math::sin_cos(way - self.omega * t_s + self.phase);
@@ -115,14 +115,14 @@ impl Airy {
 
     /// Orbital velocity, m/s.
     pub(super) fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        let w = self.at(p, t_s);
+        let w = self.state(p, t_s);
         let speed = self.amplitude * self.omega;
         self.vector(speed * w.c * w.cos, speed * w.s * w.sin)
     }
 
     /// Adds velocity, gradient and rate of change.
     pub(super) fn add_to(&self, sample: &mut WaterSample, p: &Vector3<f64>, t_s: f64) {
-        let w = self.at(p, t_s);
+        let w = self.state(p, t_s);
         let speed = self.amplitude * self.omega;
         sample.velocity += self.vector(speed * w.c * w.cos, speed * w.s * w.sin);
         let (force, bend) = (speed * self.omega, speed * self.k);
@@ -144,13 +144,13 @@ impl Airy {
 
     /// Displacement of the particle whose mean place is `p`, m.
     pub(super) fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        let w = self.at(p, t_s);
+        let w = self.state(p, t_s);
         self.vector(-self.amplitude * w.c * w.sin, self.amplitude * w.s * w.cos)
     }
 
     /// Head of its pressure, m of water.
     pub(super) fn head(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
-        let w = self.at(p, t_s);
+        let w = self.state(p, t_s);
         self.amplitude * w.c * self.tanh * w.cos
     }
 

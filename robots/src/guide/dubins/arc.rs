@@ -27,7 +27,7 @@ pub(super) struct Arc {
 impl Arc {
     pub(super) fn new(start: Pose, turn: f64, radius_m: f64) -> Self {
         let centre = start.position + side(start.heading, turn) * radius_m;
-        Self { start, turn, radius_m, centre, outward: Heading::of(start.position - centre) }
+        Self { start, turn, radius_m, centre, outward: Heading::from_vector(start.position - centre) }
     }
 
     /// Direction of motion after `s_m` metres.
@@ -36,14 +36,14 @@ impl Arc {
     }
 
     /// Pose after `s_m` metres.
-    pub(super) fn at(&self, s_m: f64) -> Pose {
+    pub(super) fn pose_at(&self, s_m: f64) -> Pose {
         let heading = self.heading(s_m);
         Pose { position: self.centre + side(heading, self.turn).scale(-self.radius_m), heading }
     }
 
     /// Length along it, if it is `length_m` long, from its start to the point nearest to `p`, in [0, circumference), m.
     pub(super) fn foot(&self, p: Vector2<f64>, length_m: f64) -> f64 {
-        let to = Heading::of(p - self.centre);
+        let to = Heading::from_vector(p - self.centre);
         let s = wrap_tau(self.turn * (to.rad() - self.outward.rad())) * self.radius_m;
         // Just behind the start is behind, not a whole circle ahead.
         let behind = s - TAU * self.radius_m;

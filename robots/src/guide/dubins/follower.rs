@@ -56,7 +56,7 @@ impl Follower {
             limits,
             path,
             s_m: 0.0,
-            foot: path.at(0.0),
+            foot: path.pose_at(0.0),
             left_s: 3.0 * path.length_m() / speed_m_s.max(0.1) + GRACE_S,
         }
     }
@@ -76,7 +76,7 @@ impl Follower {
             let at = Pose { position, heading: moving() };
             self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
             self.s_m = 0.0;
-            self.foot = self.path.at(0.0);
+            self.foot = self.path.pose_at(0.0);
         }
         let l = &self.limits;
         let turn = (l.gain_rad_m * self.off_m(position)).clamp(-l.capture_rad, l.capture_rad);

@@ -67,7 +67,7 @@ impl DubinsPath {
         }
         let (straight_m, course) = if turns[0] == turns[1] {
             // Outer tangent; concentric circles need no straight.
-            let course = if distance_m < 1e-9 { start.heading } else { Heading::of(between) };
+            let course = if distance_m < 1e-9 { start.heading } else { Heading::from_vector(between) };
             (distance_m, course)
         } else {
             if distance_m < 2.0 * radius_m {
@@ -76,7 +76,7 @@ impl DubinsPath {
             // Inner tangent: leans from the line of centres by asin(2r / d), to the side of the first turn.
             let lean = math::asin((2.0 * radius_m / distance_m).min(1.0));
             let straight = (distance_m * distance_m - 4.0 * radius_m * radius_m).max(0.0);
-            (straight.sqrt(), Heading::of(between).turned(turns[0] * lean))
+            (straight.sqrt(), Heading::from_vector(between).turned(turns[0] * lean))
         };
         let swept = |from: Heading, to: Heading, turn: f64| {
             let angle = wrap_tau(turn * (to.rad() - from.rad()));
@@ -88,11 +88,11 @@ impl DubinsPath {
             straight_m,
             swept(course, end.heading, turns[1]) * radius_m,
         ];
-        let (leave, along) = (first.at(lengths_m[0]), course.unit());
+        let (leave, along) = (first.pose_at(lengths_m[0]), course.unit());
         let enter = Pose { position: leave.position + along * straight_m, heading: course };
         let mut path =
             Self { arcs: [first, Arc::new(enter, turns[1], radius_m)], lengths_m, leave, course, along, end: enter };
-        path.end = path.at(path.length_m());
+        path.end = path.pose_at(path.length_m());
         Some(path)
     }
 
@@ -104,15 +104,15 @@ impl DubinsPath {
 
     /// Pose after `s_m` metres, held within the path.
     #[must_use]
-    pub fn at(&self, s_m: f64) -> Pose {
+    pub fn pose_at(&self, s_m: f64) -> Pose {
         let [a, b, c] = self.lengths_m;
         let s = s_m.clamp(0.0, a + b + c);
         if s <= a {
-            self.arcs[0].at(s)
+            self.arcs[0].pose_at(s)
         } else if s <= a + b {
             Pose { position: self.leave.position + self.along * (s - a), heading: self.course }
         } else {
-            self.arcs[1].at(s - a - b)
+            self.arcs[1].pose_at(s - a - b)
         }
     }
 
@@ -147,7 +147,7 @@ impl DubinsPath {
             s if s == from_m => from,
             s if s == a => self.leave,
             s if s == ends[3] => self.end,
-            s => self.at(s),
+            s => self.pose_at(s),
         };
         let mut best = (f64::INFINITY, from_m, from);
         for part in 0..3 {
@@ -201,13 +201,13 @@ mod tests {
                 continue;
             }
             for s in [foot.clamp(lo, hi), lo, hi] {
-                let d = (path.at(s).position - p).norm();
+                let d = (path.pose_at(s).position - p).norm();
                 if d < best.0 - 1e-12 {
                     best = (d, s);
                 }
             }
         }
-        (best.1, path.at(best.1))
+        (best.1, path.pose_at(best.1))
     }
 
     #[test]
@@ -241,7 +241,7 @@ mod tests {
             let (a, b) = (pose(e1, n1, h1), pose(e2, n2, h2));
             let path = DubinsPath::shortest(a, b, 15.0);
             let length = path.length_m();
-            let end = path.at(length);
+            let end = path.pose_at(length);
             prop_assert!((end.position - b.position).norm() < 1e-6);
             prop_assert!(end.heading.turn_to(b.heading).abs() < 1e-6);
             let straight = (b.position - a.position).norm();
@@ -251,7 +251,7 @@ mod tests {
             let n = 400;
             let step = length / f64::from(n);
             for i in 0..n {
-                let (p, q) = (path.at(f64::from(i) * step), path.at(f64::from(i + 1) * step));
+                let (p, q) = (path.pose_at(f64::from(i) * step), path.pose_at(f64::from(i + 1) * step));
                 prop_assert!((q.position - p.position).norm() <= step + 1e-9);
                 prop_assert!(p.heading.turn_to(q.heading).abs() <= step / 15.0 + 1e-9);
             }
@@ -263,12 +263,12 @@ mod tests {
         ) {
             let path = DubinsPath::shortest(pose(0.0, 0.0, 10.0), pose(e2, n2, h2), 15.0);
             let s = share * path.length_m();
-            let on = path.at(s);
+            let on = path.pose_at(s);
             let p = on.position + side(on.heading, 1.0) * aside;
             let from = (s - 5.0).max(0.0);
-            let (found, there) = path.nearest(p, (from, path.at(from)), s + 5.0);
+            let (found, there) = path.nearest(p, (from, path.pose_at(from)), s + 5.0);
             prop_assert!((there.position - p).norm() <= aside.abs() + 1e-9);
-            prop_assert_eq!(there, path.at(found));
+            prop_assert_eq!(there, path.pose_at(found));
         }
 
         #[test]
@@ -281,11 +281,11 @@ mod tests {
             let edges = [0.0, a, a + b, a + b + c];
             let places = shares.iter().map(|share: &f64| (share * (a + b + c)).max(0.0));
             for from in places.chain(edges) {
-                let on = path.at(from + 0.5 * window);
+                let on = path.pose_at(from + 0.5 * window);
                 let p = on.position + side(on.heading, 1.0) * aside;
-                let found = path.nearest(p, (from, path.at(from)), from + window);
+                let found = path.nearest(p, (from, path.pose_at(from)), from + window);
                 prop_assert_eq!(found, plainly_nearest(&path, p, from, from + window));
-                prop_assert_eq!(path.heading(from), path.at(from).heading);
+                prop_assert_eq!(path.heading(from), path.pose_at(from).heading);
                 prop_assert_eq!(path.unit(on.heading), on.heading.unit());
             }
         }

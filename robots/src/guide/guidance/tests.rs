@@ -66,7 +66,7 @@ fn a_course_is_made_good_over_ground_in_a_cross_flow() {
         assert!(!b.step(&g).done);
     }
     let v = b.est.v_ground();
-    assert!(Heading::of(v).turn_to(Heading::from_deg(350.0)).abs() < 1e-6);
+    assert!(Heading::from_vector(v).turn_to(Heading::from_deg(350.0)).abs() < 1e-6);
     assert!((v.norm() - 1.5).abs() < 1e-6);
 }
 
@@ -184,6 +184,6 @@ proptest! {
         let g = goal(1, Manoeuvre::GoToPointWithHeading { point, heading });
         prop_assert!(b.run(&g, 400.0));
         prop_assert!((b.est.position - point).norm() < 5.0, "{:?} for {point:?}", b.est.position);
-        prop_assert!(Heading::of(b.est.v_ground()).turn_to(heading).abs() < 15f64.to_radians());
+        prop_assert!(Heading::from_vector(b.est.v_ground()).turn_to(heading).abs() < 15f64.to_radians());
     }
 }

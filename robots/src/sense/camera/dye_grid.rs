@@ -71,7 +71,7 @@ impl DyeGrid {
             if lines.step(k).0 > lines.ends[line] || p.z > 0.0 {
                 return 0.0;
             }
-            let rho = scene.dye.at(&p);
+            let rho = scene.dye.concentration(&p);
             if rho < least { 0.0 } else { rho as f32 }
         };
         let [nx, ny] = lines.n;
@@ -143,7 +143,7 @@ impl DyeGrid {
                         if q.z > 0.0 {
                             break;
                         }
-                        sum += scene.dye.at(&q) * (end - begin);
+                        sum += scene.dye.concentration(&q) * (end - begin);
                         begin = end;
                     }
                     self.above[line * steps + k] = sum as f32;
@@ -178,7 +178,7 @@ impl DyeGrid {
     }
 
     /// Concentration (kg/m³) in step `k` of a line and dye from there to the sun (kg/m²).
-    pub(super) fn at(&self, line: usize, k: usize) -> (f64, f64) {
+    pub(super) fn dye_at(&self, line: usize, k: usize) -> (f64, f64) {
         let n = line * self.steps + k;
         (f64::from(self.rho[n]), f64::from(self.above[n]))
     }

@@ -52,7 +52,7 @@ impl SensorParams for CameraSpec {
             .holds(pixels * PIXEL.1)
             .takes(pictures * pixels * PIXEL.0)
             .by(f64::from(self.width), 1.0);
-        Cost::of(part)
+        Cost::single(part)
     }
 }
 

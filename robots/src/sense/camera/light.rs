@@ -107,7 +107,7 @@ impl Light {
 
     /// Scalar irradiance at height `z` (m, negative below the surface), lx.
     #[must_use]
-    pub fn at(&self, z: f64) -> Spectrum {
+    pub fn irradiance(&self, z: f64) -> Spectrum {
         each(|i| self.scalar * math::exp(self.down[i] * z.min(0.0)))
     }
 
@@ -132,7 +132,7 @@ impl Light {
     /// Radiance of endless water along `dir` from height `z`, where there is nothing else to see, cd/m².
     #[must_use]
     pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Spectrum {
-        let (e, p) = (self.at(z), self.scattered(dir));
+        let (e, p) = (self.irradiance(z), self.scattered(dir));
         each(|i| clarity.scattering[i] * p * e[i] / (clarity.attenuation[i] - self.down[i] * dir.z))
     }
 }
@@ -216,7 +216,7 @@ mod tests {
         assert!((light.to_sun.norm() - 1.0).abs() < 1e-12);
         // The sun is in the south: the light comes from there.
         assert!(light.to_sun.y < -0.5);
-        let deep = light.at(-2.0);
+        let deep = light.irradiance(-2.0);
         for (i, got) in deep.into_iter().enumerate() {
             let want = light.scalar * math::exp(-2.0 * light.down[i]);
             assert!((got - want).abs() < 1e-9 * want);

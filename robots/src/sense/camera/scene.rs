@@ -186,7 +186,7 @@ impl Scene<'_> {
         let rough = (1.0 + o.texture * texture(p, end.way_m)).max(0.0);
         let waves = o.light.flicker * math::exp(0.25 * p.z.min(0.0));
         let day = o.light.on(&normal) * (1.0 + waves * grain(p, 0.3, 4)).max(0.0);
-        let lit = o.light.at(p.z);
+        let lit = o.light.irradiance(p.z);
         each(|i| {
             let lamp = lamp.map_or(0.0, |(lx, to)| lx[i] * normal.dot(&to).max(0.0));
             albedo[i] * rough / PI * (lit[i] * day + lamp)

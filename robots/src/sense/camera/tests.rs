@@ -20,7 +20,7 @@ use world::units::Heading;
 struct Even(f64);
 
 impl Concentration for Even {
-    fn at(&self, _p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, _p: &Vector3<f64>) -> f64 {
         self.0
     }
 }
@@ -29,7 +29,7 @@ impl Concentration for Even {
 struct Cloud(Vector3<f64>);
 
 impl Concentration for Cloud {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         1e-4 * math::exp(-(p - self.0).norm_squared() / 0.18)
     }
 }
@@ -94,7 +94,7 @@ fn near(got: Rgb, want: Rgb, part: f64) {
 fn a_wall_fades_with_the_beam_attenuation_alone_where_nothing_scatters() {
     let o = plain(no_scattering);
     let face = o.light.on(&-Vector3::x());
-    let (lit, a) = (o.light.at(-5.0), o.clarity.absorption);
+    let (lit, a) = (o.light.irradiance(-5.0), o.clarity.absorption);
     let bare = each(|i| 0.3 / PI * lit[i] * face * math::exp(-a[i] * 3.0));
     let made = take(&o, &DEEP, &wall(0.3), &Clean);
     near(middle(&made), see(&bare), 1e-6);
@@ -139,7 +139,7 @@ fn thick_dye_glows_as_bright_as_what_reaches_it_allows() {
     let o = plain(no_scattering);
     let rho = 1e-3;
     let got = middle(&take(&o, &DEEP, &Obstacles::default(), &Even(rho)));
-    let (lit, d, c) = (o.light.at(-5.0), o.dye, o.clarity.attenuation);
+    let (lit, d, c) = (o.light.irradiance(-5.0), o.dye, o.clarity.attenuation);
     let front = o.light.from_front(&Vector3::x());
     // From the sun through 4.5 m of dye, as far as it is followed: some light is left where the dye hardly absorbs.
     let above = rho * 4.5;

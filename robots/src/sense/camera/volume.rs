@@ -127,8 +127,8 @@ impl Volume {
         for (k, clear) in clear.iter().enumerate() {
             let (way, length) = self.lines.step(k);
             let p = self.lines.from + dir * way;
-            let day = o.light.at(p.z);
-            let (rho, above) = if dye.any { dye.at(line, k) } else { (0.0, 0.0) };
+            let day = o.light.irradiance(p.z);
+            let (rho, above) = if dye.any { dye.dye_at(line, k) } else { (0.0, 0.0) };
             let lamp = lamp.map(|l| {
                 let (lx, to) = l.on(&p, o);
                 (lx, phase(SCATTER_COSINE, to.dot(&dir)))

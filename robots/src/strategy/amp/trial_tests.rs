@@ -25,7 +25,7 @@ fn flow() -> Vector2<f64> {
 /// Whether this place is within the plume's width at this time.
 fn in_width(p: Vector2<f64>, t_s: f64) -> bool {
     let down = flow().normalize();
-    let across = Heading::of(down).turned(FRAC_PI_2).unit();
+    let across = Heading::from_vector(down).turned(FRAC_PI_2).unit();
     let (x, y) = ((p - SOURCE).dot(&down), (p - SOURCE).dot(&across));
     if x < 1.0 {
         return false;

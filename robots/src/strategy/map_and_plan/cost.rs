@@ -27,7 +27,7 @@ impl MapAndPlanSpec {
             .holds(cells * CELL_BYTES)
             .takes(cells * (chart_s + plans * PLAN_S))
             .by(sides_m[0], -2.0);
-        let mut cost = Cost::of(room);
+        let mut cost = Cost::single(room);
         let (field, beyond_m) = self.planner.reach();
         let reach_m = beyond_m + self.hull_m.get();
         let near = |a: usize| 2.0 * (reach_m / sides_m[a] + 2.0).min(counts[a]) + 1.0;

@@ -235,5 +235,5 @@ fn level(vertical: Vertical, bed: &Terrain, x: f64, y: f64) -> f64 {
 /// Direction of motion over ground.
 fn moving(est: &Estimate) -> Heading {
     let v = est.v_ground();
-    if v.norm() > SLOWEST_M_S { Heading::of(v) } else { est.attitude.heading }
+    if v.norm() > SLOWEST_M_S { Heading::from_vector(v) } else { est.attitude.heading }
 }

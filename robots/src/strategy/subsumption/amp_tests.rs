@@ -52,7 +52,7 @@ struct Both {
 impl Both {
     fn new(fixes: FixMove) -> Self {
         let amp = AmpSpec { fixes, ..AmpSpec::default() };
-        let mut spec = SubsumptionSpec::of(vec![
+        let mut spec = SubsumptionSpec::with_layers(vec![
             LayerSpec::Find(FindSpec::default()),
             LayerSpec::Maintain(MaintainSpec::default()),
             LayerSpec::Reacquire(ReacquireSpec::default()),

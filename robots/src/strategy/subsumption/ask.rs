@@ -55,7 +55,12 @@ pub(super) struct Ask {
 
 impl Ask {
     /// An ask, if there is a manoeuvre.
-    pub(super) fn of(kind: Kind, behaviour: Behaviour, manoeuvre: Option<Manoeuvre>, anew: bool) -> Option<Self> {
+    pub(super) fn from_manoeuvre(
+        kind: Kind,
+        behaviour: Behaviour,
+        manoeuvre: Option<Manoeuvre>,
+        anew: bool,
+    ) -> Option<Self> {
         manoeuvre.map(|manoeuvre| Self { kind, behaviour, manoeuvre, anew })
     }
 }

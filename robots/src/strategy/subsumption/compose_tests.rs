@@ -42,7 +42,7 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
 #[test]
 fn compositions_that_make_no_sense_are_refused() {
     let refused = |layers: Vec<LayerSpec>, maps| {
-        Subsumption::new(&SubsumptionSpec::of(layers), &setting(maps)).expect_err("makes no sense").to_string()
+        Subsumption::new(&SubsumptionSpec::with_layers(layers), &setting(maps)).expect_err("makes no sense").to_string()
     };
     for (layers, says) in [
         (vec![], "layers: there is no Find"),

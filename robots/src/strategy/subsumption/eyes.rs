@@ -122,7 +122,7 @@ mod tests {
         let at = |t_s: f64, east: f64| seen(t_s, Vector2::new(east, 0.0), 90.0, None);
         assert_eq!(eyes.step(&at(0.0, 0.0), &memory), None);
         assert!(!eyes.asks(), "no point to look at");
-        memory.lcdps.add(Lcdp::at(0.0, Vector2::new(100.0, 0.0)));
+        memory.lcdps.add(Lcdp::new_at(0.0, Vector2::new(100.0, 0.0)));
         eyes.step(&at(1.0, 80.0), &memory);
         assert!(!eyes.asks(), "20 m off");
         eyes.step(&at(2.0, 95.0), &memory);

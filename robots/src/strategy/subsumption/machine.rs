@@ -131,7 +131,7 @@ impl Subsumption {
         let stride = home.step(seen, arrived == Some(Kind::GoHome), &mut self.memory, rng);
         let anew = keep(&mut self.home, stride);
         let way = self.home.filter(|_| stride != Stride::Over);
-        Ask::of(Kind::GoHome, Behaviour::GoHome, way, anew)
+        Ask::from_manoeuvre(Kind::GoHome, Behaviour::GoHome, way, anew)
     }
 
     /// One step of the survey: what it asks for, or at its end the declaration again.
@@ -139,7 +139,7 @@ impl Subsumption {
         match self.post.step(seen, arrived == Some(Kind::Declare)) {
             Progress::Go(stride) => {
                 let anew = keep(&mut self.passes, stride);
-                let ask = Ask::of(Kind::Declare, Behaviour::Survey, self.passes, anew);
+                let ask = Ask::from_manoeuvre(Kind::Declare, Behaviour::Survey, self.passes, anew);
                 (ask, None)
             }
             Progress::Over(declaration) => {
@@ -314,7 +314,7 @@ impl Strategy for Subsumption {
             }
         }
         let rule = self.layers.declare.as_ref();
-        let points = rule.map_or(Points::Lost, |r| r.points()).of(&self.memory);
+        let points = rule.map_or(Points::Lost, |r| r.points()).select(&self.memory);
         Decision {
             behaviour: self.behaviour,
             goal: self.goal,

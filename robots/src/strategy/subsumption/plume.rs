@@ -80,7 +80,7 @@ impl PlumeLayers {
             asked.out_ended = contact.out_ended;
             if self.maintain.active() {
                 let does = self.maintain.behaviour();
-                asked.maintain = Ask::of(Kind::Maintain, does, self.maintained, anew);
+                asked.maintain = Ask::from_manoeuvre(Kind::Maintain, does, self.maintained, anew);
             }
             if contact.lost
                 && let Some(reacquire) = &mut self.reacquire
@@ -101,14 +101,14 @@ impl PlumeLayers {
             self.reacquiring = stride != Stride::Over;
             if self.reacquiring {
                 let (kind, does) = (Kind::Reacquire, Behaviour::Reacquire);
-                asked.reacquire = Ask::of(kind, does, self.reacquired, anew);
+                asked.reacquire = Ask::from_manoeuvre(kind, does, self.reacquired, anew);
             }
         }
         let alone = !self.maintain.active() && !self.reacquiring;
         if let Some(map) = &mut self.plume_map {
             if alone {
                 let to = map.step(seen, at(Kind::PlumeMap), memory);
-                let ask = |(m, anew)| Ask::of(Kind::PlumeMap, Behaviour::FollowPath, Some(m), anew);
+                let ask = |(m, anew)| Ask::from_manoeuvre(Kind::PlumeMap, Behaviour::FollowPath, Some(m), anew);
                 asked.plume_map = to.and_then(ask);
             } else {
                 map.drop_target();
@@ -140,6 +140,6 @@ impl PlumeLayers {
         // As long as nothing was asked for, it continues in the vehicle's direction.
         let ahead = Manoeuvre::Course { course: seen.estimate.attitude.heading };
         let found = self.found.or(Some(ahead));
-        Ask::of(Kind::Find, Behaviour::Find, found, anew)
+        Ask::from_manoeuvre(Kind::Find, Behaviour::Find, found, anew)
     }
 }

@@ -67,7 +67,7 @@ fn all() -> NonZeroUsize {
 impl SubsumptionSpec {
     /// These layers, with defaults for everything else.
     #[must_use]
-    pub fn of(layers: Vec<LayerSpec>) -> Self {
+    pub fn with_layers(layers: Vec<LayerSpec>) -> Self {
         Self {
             speed_m_s: two(),
             vertical: altitude(),

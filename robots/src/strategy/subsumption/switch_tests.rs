@@ -161,7 +161,7 @@ fn a_cage_abort_ends_the_mission() {
 #[test]
 fn lost_points_move_with_a_fix_when_told() {
     for (fixes, north) in [(FixMove::Stay, 0.0), (FixMove::Whole, 7.0)] {
-        let mut spec = SubsumptionSpec::of(all());
+        let mut spec = SubsumptionSpec::with_layers(all());
         spec.fixes = fixes;
         let mut d = Desk::of(&spec);
         d.point(0.0);

@@ -56,7 +56,7 @@ pub(super) struct Desk {
 
 impl Desk {
     pub(super) fn new(layers: Vec<LayerSpec>) -> Self {
-        Self::of(&SubsumptionSpec::of(layers))
+        Self::of(&SubsumptionSpec::with_layers(layers))
     }
 
     pub(super) fn of(spec: &SubsumptionSpec) -> Self {

@@ -31,7 +31,7 @@ fn flow() -> Vector2<f64> {
 /// Whether this place is within the plume's width at this time.
 fn in_width(p: Vector2<f64>, t_s: f64) -> bool {
     let down = flow().normalize();
-    let across = Heading::of(down).turned(FRAC_PI_2).unit();
+    let across = Heading::from_vector(down).turned(FRAC_PI_2).unit();
     let (x, y) = ((p - SOURCE).dot(&down), (p - SOURCE).dot(&across));
     let meander = 0.03 * x * math::sin(x / 60.0 - t_s / 400.0);
     x >= 1.0 && (y - meander).abs() < 1.0 + 0.5 * x.sqrt()
@@ -94,7 +94,7 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
     }
     let setting =
         Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
-    let spec = SubsumptionSpec::of(layers);
+    let spec = SubsumptionSpec::with_layers(layers);
     let mut planner = Subsumption::new(&spec, &setting).expect("these layers make sense");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
     let [mut rng, mut patches, mut noise] = ["layers", "patches", "noise"].map(|what| Stream::new(seed, "a", what));

@@ -58,7 +58,7 @@ impl Desk {
                 panic!("a survey follows lines: {d:?}");
             };
             assert_eq!(d.goal.vertical, Vertical::Altitude(3.0));
-            let heading = Heading::of(to - from);
+            let heading = Heading::from_vector(to - from);
             for k in 1..50 {
                 let p = from + (to - from) * (f64::from(k) / 50.0);
                 // Detections count nothing here.

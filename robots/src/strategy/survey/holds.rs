@@ -121,7 +121,7 @@ impl ViewPlan {
     pub(super) fn on(&self, seen: &Observation, vertical: Option<Vertical>) -> Option<usize> {
         match self {
             Self::Lines(passes) => {
-                let course = Heading::of(seen.estimate.v_ground());
+                let course = Heading::from_vector(seen.estimate.v_ground());
                 passes.on_line(seen.estimate.position, course)
             }
             Self::Points(holds) => holds.over(seen, vertical),

@@ -176,18 +176,18 @@ impl Added {
     }
 
     /// Where the vehicle is where the pictures are laid out.
-    fn at(&self, seen: &Observation) -> Vector2<f64> {
+    fn position(&self, seen: &Observation) -> Vector2<f64> {
         seen.estimate.position - self.jumped
     }
 
     /// Whether a picture from here can show the place.
     pub(super) fn near(&self, seen: &Observation) -> bool {
-        (self.at(seen) - self.middle()).norm() <= self.spec.within_m.get() + FARTHER_M
+        (self.position(seen) - self.middle()).norm() <= self.spec.within_m.get() + FARTHER_M
     }
 
     /// Takes in the picture of this tick.
     pub(super) fn take(&mut self, seen: &Observation) {
-        let at = self.at(seen);
+        let at = self.position(seen);
         let mut beds: Vec<f64> = self.bed_m.iter().copied().collect();
         beds.sort_by(f64::total_cmp);
         let (Some(picture), Some(bed_m)) = (&seen.picture, beds.get(beds.len() / 2)) else {

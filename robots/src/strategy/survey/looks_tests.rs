@@ -42,7 +42,7 @@ fn jumps_of_the_navigation_do_not_tear_the_place() {
         o.estimate.fix_jump = Vector2::new(jump, 0.0);
         o.estimate.position.x += jump;
         added.follow(&o, false);
-        assert!(added.at(&o).norm() < 1e-12, "where the pictures lie, it did not move");
+        assert!(added.position(&o).norm() < 1e-12, "where the pictures lie, it did not move");
         assert!((added.middle() - Vector2::new(10.0 - mean, 20.0)).norm() < 1e-12);
     }
 }

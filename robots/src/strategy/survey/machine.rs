@@ -102,7 +102,7 @@ impl PostDeclaration {
 
     /// The same for told places, which are surer than declared ones.
     #[must_use]
-    pub(crate) fn told(mut self) -> Self {
+    pub(crate) fn for_told_places(mut self) -> Self {
         self.told = true;
         self
     }

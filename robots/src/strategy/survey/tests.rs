@@ -96,7 +96,7 @@ fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) 
                 let a = *flown.altitudes.last().unwrap();
                 flown.altitudes.push(a);
                 o.estimate.position = from;
-                o.estimate.attitude.heading = Heading::of(to - from);
+                o.estimate.attitude.heading = Heading::from_vector(to - from);
                 left = (to - from).norm();
             }
             Progress::Go(Stride::Keep) => {

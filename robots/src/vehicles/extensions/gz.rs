@@ -65,7 +65,7 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
         report.doubt(node, "ignored: only the plugin's added mass is read");
     }
     let link = *all.get("link_name").ok_or_else(|| report.fault(plugin, "<link_name> is missing"))?;
-    let link_name = report.words(link, None)?;
+    let link_name = report.text_of(link, None)?;
     if link_name.is_empty() {
         return Err(report.fault(link, "is empty"));
     }

@@ -167,7 +167,7 @@ impl Report {
     }
 
     /// Text of an element, or of its attribute, without comments.
-    pub(super) fn words(&self, node: Node<'_>, attribute: Option<&str>) -> Result<String, String> {
+    pub(super) fn text_of(&self, node: Node<'_>, attribute: Option<&str>) -> Result<String, String> {
         let text = match attribute {
             Some(attribute) => {
                 let missing = || self.fault(node, &format!("attribute \"{attribute}\" is missing"));
@@ -201,7 +201,7 @@ impl Report {
             }
             Ok(value)
         };
-        let words = self.words(node, None)?;
+        let words = self.text_of(node, None)?;
         let numbers: Result<Vec<f64>, String> = words.split_whitespace().map(number).collect();
         numbers.map_err(|problem| self.fault(node, &problem))
     }
@@ -228,7 +228,7 @@ impl Report {
 
     /// A switch.
     pub(super) fn is_true(&self, node: Node<'_>) -> Result<bool, String> {
-        match self.words(node, None)?.to_ascii_lowercase().as_str() {
+        match self.text_of(node, None)?.to_ascii_lowercase().as_str() {
             "true" | "1" => Ok(true),
             "false" | "0" => Ok(false),
             other => {

@@ -69,7 +69,7 @@ pub(super) fn read(plugins: &[Node<'_>], report: &mut Report) -> Result<FossenBl
     let term = |what: &str| terms.get(what).copied();
     Ok(FossenBlocks {
         source: "uuv_simulator",
-        link: report.words(link, Some("name"))?,
+        link: report.text_of(link, Some("name"))?,
         added_mass: added_mass(model, term("added_mass"), report)?,
         linear: damping(model, term("linear_damping"), false, report)?,
         quadratic: damping(model, term("quadratic_damping"), true, report)?,
@@ -114,7 +114,7 @@ fn the_link<'a>(plugins: &[Node<'a>], report: &mut Report) -> Result<(Node<'a>, 
 
 /// Refuses what is not a table of coefficients.
 fn check_type(node: Node<'_>, report: &Report) -> Result<(), String> {
-    let kind = report.words(node, None)?;
+    let kind = report.text_of(node, None)?;
     if kind == "fossen" {
         return Ok(());
     }

@@ -37,7 +37,7 @@ pub(super) struct Rates {
 
 impl Rates {
     /// Bound of all of them at a velocity.
-    fn at(&self, nu: &Vector6<f64>) -> f64 {
+    fn bound(&self, nu: &Vector6<f64>) -> f64 {
         let fast = self.rest + self.coriolis(nu);
         (self.by_speed.iter().zip(nu.iter())).fold(fast, |sum, (rate, v)| sum + rate * v.abs())
     }
@@ -82,7 +82,7 @@ impl FolderVehicle {
 
     /// What is doubtful about it, one sentence each.
     #[must_use]
-    pub fn told(&self) -> &[String] {
+    pub fn doubts(&self) -> &[String] {
         &self.told
     }
 
@@ -249,14 +249,14 @@ impl FolderVehicle {
 
     /// Time in which its fastest motion decays or swings at a speed in every direction, m/s, and at 1 rad/s, s.
     pub(super) fn shortest_s(&self, v: f64) -> f64 {
-        1.0 / self.rates.at(&Vector6::new(v, v, v, 1.0, 1.0, 1.0))
+        1.0 / self.rates.bound(&Vector6::new(v, v, v, 1.0, 1.0, 1.0))
     }
 
     /// Into how many parts a step is cut.
     fn parts(&self, truth: &Truth, water: &WaterSample, dt_s: f64) -> u32 {
         let v = truth.v_WB_B - truth.pose.R_WB.inverse() * water.velocity;
         let w = truth.w_WB_B;
-        let fast = self.rates.at(&Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
+        let fast = self.rates.bound(&Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
         (dt_s * fast / FASTEST).ceil().clamp(1.0, MOST_PARTS) as u32
     }
 }

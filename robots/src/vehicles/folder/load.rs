@@ -62,7 +62,7 @@ impl FolderVehicle {
         for (state, drive) in states.iter_mut().zip(&drives) {
             *state = drive.idle();
         }
-        let plant = plant::of(&equation, &damping, &drives, &file.autopilot, file.hydrodynamics.floats);
+        let plant = plant::plant(&equation, &damping, &drives, &file.autopilot, file.hydrodynamics.floats);
         let capabilities = plant::capabilities(&plant, &file.autopilot);
         plant::doubts(&file.autopilot, &plant, &capabilities, &mut told).map_err(wrong)?;
         debug_assert!(n <= MOST_DRIVES);

@@ -26,7 +26,13 @@ fn wrench((force, moment): (Vector3<f64>, Vector3<f64>)) -> Vector6<f64> {
 }
 
 /// What the autopilot knows.
-pub(super) fn of(equation: &Equation, damping: &Damping, drives: &[Drive], pilot: &PilotSpec, floats: bool) -> Plant {
+pub(super) fn plant(
+    equation: &Equation,
+    damping: &Damping,
+    drives: &[Drive],
+    pilot: &PilotSpec,
+    floats: bool,
+) -> Plant {
     let body = &equation.body;
     let flu = |r: &Vector3<f64>| Vector3::new(r.x, -r.y, -r.z);
     let weight = body.mass.kg * body.gravity_m_s2;

@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn commands_beyond_the_limits_are_cut() {
-        let c = Coefficients::of(ParameterSet::Remus100);
+        let c = Coefficients::from_set(ParameterSet::Remus100);
         let asked = Actuators::asked(&ActuatorCommand { rudder_rad: 1.0, stern_rad: -1.0, rpm: 9000.0 }, &c);
         assert!((asked.rudder_rad.to_degrees() - 15.0).abs() < 1e-12);
         assert!((asked.stern_rad.to_degrees() + 15.0).abs() < 1e-12);

@@ -131,7 +131,7 @@ pub struct Coefficients {
 impl Coefficients {
     /// The numbers of a set.
     #[must_use]
-    pub fn of(set: ParameterSet) -> Self {
+    pub fn from_set(set: ParameterSet) -> Self {
         match set {
             ParameterSet::Reference => Self::reference(),
             ParameterSet::Remus100 => Self::remus100(),
@@ -284,7 +284,7 @@ mod tests {
     /// Against the numbers printed by the published code.
     #[test]
     fn constants_are_the_published_ones() {
-        let c = Coefficients::of(ParameterSet::Reference);
+        let c = Coefficients::from_set(ParameterSet::Reference);
         let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-8, "{a} is not {b}");
         close(c.mass_kg, 31.029385);
         close(c.inertia_kg_m2.x, 0.11201608);
@@ -301,7 +301,7 @@ mod tests {
 
     #[test]
     fn lagged_added_mass_would_diverge_on_this_hull() {
-        let c = Coefficients::of(ParameterSet::Remus100);
+        let c = Coefficients::from_set(ParameterSet::Remus100);
         let lag = c.rigid_mass().try_inverse().expect("mass") * c.added_mass();
         let rho = lag.complex_eigenvalues().iter().map(|l| l.norm()).fold(0.0, f64::max);
         assert!((rho - 1.09).abs() < 0.01, "spectral radius {rho}");

@@ -58,7 +58,7 @@ impl SeenClarity {
     }
 
     /// By the pictures of a place; `None` without any.
-    pub(super) fn of<'a>(patches: impl Iterator<Item = &'a Patch> + Clone, bed_texture: f64) -> Option<Self> {
+    pub(super) fn from_patches<'a>(patches: impl Iterator<Item = &'a Patch> + Clone, bed_texture: f64) -> Option<Self> {
         patches.clone().next()?;
         let off = |v: f64| (v * v).min(FAR * FAR);
         let mut best: Option<(f64, Self)> = None;
@@ -101,6 +101,6 @@ mod tests {
 
     #[test]
     fn without_pictures_nothing_is_known() {
-        assert_eq!(SeenClarity::of([].iter(), 0.2), None);
+        assert_eq!(SeenClarity::from_patches([].iter(), 0.2), None);
     }
 }

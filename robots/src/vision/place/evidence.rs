@@ -152,7 +152,7 @@ pub(super) fn unseen(mosaic: &Mosaic, places: &[(Vector2<f64>, f64)], down_flow:
 /// The box about a place; `None` if too little of it has been seen.
 fn box_about(mosaic: &Mosaic, boxes: &Boxes, p: Vector2<f64>) -> Option<Boxed> {
     let [x, y] = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
-    boxes.at(x, y)
+    boxes.mean_at(x, y)
 }
 
 /// Places on a square grid within a circle, with nothing known of them.

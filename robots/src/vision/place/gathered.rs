@@ -57,7 +57,7 @@ impl PlacePictures {
     /// Why it says nothing; it then changes nothing but what [`Self::pictures`] counts.
     pub fn add(&mut self, picture: &Picture, stand: &Stand) -> Result<(), Useless> {
         let cell_m = self.spec.cell_m.get();
-        let patch = Patch::of(picture, stand, cell_m).inspect_err(|_| self.useless += 1)?;
+        let patch = Patch::project(picture, stand, cell_m).inspect_err(|_| self.useless += 1)?;
         if self.patches.len() >= MOST {
             return Ok(());
         }
@@ -68,7 +68,7 @@ impl PlacePictures {
         self.known.add(&patch, self.shift);
         self.patches.push((patch, self.shift));
         let all = self.patches.iter().map(|(p, _)| p);
-        self.clarity = SeenClarity::of(all, self.spec.bed_texture.get());
+        self.clarity = SeenClarity::from_patches(all, self.spec.bed_texture.get());
         Ok(())
     }
 
@@ -103,7 +103,7 @@ impl PlacePictures {
         let reach_m = self.spec.within_m.get() + REACH_M;
         let all = self.patches.iter().map(|(p, shift)| (p, *shift));
         let water = self.clarity?;
-        Some(Mosaic::of(all, &water, cell_m, middle, reach_m))
+        Some(Mosaic::from_patches(all, &water, cell_m, middle, reach_m))
     }
 
     /// What no picture shows of sources that may be here: where it is (east, north, m), weighted by how likely the

@@ -61,7 +61,7 @@ impl Patch {
     ///
     /// # Errors
     /// Why the picture says nothing.
-    pub(super) fn of(picture: &Picture, stand: &Stand, cell_m: f64) -> Result<Self, Useless> {
+    pub(super) fn project(picture: &Picture, stand: &Stand, cell_m: f64) -> Result<Self, Useless> {
         let c = contrasts(&picture.image, picture.view_rad)?;
         let from_B = stand.R_WB * picture.p_BC;
         let height_m = stand.altitude_m + from_B.z;

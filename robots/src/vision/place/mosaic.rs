@@ -34,7 +34,7 @@ pub struct Mosaic {
 
 impl Mosaic {
     /// Of pictures with their shifts, in the square of `reach_m` about a place (cells `middle`).
-    pub(super) fn of<'a>(
+    pub(super) fn from_patches<'a>(
         patches: impl Iterator<Item = (&'a Patch, [i32; 2])>,
         water: &SeenClarity,
         cell_m: f64,
@@ -129,7 +129,7 @@ pub(super) struct Boxes {
 
 impl Boxes {
     /// About a cell; `None` outside, or if too little of the box has been seen.
-    pub(super) fn at(&self, column: i64, row: i64) -> Option<Boxed> {
+    pub(super) fn mean_at(&self, column: i64, row: i64) -> Option<Boxed> {
         let [x, y] = [column, row].map(|v| usize::try_from(v).ok());
         let (x, y) = (x?, y?);
         if x >= self.width {

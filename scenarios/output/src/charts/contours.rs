@@ -25,7 +25,7 @@ type Edge = (usize, usize, u8);
 
 impl Grid {
     /// Evaluates a function over a rectangle.
-    pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
+    pub fn evaluate(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
         let step = [(x[1] - x[0]) / (n[0] - 1) as f64, (y[1] - y[0]) / (n[1] - 1) as f64];
         let mut values = Vec::with_capacity(n[0] * n[1]);
         for j in 0..n[1] {
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn circle_is_one_ring_of_its_area() {
-        let g = Grid::of([-2.0, 2.0], [-2.0, 2.0], [81, 81], |x, y| 1.0 - x * x - y * y);
+        let g = Grid::evaluate([-2.0, 2.0], [-2.0, 2.0], [81, 81], |x, y| 1.0 - x * x - y * y);
         let rings = g.rings(0.0);
         assert_eq!(rings.len(), 1);
         // Chords of a circle remove at most (h/r)²/6 of it: h = 0.05.
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn slope_is_one_straight_line_and_its_upper_side_closes_at_the_edge() {
-        let g = Grid::of([0.0, 10.0], [0.0, 4.0], [11, 5], |x, _| x);
+        let g = Grid::evaluate([0.0, 10.0], [0.0, 4.0], [11, 5], |x, _| x);
         let lines = g.lines(2.5);
         assert_eq!(lines.len(), 1);
         assert!(lines[0].iter().all(|p| (p[0] - 2.5).abs() < 1e-12));

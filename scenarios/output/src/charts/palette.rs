@@ -45,7 +45,7 @@ pub fn vehicle(k: usize) -> &'static str {
 }
 
 /// Name of a behaviour for people.
-pub fn words(b: Behaviour) -> &'static str {
+pub fn behaviour_label(b: Behaviour) -> &'static str {
     match b {
         Behaviour::Idle => "Idle",
         Behaviour::OpenLoop => "Open loop",

@@ -33,13 +33,13 @@ impl Panel {
     }
 
     /// Position of a pair of values, px.
-    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn position(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.px(x), self.py(y)]
     }
 
     /// Positions of pairs of values, px.
     pub fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        points.iter().map(|p| self.at(*p)).collect()
+        points.iter().map(|p| self.position(*p)).collect()
     }
 
     /// Its lower edge, px.

@@ -34,7 +34,7 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     if run.sources.is_empty() {
         return None;
     }
-    let place = Axes::of(run, t)?;
+    let place = Axes::from_track(run, t)?;
     let rows = tracking(t);
     let motions = motions(&place, rows);
     let away = rows.iter().map(|r| place.cm(r.head)[0]);
@@ -71,11 +71,11 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         }
         scales(&mut c, &panel, label);
         panel.clip(&mut c);
-        let line: Vec<_> = motions.iter().map(|m| panel.at([m.away, of(m)])).collect();
+        let line: Vec<_> = motions.iter().map(|m| panel.position([m.away, of(m)])).collect();
         c.polyline(line, &Style::line(GREY, 0.8));
         for m in &motions {
             let colour = palette::gantry_behaviour(m.behaviour);
-            c.circle(panel.at([m.away, of(m)]), 4.0, &Style::fill(colour).edged("#ffffff", 0.8));
+            c.circle(panel.position([m.away, of(m)]), 4.0, &Style::fill(colour).edged("#ffffff", 0.8));
         }
         c.unclip();
         for ([a, b], mean) in RANGES.into_iter().zip([near, far]) {

@@ -98,8 +98,10 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, s: &BeliefSnapshot, t
     cells(c, panel, &s.belief);
     if let Some(plume) = &s.plume {
         // A dot is a stroke of length zero with a round end, so that all dots form one shape.
-        let dots: Vec<_> =
-            (plume.points.iter()).map(|[x, y, ..]| panel.at([*x, *y])).map(|p| vec![p, [p[0] + 0.05, p[1]]]).collect();
+        let dots: Vec<_> = (plume.points.iter())
+            .map(|[x, y, ..]| panel.position([*x, *y]))
+            .map(|p| vec![p, [p[0] + 0.05, p[1]]])
+            .collect();
         c.lines(&dots, false, &Style::line("#333333", 1.3).faint(0.45));
     }
     let corners = run.area.corners().map(|p| [p.x, p.y]);
@@ -112,19 +114,19 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, s: &BeliefSnapshot, t
         let smelt = |r: &&&TrackRow| r.reading.is_some_and(|v| Some(v) > t.info.threshold);
         let places = rows.iter().filter(smelt).map(|r| [r.p[0], r.p[1]]);
         layers::detections(c, panel, places);
-        let line = rows.iter().map(|r| panel.at([r.p[0], r.p[1]])).collect();
+        let line = rows.iter().map(|r| panel.position([r.p[0], r.p[1]])).collect();
         c.polyline(line, &Style::line("#ffffff", 3.0).faint(0.7));
-        let line = rows.iter().map(|r| panel.at([r.p[0], r.p[1]])).collect();
+        let line = rows.iter().map(|r| panel.position([r.p[0], r.p[1]])).collect();
         c.polyline(line, &Style::line(INK, 1.3));
         if let Some(r) = rows.last() {
-            vehicle(c, panel.at([r.p[0], r.p[1]]));
+            vehicle(c, panel.position([r.p[0], r.p[1]]));
         }
     }
-    let plan: Vec<_> = s.planned.iter().map(|p| panel.at([p.x, p.y])).collect();
+    let plan: Vec<_> = s.planned.iter().map(|p| panel.position([p.x, p.y])).collect();
     c.polyline(plan, &Style::line(PLAN, 1.6).dashed("5 3"));
     layers::sources(c, panel, run);
     let best = s.belief.grid.centre(s.belief.best);
-    best_cell(c, panel.at([best.x, best.y]));
+    best_cell(c, panel.position([best.x, best.y]));
     c.unclip();
     panel.frame(c, 1.0);
     axes(c, panel);
@@ -180,7 +182,7 @@ pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f
     };
     let corner = |i: usize, j: usize| {
         let p = grid.world([i as f64 * grid.cell_m[0], j as f64 * grid.cell_m[1], 0.0]);
-        panel.at([p.x, p.y])
+        panel.position([p.x, p.y])
     };
     let mut rings: Vec<Vec<Vec<[f64; 2]>>> = vec![Vec::new(); SHADES + 1];
     for j in 0..ny {

@@ -85,7 +85,7 @@ fn curve(c: &mut Canvas, panel: &Panel, robot: &RobotBelief, value: &dyn Fn(&Bel
     let mut points: Vec<[f64; 2]> = Vec::new();
     for r in robot.rows.iter().step_by(stride) {
         let Some(v) = value(r) else { continue };
-        let p = panel.at([r.t_s, v]);
+        let p = panel.position([r.t_s, v]);
         // A value holds until the next update, so the curve has steps, not slopes.
         if let Some(before) = points.last() {
             points.push([p[0], before[1]]);

@@ -21,14 +21,14 @@ const PLUME_OPACITY: f64 = 0.75;
 
 /// The figure as SVG; `None` for a gantry that appears in no frame.
 pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
-    let axes = Axes::of(run, t)?;
+    let axes = Axes::from_track(run, t)?;
     let panel = place(&axes);
     let mut c = Canvas::new(panel.right() + COLUMN, (panel.bottom() + 60.0).max(470.0));
     // The height of most probes: on the built-in head, that of both outer ones.
     let z = height(t);
     let n = [panel.width, panel.height].map(|px| (px / CELL_PX).ceil() as usize + 1);
     let at_height =
-        |z: f64, n: [usize; 2]| run.dye.and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye));
+        |z: f64, n: [usize; 2]| run.dye.and_then(|dye| Section::sample(&axes, z, n, t.info.effluent_kg_m3, dye));
     let section = z.and_then(|z| at_height(z, n));
     // The field below the probes, at the height of the source. Only its edge is drawn, so every other node will do.
     let below = (run.sources.first()).and_then(|s| at_height(s.position.z, n.map(|n| n.div_ceil(2) + 1)));
@@ -55,11 +55,11 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         }
     }
     for o in run.obstacles {
-        let corners: Vec<_> = o.corners.iter().map(|p| panel.at(axes.cm(*p))).collect();
+        let corners: Vec<_> = o.corners.iter().map(|p| panel.position(axes.cm(*p))).collect();
         c.polygon(corners, &Style::fill("#8c6d4f").edged(INK, 1.0));
     }
     for s in run.sources {
-        layers::true_source(&mut c, panel.at(axes.cm([s.position.x, s.position.y])));
+        layers::true_source(&mut c, panel.position(axes.cm([s.position.x, s.position.y])));
     }
     track(&mut c, &panel, &axes, t);
     marks(&mut c, &panel, &axes, t);
@@ -97,7 +97,7 @@ fn height(t: &GantryTrack) -> Option<f64> {
 
 /// The head's track, coloured by what the searcher did, and where each motion ended.
 fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
-    let at = |k: usize| panel.at(axes.cm(t.rows[k].head));
+    let at = |k: usize| panel.position(axes.cm(t.rows[k].head));
     let all = thinned((0..t.rows.len()).map(at));
     c.polyline(all, &Style::line("#ffffff", 4.4).faint(0.8));
     let mut k = 0;
@@ -135,13 +135,13 @@ fn probe(c: &mut Canvas, p: [f64; 2]) {
 
 fn marks(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
     for tip in &t.tips {
-        probe(c, panel.at(axes.cm([tip[0], tip[1]])));
+        probe(c, panel.position(axes.cm([tip[0], tip[1]])));
     }
     if let Some(first) = t.rows.first() {
-        layers::start(c, panel.at(axes.cm(first.head)));
+        layers::start(c, panel.position(axes.cm(first.head)));
     }
     if let Some(d) = t.declared {
-        layers::declared(c, panel.at(axes.cm(d)));
+        layers::declared(c, panel.position(axes.cm(d)));
     }
 }
 

@@ -43,8 +43,8 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     let wide = x[1] - x[0] > WIDE * (y[1] - y[0]);
     let panel = place(x, y, wide);
     let mut c = Canvas::new(panel.right() + if wide { 34.0 } else { COLUMN + 35.0 }, 0.0);
-    let plume = run.plume.and_then(|p| PlumeLoad::of(p, &panel));
-    let bed = Bed::of(run, &panel);
+    let plume = run.plume.and_then(|p| PlumeLoad::from_plume(p, &panel));
+    let bed = Bed::from_run(run, &panel);
     layers::reserve(&mut c, &panel);
     draw(&mut c, run, &panel, &bed, plume.as_ref(), false);
     panel.frame(&mut c, 1.2);
@@ -92,13 +92,13 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
 
 /// Draws the inset, and its frame on the map.
 fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
-    draw(c, run, inset, &Bed::of(run, inset), None, true);
+    draw(c, run, inset, &Bed::from_run(run, inset), None, true);
     inset.frame(c, 1.0);
     let times = inset.px_per_unit() / panel.px_per_unit();
     let words = format!("Near the source (box on the map), {times:.1} ×");
     c.text([inset.left, inset.top - 7.0], 10.0, Anchor::Start, &words);
     layers::scale_bar(c, inset, "m");
-    let (a, b) = (panel.at([inset.x[0], inset.y[1]]), panel.at([inset.x[1], inset.y[0]]));
+    let (a, b) = (panel.position([inset.x[0], inset.y[1]]), panel.position([inset.x[1], inset.y[0]]));
     panel.clip(c);
     c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &Style::line(GREY, 1.0));
     c.unclip();
@@ -114,10 +114,10 @@ pub(super) struct Bed {
 }
 
 impl Bed {
-    fn of(run: &RunReport<'_>, panel: &Panel) -> Self {
+    fn from_run(run: &RunReport<'_>, panel: &Panel) -> Self {
         let n = [BED_NODES, BED_NODES];
         let depth = |x, y| (-run.terrain.bed_z(x, y)).max(0.0);
-        let grid = Grid::of(panel.x, panel.y, n, depth);
+        let grid = Grid::evaluate(panel.x, panel.y, n, depth);
         let range = range_of(grid.values.iter().copied(), 0.0).unwrap_or([0.0, 1.0]);
         let step = nice_step(range[1] - range[0], 5.0);
         let level = range[1] - range[0] < 0.02 * range[1].max(1e-3);
@@ -140,7 +140,7 @@ impl Bed {
 fn draw(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, bed: &Bed, plume: Option<&PlumeLoad>, close: bool) {
     panel.clip(c);
     layers::bed(c, panel, bed);
-    let own = if close { run.plume.and_then(|p| PlumeLoad::of(p, panel)) } else { None };
+    let own = if close { run.plume.and_then(|p| PlumeLoad::from_plume(p, panel)) } else { None };
     solids::draw(c, panel, run.obstacles, run.terrain, true);
     if let Some(plume) = plume.or(own.as_ref()) {
         layers::plume(c, panel, plume);

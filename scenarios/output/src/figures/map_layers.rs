@@ -69,7 +69,7 @@ fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
 pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several: bool) {
     let over = if several { over_from(t) } else { t.rows.len() };
     let style = || Style::line(BELIEVED, 0.6).dashed("2 2");
-    let points = |rows: &[TrackRow]| thinned(rows.iter().map(|r| panel.at(r.believed)));
+    let points = |rows: &[TrackRow]| thinned(rows.iter().map(|r| panel.position(r.believed)));
     c.polyline(points(&t.rows[..over]), &style());
     if over < t.rows.len() {
         c.polyline(points(&t.rows[over..]), &style().faint(AFTER));
@@ -91,7 +91,7 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, 
         let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
         // One point into the next stretch, so that the line has no gaps.
         let end = (k + run + 1).min(t.rows.len());
-        let points = thinned(t.rows[k..end].iter().map(|r| panel.at([r.p[0], r.p[1]])));
+        let points = thinned(t.rows[k..end].iter().map(|r| panel.position([r.p[0], r.p[1]])));
         let style = Style::line(palette::behaviour(b), width);
         c.polyline(points, &if k < over { style } else { style.faint(AFTER) });
         k += run;
@@ -103,7 +103,7 @@ pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<It
     const APART_PX: f64 = 8.0;
     let mut last: Option<[f64; 2]> = None;
     for d in places {
-        let p = panel.at(d);
+        let p = panel.position(d);
         let apart = |q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
         if last.is_none_or(|q| apart(q) >= APART_PX) {
             detection(c, p);
@@ -115,15 +115,15 @@ pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<It
 /// Start, lost points, declared sources, and plumes at an edge.
 pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     for l in &t.lost_points {
-        lost_point(c, panel.at(*l));
+        lost_point(c, panel.position(*l));
     }
     if let Some(r) = t.rows.first() {
-        let p = panel.at([r.p[0], r.p[1]]);
+        let p = panel.position([r.p[0], r.p[1]]);
         start(c, p);
         c.keep_free(LabelBox::round(p, 6.0));
     }
     for (d, at) in t.declarations.iter().zip(t.declared()) {
-        let p = panel.at(at);
+        let p = panel.position(at);
         c.keep_free(LabelBox::round(p, 8.0));
         if d.at_edge() {
             plume_at_edge(c, p);
@@ -131,7 +131,7 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
         }
         if let Some(e) = d.evidence {
             let [x, y] = e.middle_m;
-            let ends = [panel.at([x, y]), panel.at([x + e.reach_m, y])];
+            let ends = [panel.position([x, y]), panel.position([x + e.reach_m, y])];
             zone(c, ends[0], ends[1][0] - ends[0][0]);
         }
         declared(c, p);
@@ -146,7 +146,7 @@ pub(super) fn region_line() -> Style<'static> {
 /// Outlines of subregions.
 pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     for region in t.regions.iter() {
-        let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
+        let corners = region.area.corners().map(|p| panel.position([p.x, p.y]));
         for (i, a) in corners.iter().enumerate() {
             // From left to right, so that the dashes of an edge that two regions share coincide.
             let mut ends = [*a, corners[(i + 1) % corners.len()]];
@@ -166,9 +166,9 @@ pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robot
             .flat_map(|across| shares.map(|along| [along, across]))
             .map(|[l, w]| Vector2::new(l * region.area.length_m, w * region.area.width_m))
             .map(|at| region.area.world(at))
-            .map(|p| (panel.at([p.x, p.y]), Anchor::Middle))
+            .map(|p| (panel.position([p.x, p.y]), Anchor::Middle))
             .collect();
-        let text = format!("{}: {}", region_name(k), region.state.words());
+        let text = format!("{}: {}", region_name(k), region.state.label());
         c.label_at(&places, 9.5, &text, panel, false);
     }
     if let Some(r) = t.rows.first().filter(|_| several_robots) {
@@ -183,7 +183,7 @@ pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robot
 /// A name beside a mark, on any side with room.
 fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
     const SIZE: f64 = 10.0;
-    let [x, y] = panel.at(at);
+    let [x, y] = panel.position(at);
     let places: Vec<_> = [9.0, 14.0, 22.0, 34.0]
         .into_iter()
         .flat_map(|r| {
@@ -243,7 +243,7 @@ pub(super) fn true_source(c: &mut Canvas, p: [f64; 2]) {
 /// True sources. Declared ones are drawn with their robot.
 pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     for s in run.sources {
-        let p = panel.at([s.position.x, s.position.y]);
+        let p = panel.position([s.position.x, s.position.y]);
         true_source(c, p);
         c.keep_free(LabelBox::round(p, 9.0));
     }

@@ -70,7 +70,7 @@ fn tracks(c: &mut Canvas, seen: &[Behaviour], [x, top]: [f64; 2]) -> f64 {
     for b in seen {
         let style = Style::line(palette::behaviour(*b), 2.6);
         c.line([x, y], [x + 24.0, y], &style);
-        entry(c, x, &mut y, palette::words(*b));
+        entry(c, x, &mut y, palette::behaviour_label(*b));
     }
     let style = Style::line(BELIEVED, 0.9).dashed("2 2");
     c.line([x, y], [x + 24.0, y], &style);
@@ -120,7 +120,7 @@ fn obstacles(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
         let sign = Panel { left: x + 3.0, top: *y - 6.0, width: 18.0, height: 12.0, x: [0.0, 1.0], y: [0.0, 1.0] };
         let corners = sign.all(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
         solids::solid(c, &sign, &corners, passage);
-        entry(c, x, y, passage.words());
+        entry(c, x, y, passage.label());
     }
 }
 
@@ -148,7 +148,7 @@ fn flow(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
         let at = if run.sources.len() > 1 { s.id.as_str() } else { "the source" };
         let words = format!("flow at {at}");
         c.text([x + 34.0, *y], SIZE, Anchor::Start, &words);
-        let value = format!("{:.2} m/s towards {:.0}°", speed, Heading::of(s.flow).deg());
+        let value = format!("{:.2} m/s towards {:.0}°", speed, Heading::from_vector(s.flow).deg());
         c.text([x + 34.0, *y + 14.0], SIZE, Anchor::Start, &value);
         *y += 2.0 * LINE + 4.0;
     }

@@ -38,7 +38,7 @@ struct Cut {
 /// the map already shows everything.
 pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -> Option<f64> {
     let source = run.best_declared()?;
-    let cut = Cut::of(run, source, map)?;
+    let cut = Cut::through_source(run, source, map)?;
     let beds = (0..=60).map(|k| cut.s[0] + f64::from(k) / 60.0 * (cut.s[1] - cut.s[0]));
     let bed = |s: f64| {
         let p = cut.world(s, 0.0);
@@ -58,11 +58,11 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
             }
             let lines = (-ACROSS..=ACROSS).map(|k| cut.half_m * f64::from(k) / f64::from(ACROSS));
             let places = lines.map(|d| cut.world(s, d));
-            let sum: f64 = places.map(|p| dye.at(&Vector3::new(p.x, p.y, z))).sum();
+            let sum: f64 = places.map(|p| dye.concentration(&Vector3::new(p.x, p.y, z))).sum();
             // kg/m³ to µg/L.
             1e6 * sum / f64::from(2 * ACROSS + 1)
         };
-        PlumeLoad::on(Grid::of(panel.x, panel.y, n, mean))
+        PlumeLoad::on(Grid::evaluate(panel.x, panel.y, n, mean))
     });
     panel.clip(c);
     let water = Style::fill("#eef4f8");
@@ -76,7 +76,7 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
         let style = Style::line(INTERFACE, 1.0).dashed("6 3");
         c.line([left, y], [panel.right(), y], &style);
     }
-    let mut ground: Vec<_> = beds.map(|s| panel.at([s, bed(s)])).collect();
+    let mut ground: Vec<_> = beds.map(|s| panel.position([s, bed(s)])).collect();
     ground.extend([[panel.right(), panel.bottom()], [left, panel.bottom()]]);
     c.polygon(ground, &Style::fill(BED));
     let outlined = obstacles(c, run, &cut, &panel);
@@ -84,12 +84,12 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     for t in &run.track.robots {
         track(c, &cut, &panel, t);
     }
-    layers::true_source(c, panel.at([0.0, source.position.z]));
+    layers::true_source(c, panel.position([0.0, source.position.z]));
     for t in &run.track.robots {
         for d in t.declarations.iter().filter(|d| !d.at_edge()) {
             let at = cut.local([d.position.x, d.position.y]);
             if let Some(z) = t.declared_z(d).filter(|_| at.y.abs() <= cut.half_m) {
-                layers::declared(c, panel.at([at.x, z]));
+                layers::declared(c, panel.position([at.x, z]));
             }
         }
     }
@@ -127,7 +127,7 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
 
 impl Cut {
     /// Through a source, along the flow there, as far as the map reaches, and wide enough for the declarations.
-    fn of(run: &RunReport<'_>, source: &SourceTruth, map: &Panel) -> Option<Self> {
+    fn through_source(run: &RunReport<'_>, source: &SourceTruth, map: &Panel) -> Option<Self> {
         let speed = source.flow.norm();
         if speed < 1e-6 {
             return None;
@@ -200,7 +200,7 @@ fn beside_style() -> Style<'static> {
 fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> bool {
     let mut outlined = false;
     // No farther than the sheet can resolve.
-    let at = |s: f64, z: f64| panel.at([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
+    let at = |s: f64, z: f64| panel.position([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
     for o in run.obstacles {
         let middle = cut.through(&o.corners, 1e-6 * cut.half_m);
         let whole = cut.through(&o.corners, cut.half_m);
@@ -262,7 +262,7 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
             |r: &&crate::results::TrackRow| r.behaviour == b && cut.local([r.p[0], r.p[1]]).y.abs() <= cut.half_m;
         let run = t.rows[k..].iter().take_while(inside).count();
         let points = t.rows[k..k + run].iter();
-        let points = points.map(|r| panel.at([cut.local([r.p[0], r.p[1]]).x, r.p[2]]));
+        let points = points.map(|r| panel.position([cut.local([r.p[0], r.p[1]]).x, r.p[2]]));
         c.polyline(thinned(points), &Style::line(palette::behaviour(b), 1.6));
         k += run.max(1);
     }

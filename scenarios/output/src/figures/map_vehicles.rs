@@ -23,7 +23,7 @@ pub(super) fn over_from(t: &RobotTrack) -> usize {
 /// A band in the vehicle's colour, over which its track is drawn; it ends with the mission.
 pub(super) fn band(c: &mut Canvas, panel: &Panel, t: &RobotTrack, k: usize) {
     let end = (over_from(t) + 1).min(t.rows.len());
-    let points = thinned(t.rows[..end].iter().map(|r| panel.at([r.p[0], r.p[1]])));
+    let points = thinned(t.rows[..end].iter().map(|r| panel.position([r.p[0], r.p[1]])));
     let style = Style::line(palette::vehicle(k), WIDTH);
     c.polyline(points, &style.faint(BAND));
 }

@@ -94,14 +94,14 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     for (cells, colour) in [(&o.came, CAME), (&o.walk, WALK)] {
         let line = || {
             let points = cells.iter().map(|cell| o.grid.centre(*cell));
-            points.map(|p| panel.at([p.x, p.y])).collect()
+            points.map(|p| panel.position([p.x, p.y])).collect()
         };
         c.polyline(line(), &Style::line("#ffffff", 4.0).faint(0.7));
         c.polyline(line(), &Style::line(colour, 2.2));
     }
     if let Some(cell) = o.walk.first() {
         let p = o.grid.centre(*cell);
-        c.circle(panel.at([p.x, p.y]), 4.0, &Style::fill(WALK).edged("#ffffff", 1.2));
+        c.circle(panel.position([p.x, p.y]), 4.0, &Style::fill(WALK).edged("#ffffff", 1.2));
     }
     layers::sources(c, panel, run);
     c.unclip();

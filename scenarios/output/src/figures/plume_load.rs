@@ -23,7 +23,7 @@ pub(super) struct PlumeLoad {
 
 impl PlumeLoad {
     /// `None` if there is nothing to show.
-    pub(super) fn of(plume: &PlumeFrame, panel: &Panel) -> Option<Self> {
+    pub(super) fn from_plume(plume: &PlumeFrame, panel: &Panel) -> Option<Self> {
         if plume.points.is_empty() {
             return None;
         }
@@ -104,7 +104,7 @@ mod tests {
             points: vec![[0.0, 0.0, -5.0, 8.0, 1e-2, 10.0]; 2],
             ..PlumeFrame::default()
         };
-        let load = PlumeLoad::of(&plume, &panel()).unwrap();
+        let load = PlumeLoad::from_plume(&plume, &panel()).unwrap();
         let g = &load.grid;
         let mg: f64 = g.values.iter().sum::<f64>() * g.step[0] * g.step[1];
         // 20 filaments of 1 g; 1.1 % of a Gaussian lies beyond three spreads.
@@ -117,9 +117,9 @@ mod tests {
 
     #[test]
     fn nothing_to_show_is_none() {
-        assert!(PlumeLoad::of(&PlumeFrame::default(), &panel()).is_none());
+        assert!(PlumeLoad::from_plume(&PlumeFrame::default(), &panel()).is_none());
         let away =
             PlumeFrame { t_s: 0.0, total: 1, points: vec![[1e6, 0.0, 0.0, 1.0, 1.0, 1.0]], ..PlumeFrame::default() };
-        assert!(PlumeLoad::of(&away, &panel()).is_none());
+        assert!(PlumeLoad::from_plume(&away, &panel()).is_none());
     }
 }

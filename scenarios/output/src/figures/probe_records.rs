@@ -145,7 +145,7 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     panels::draw_curve(c, panel, &curve, &Style::line(ORANGE, 1.4));
     panel.clip(c);
     for p in spikes(t, k) {
-        c.circle(panel.at([p[0], at(p[1])]), 1.8, &Style::fill(DETECTION));
+        c.circle(panel.position([p[0], at(p[1])]), 1.8, &Style::fill(DETECTION));
     }
     c.unclip();
     let count = t.rows.iter().filter(|r| r.spike[k]).count();
@@ -208,14 +208,14 @@ fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
         c.upright([panel.right() + 58.0, middle], 10.0, "C/C0");
     }
     let volts: Vec<[f64; 2]> =
-        (t.rows.iter().filter(inside)).filter_map(|r| Some(panel.at([r.t_s, r.volts?[k]]))).collect();
+        (t.rows.iter().filter(inside)).filter_map(|r| Some(panel.position([r.t_s, r.volts?[k]]))).collect();
     let threshold: Vec<[f64; 2]> =
-        (t.rows.iter().filter(inside)).map(|r| panel.at([r.t_s, r.threshold_v[k]])).collect();
+        (t.rows.iter().filter(inside)).map(|r| panel.position([r.t_s, r.threshold_v[k]])).collect();
     panel.clip(c);
     c.polyline(volts, &Style::line(BLUE, 1.2));
     c.polyline(threshold, &Style::line(ORANGE, 1.6).dashed("6 3"));
     for p in spikes(t, k) {
-        c.circle(panel.at(p), 3.6, &Style::line(DETECTION, 1.4));
+        c.circle(panel.position(p), 3.6, &Style::line(DETECTION, 1.4));
     }
     c.unclip();
     panel.key(c, &[("output", BLUE), ("threshold", ORANGE), ("spike", DETECTION)]);

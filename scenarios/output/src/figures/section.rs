@@ -29,7 +29,7 @@ pub(super) struct Axes {
 
 impl Axes {
     /// `None` for a gantry that appears in no frame.
-    pub(super) fn of(run: &RunReport<'_>, track: &GantryTrack) -> Option<Self> {
+    pub(super) fn from_track(run: &RunReport<'_>, track: &GantryTrack) -> Option<Self> {
         let first = Vector2::from(track.rows.first()?.head);
         let last = Vector2::from(track.rows.last()?.head);
         let source = (run.sources.iter().map(|s| s.position.xy()))
@@ -90,7 +90,7 @@ pub(super) struct Section {
 impl Section {
     /// The section at height `z` (ENU, m) over the range of the axes, with this number of nodes; relative to the
     /// effluent if that is known.
-    pub(super) fn of(
+    pub(super) fn sample(
         axes: &Axes,
         z: f64,
         n: [usize; 2],
@@ -100,10 +100,10 @@ impl Section {
         let at = |x: f64, y: f64| {
             let inside = axes.sides.is_none_or(|s| (s[0]..=s[1]).contains(&y));
             let p = axes.world(x, y);
-            let c = if inside { dye.at(&Vector3::new(p.x, p.y, z)) } else { 0.0 };
+            let c = if inside { dye.concentration(&Vector3::new(p.x, p.y, z)) } else { 0.0 };
             math::ln(c.max(f64::MIN_POSITIVE))
         };
-        let mut grid = Grid::of(axes.x, axes.y, n, at);
+        let mut grid = Grid::evaluate(axes.x, axes.y, n, at);
         let densest = grid.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let (scale, unit) = match effluent_kg_m3 {
             Some(c0) => (c0, "C/C0"),

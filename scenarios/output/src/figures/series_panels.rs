@@ -65,7 +65,7 @@ pub(super) fn curve_of(panel: &Panel, values: impl Iterator<Item = (f64, Option<
             }
             continue;
         };
-        let p = panel.at([x, v]);
+        let p = panel.position([x, v]);
         let key = p[0].floor() as i64;
         column = Some(match column {
             Some((k, lo, hi)) if k == key => (k, if p[1] < lo[1] { p } else { lo }, if p[1] > hi[1] { p } else { hi }),
@@ -174,7 +174,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
 /// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let seen = Behaviour::seen(t.rows.iter().map(|r| r.behaviour));
-    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::words(*b), palette::behaviour(*b))).collect();
+    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::behaviour_label(*b), palette::behaviour(*b))).collect();
     let rows = t.rows.iter().map(|r| {
         let band = seen.iter().position(|s| *s == r.behaviour);
         (r.t_s, band.unwrap_or(0))

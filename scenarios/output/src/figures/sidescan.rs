@@ -51,7 +51,7 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
     let long_m = 0.5 * passes.iter().map(|w| length_m(w)).fold(0.0, f64::max);
     let mut shown: Vec<&Waterfall> = (passes.iter().copied()).filter(|w| length_m(w) >= long_m).collect();
     shown.drain(..shown.len().saturating_sub(MOST));
-    let level = Levels::of(&passes);
+    let level = Levels::from_passes(&passes);
     let longest = shown.iter().map(|w| length_m(w)).fold(0.0, f64::max).min(LONGEST_M);
     let range_m = shown.iter().flat_map(|w| w.rows()).map(|r| r.port_db.len()).max()? as f64 * last.cell_m();
     let (wide, high) = (2.0 * range_m * WATERFALL_PX, longest * WATERFALL_PX);
@@ -105,7 +105,7 @@ struct Levels {
 }
 
 impl Levels {
-    fn of(passes: &[&Waterfall]) -> Self {
+    fn from_passes(passes: &[&Waterfall]) -> Self {
         let rows = passes.iter().flat_map(|w| w.rows()).step_by(7);
         let levels = rows.flat_map(|r| r.port_db.iter().chain(&r.starboard_db));
         let mut all: Vec<f32> = levels.copied().filter(|v| v.is_finite()).collect();
@@ -190,7 +190,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
     cells.draw(c);
     for o in detect(pass, &DetectSpec::default()) {
         let side = if o.port { -1.0 } else { 1.0 };
-        let at = panel.at([side * o.ground_m, o.along_m - begin]);
+        let at = panel.position([side * o.ground_m, o.along_m - begin]);
         c.circle(at, 11.0, &Style::line("#ffffff", 3.2));
         c.circle(at, 11.0, &Style::line(FOUND, 1.8));
     }
@@ -207,7 +207,7 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
         for row in pass.rows() {
             for port in [true, false] {
                 for (k, db) in row.side(port).iter().enumerate() {
-                    let p = row.at(port, (k as f64 + 0.5) * pass.cell_m());
+                    let p = row.ground_position(port, (k as f64 + 0.5) * pass.cell_m());
                     let at = [(p.x - panel.x[0]) / CELL_M, (p.y - panel.y[0]) / CELL_M];
                     let inside = at.iter().all(|v| *v >= 0.0 && *v < n as f64);
                     if inside && db.is_finite() {
@@ -228,7 +228,7 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
     }
     cells.draw(c);
     for pass in passes {
-        let line = pass.rows().iter().map(|r| panel.at([r.place.x, r.place.y])).collect();
+        let line = pass.rows().iter().map(|r| panel.position([r.place.x, r.place.y])).collect();
         c.polyline(line, &Style::line("#ffffff", 0.8).dashed("4 4").faint(0.7));
     }
     c.unclip();
@@ -242,10 +242,10 @@ fn signs(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>, robot: &RobotEchoes
     }
     layers::sources(c, panel, run);
     if let Some(d) = track.and_then(|t| t.declared().last()) {
-        layers::declared(c, panel.at(d));
+        layers::declared(c, panel.position(d));
     }
     if let Some(p) = surveyed(run, robot) {
-        found(c, panel.at(p));
+        found(c, panel.position(p));
     }
     c.unclip();
     panel.frame(c, 1.0);

@@ -29,7 +29,7 @@ impl Passage {
     pub(super) const ALL: [Passage; 4] = [Passage::Round, Passage::Over, Passage::Under, Passage::Through];
 
     /// Its words in the key.
-    pub(super) fn words(self) -> &'static str {
+    pub(super) fn label(self) -> &'static str {
         match self {
             Passage::Round => "obstacle",
             Passage::Over => "obstacle with water over it",

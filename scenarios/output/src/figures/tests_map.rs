@@ -68,7 +68,7 @@ pub(super) fn reported<T>(
 struct Straight;
 
 impl Concentration for Straight {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         let d = p - source().position;
         let along = d.xy().dot(&source().flow.normalize());
         let sd = 1.0 + 0.05 * along.max(0.0);
@@ -185,7 +185,7 @@ fn the_closer_look_is_closer_or_not_there() {
                 let s = source().position;
                 let d = run.track.robots[0].declarations[0].position;
                 for p in [[s.x, s.y], [d.x, d.y]] {
-                    let [x, y] = look.at(p);
+                    let [x, y] = look.position(p);
                     assert!((0.0..=225.0).contains(&x) && (0.0..=225.0).contains(&y));
                 }
             }

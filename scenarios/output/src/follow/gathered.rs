@@ -51,7 +51,7 @@ pub(super) struct ResultsOwner {
 
 impl RunResults {
     /// From what was gathered; `walls` are the times that spin-up and mission took.
-    pub(super) fn of(
+    pub(super) fn assemble(
         mut gathered: Gatherer,
         whose: ResultsOwner,
         trial: &Trial,
@@ -59,7 +59,7 @@ impl RunResults {
         walls: [Duration; 2],
     ) -> Self {
         let scenario = &whose.loaded.scenario;
-        let sources = SourceTruth::of(trial, ended);
+        let sources = SourceTruth::from_run(trial, ended);
         let end = SummaryEnd {
             outcome: match gathered.failure {
                 Some(_) => RunOutcome::Failed,
@@ -139,7 +139,7 @@ impl RunResults {
             written
         });
         let failures = self.failure.take().into_iter().chain(written.err());
-        ReportError::of(failures.collect()).map_or(Ok(()), Err)
+        ReportError::combine(failures.collect()).map_or(Ok(()), Err)
     }
 
     /// The folder of the results, if they are written.

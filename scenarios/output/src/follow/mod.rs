@@ -52,7 +52,7 @@ impl Follower {
         let run = RunInfo {
             scenario_name: loaded.name.clone(),
             title: scenario.title.clone(),
-            success: scenario.success.words(),
+            success: scenario.success.describe(),
             scenario_text: loaded.text().into_owned(),
             seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
@@ -117,7 +117,7 @@ impl Follower {
         if let Some(scene) = &self.scene {
             return Ok(Arc::clone(scene));
         }
-        let scene = Arc::new(Scene::of(&self.loaded)?);
+        let scene = Arc::new(Scene::from_scenario(&self.loaded)?);
         Ok(Arc::clone(self.scene.insert(scene)))
     }
 
@@ -146,7 +146,7 @@ impl Follower {
             gatherer.note(closed);
         }
         let run = gathered::ResultsOwner { loaded: self.loaded, out: self.out, spin_up_kept: self.spin_up_kept };
-        RunResults::of(*gatherer, run, trial, ended, walls)
+        RunResults::assemble(*gatherer, run, trial, ended, walls)
     }
 }
 

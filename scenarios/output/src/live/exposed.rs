@@ -36,11 +36,11 @@ pub(super) fn warning(config: &Config, options: &LiveOptions) -> Result<Option<S
 
 /// The ways by which others than users of this machine come without saying who they are.
 fn ways(config: &Config) -> Vec<String> {
-    let said = SessionConfig::of(config);
-    if said.at("access_control/enabled") == true && said.at("access_control/default_permission") != "allow" {
+    let said = SessionConfig::from_config(config);
+    if said.value("access_control/enabled") == true && said.value("access_control/default_permission") != "allow" {
         return Vec::new();
     }
-    let certified = said.at("transport/link/tls/enable_mtls") == true;
+    let certified = said.value("transport/link/tls/enable_mtls") == true;
     let users = said.users();
     let mut ways = Vec::new();
     for endpoint in texts(&said.of_mode("listen/endpoints")) {
@@ -67,22 +67,22 @@ struct SessionConfig<'a> {
 }
 
 impl<'a> SessionConfig<'a> {
-    fn of(config: &'a Config) -> Self {
+    fn from_config(config: &'a Config) -> Self {
         let mut said = Self { config, mode: String::new() };
         // zenoh's own default.
-        said.mode = said.at("mode").as_str().unwrap_or("peer").to_owned();
+        said.mode = said.value("mode").as_str().unwrap_or("peer").to_owned();
         said
     }
 
     /// What it says at a key; null where it leaves zenoh's default.
-    fn at(&self, key: &str) -> Value {
+    fn value(&self, key: &str) -> Value {
         let text = self.config.get_json(key).unwrap_or_default();
         serde_json::from_str(&text).unwrap_or_default()
     }
 
     /// The same where there may be one value for each mode.
     fn of_mode(&self, key: &str) -> Value {
-        match self.at(key) {
+        match self.value(key) {
             Value::Object(mut modes) => modes.remove(&self.mode).unwrap_or_default(),
             value => value,
         }
@@ -90,7 +90,7 @@ impl<'a> SessionConfig<'a> {
 
     /// Whether those who come have to know a password.
     fn users(&self) -> bool {
-        let dictionary = self.at("transport/auth/usrpwd/dictionary_file");
+        let dictionary = self.value("transport/auth/usrpwd/dictionary_file");
         let text = (dictionary.as_str()).and_then(|file| files::read_text(Path::new(file), LONGEST).ok());
         // zenoh takes an empty dictionary for none.
         text.is_some_and(|text| !text.trim().is_empty())
@@ -104,9 +104,9 @@ impl<'a> SessionConfig<'a> {
             Value::Array(whom) => !whom.is_empty(),
             whom => whom != "",
         };
-        let only_tls = matches!(&self.at("transport/link/protocols"),
+        let only_tls = matches!(&self.value("transport/link/protocols"),
             Value::Array(all) if !all.is_empty() && all.iter().all(|protocol| protocol == "tls"));
-        self.at(&format!("{scouting}/enabled")) != false && whom && (self.mode != "client" || alone) && !only_tls
+        self.value(&format!("{scouting}/enabled")) != false && whom && (self.mode != "client" || alone) && !only_tls
     }
 }
 

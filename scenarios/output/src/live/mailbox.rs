@@ -170,12 +170,12 @@ impl Mailbox {
     }
 
     pub(super) fn put_picture(&self, picture: &PictureFrame) {
-        let first = (self.slots().pictures).put(&picture.robot, picture.clone());
+        let first = (self.slots().pictures).store(&picture.robot, picture.clone());
         self.wake_if(first);
     }
 
     pub(super) fn put_ping(&self, ping: &PingFrame) {
-        let first = self.slots().pings.put(&ping.robot, ping.clone());
+        let first = self.slots().pings.store(&ping.robot, ping.clone());
         self.wake_if(first);
     }
 

@@ -21,7 +21,7 @@ fn map(id: &str, b: &Belief) -> Message {
     let header = json!({
         "t_s": b.t_s, "updates": b.updates, "informed": b.informed,
         "cells": cells, "cell_m": cell_m, "corner_m": grid.corner.as_slice(),
-        "axis_heading_rad": Heading::of(grid.axes[0]).rad(), "best_m": grid.centre(b.best).as_slice(),
+        "axis_heading_rad": Heading::from_vector(grid.axes[0]).rad(), "best_m": grid.centre(b.best).as_slice(),
         "entropy_nat": b.entropy_nat, "credible_95": b.credible_95, "dtype": "<f4",
     });
     let key = format!("map/{}", chunk(id));

@@ -95,7 +95,7 @@ impl Plane {
         state.t_s = t_s;
         state.steps += 1;
         if let Some(answer) = state.step_done() {
-            let told = self.told(&state);
+            let told = self.state_json(&state);
             // Whoever hears it may command at once.
             drop(state);
             (answer.0)(Ok(told));
@@ -123,7 +123,7 @@ impl Plane {
     pub fn ended(&self) {
         let mut state = self.lock();
         state.ended = true;
-        let told = self.told(&state);
+        let told = self.state_json(&state);
         let waiting = std::mem::take(&mut state.asked);
         drop(state);
         for step in waiting {
@@ -192,7 +192,7 @@ impl Plane {
                 state.since = None;
             }
             "stop" => {
-                let mut told = self.told(state);
+                let mut told = self.state_json(state);
                 told["stopping"] = true.into();
                 return Ok(told);
             }
@@ -201,10 +201,10 @@ impl Plane {
                 return Err(format!("no command {name:?}: {}", known.join(", ")));
             }
         }
-        Ok(self.told(state))
+        Ok(self.state_json(state))
     }
 
-    fn told(&self, state: &State) -> Value {
+    fn state_json(&self, state: &State) -> Value {
         json!({
             "t_s": state.t_s, "steps": state.steps, "ended": state.ended, "paused": state.paused,
             "stopping": state.stop, "times": state.times, "controllable": self.allowed,

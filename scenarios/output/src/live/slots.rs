@@ -25,7 +25,7 @@ impl<T> Default for Newest<T> {
 
 impl<T> Newest<T> {
     /// Stores a value. Returns whether nothing waited before.
-    pub(super) fn put(&mut self, robot: &str, value: T) -> bool {
+    pub(super) fn store(&mut self, robot: &str, value: T) -> bool {
         let first = self.waiting.is_empty();
         let count = self.taken.entry(robot.to_owned()).or_default();
         *count += 1;

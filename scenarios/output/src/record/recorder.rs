@@ -100,7 +100,7 @@ impl Recorder {
     /// # Errors
     /// If the file cannot be written.
     pub fn scene(&mut self, scene: &Arc<Scene>) -> Result<(), ReportError> {
-        self.ways = WayRecorder::of(scene);
+        self.ways = WayRecorder::from_scene(scene);
         self.scene = SceneRecorder::begin(scene, &mut self.file, self.seed)?;
         Ok(())
     }

@@ -43,7 +43,7 @@ impl Recorder {
         let mut rows: Vec<[f32; 4]> = Vec::new();
         for port in [true, false] {
             for (k, level) in line.side(port).iter().enumerate() {
-                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M) - centre;
+                let p = line.ground_position(port, (k as f64 + 0.5) * Echoes::CELL_M) - centre;
                 if level.is_finite() {
                     rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
                 }

@@ -43,7 +43,7 @@ impl LogRecorder {
             lines.extend(told.gantry(g).map(|(level, line)| (level, g.id.as_str(), line)));
         }
         for a in frame.abnormal.iter().skip(self.abnormal) {
-            lines.push((LogLevel::Warn, &a.robot, a.words()));
+            lines.push((LogLevel::Warn, &a.robot, a.describe()));
         }
         self.abnormal = self.abnormal.max(frame.abnormal.len());
         for (level, name, line) in lines {

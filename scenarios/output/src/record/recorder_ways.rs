@@ -39,7 +39,7 @@ pub(super) struct WayRecorder {
 
 impl WayRecorder {
     /// Of a scene.
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(super) fn from_scene(scene: &Scene) -> Self {
         let diagonal = |c: &[Vector2<f64>]| Some((c.get(2)? - c.first()?).norm());
         Self { diagonal_m: diagonal(&scene.corners), ..Self::default() }
     }

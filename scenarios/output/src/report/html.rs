@@ -49,7 +49,7 @@ pub(super) fn page(
         escaped(&summary.title),
         summary.seed,
         escaped(&summary.success_rule),
-        summary.outcome.words()
+        summary.outcome.label()
     );
     if let Some(e) = &summary.error {
         writeln!(out, "<p>Error: {}</p>", escaped(e)).expect(TEXT);
@@ -138,7 +138,7 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
 
 /// What a look at a declared place said, and by which pictures.
 fn looked(d: &DeclarationSummary) -> String {
-    let mut said = d.verdict.words().to_owned();
+    let mut said = d.verdict.label().to_owned();
     if let Some(l) = &d.looked {
         write!(
             said,
@@ -169,7 +169,7 @@ fn robot_rows(r: &crate::results::RobotSummary) -> Vec<(String, String)> {
         rows.push(("Beware".to_owned(), remark.clone()));
     }
     for region in &r.regions {
-        let mut what = region.state.words().to_owned();
+        let mut what = region.state.label().to_owned();
         if let (Some(from), Some(until)) = (region.from_s, region.until_s) {
             write!(what, ", searched from {from:.0} to {until:.0} s").expect(TEXT);
         }

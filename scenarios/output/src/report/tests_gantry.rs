@@ -23,7 +23,7 @@ use world::units::Heading;
 /// A straight plume from the origin eastward, 47 kg/m³ at its source.
 struct Straight;
 impl Concentration for Straight {
-    fn at(&self, p: &Vector3<f64>) -> f64 {
+    fn concentration(&self, p: &Vector3<f64>) -> f64 {
         let sd = 0.01 + 0.05 * p.x.max(0.0);
         let r2 = p.y * p.y + (p.z + 0.125) * (p.z + 0.125);
         let c = 47.0 * math::exp(-0.5 * r2 / (sd * sd)) * 1e-4 / (sd * sd);
@@ -258,7 +258,7 @@ fn figures_of_a_flume_stand_in_for_the_map() {
 struct Broken;
 
 impl Concentration for Broken {
-    fn at(&self, _: &Vector3<f64>) -> f64 {
+    fn concentration(&self, _: &Vector3<f64>) -> f64 {
         panic!("no such place")
     }
 }

@@ -142,7 +142,7 @@ impl GantryPath {
             id: self.id.clone(),
             stopped: self.stopped,
             consulted: score.consulted,
-            declaration: (score.declarations.first()).map(|d| DeclarationSummary::of(d, sources)),
+            declaration: (score.declarations.first()).map(|d| DeclarationSummary::compare(d, sources)),
             sweep_s: self.sweep_s,
             first_spike_s: score.first_detection_s,
             spikes: score.detections,

@@ -35,7 +35,7 @@ impl Summary {
                 format!("{many}not found: declared after {t_s:.0} s{off}")
             }
             (RunOutcome::NotFound, None) => format!("not found in {mission_s:.0} s"),
-            (other, _) => format!("{} after {mission_s:.0} s", other.words()),
+            (other, _) => format!("{} after {mission_s:.0} s", other.label()),
         }
     }
 }

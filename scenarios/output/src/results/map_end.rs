@@ -32,7 +32,7 @@ pub struct MapEnd {
 impl MapEnd {
     /// From the last map (only it knows its cells), the robot's declarations and the true sources.
     #[must_use]
-    pub fn of(last: &Belief, declarations: &[Declaration], sources: &[SourceTruth]) -> Self {
+    pub fn from_belief(last: &Belief, declarations: &[Declaration], sources: &[SourceTruth]) -> Self {
         let (grid, probability) = (&last.grid, last.p[last.best]);
         let best = grid.centre(last.best).xy();
         let cells = |p: Vector2<f64>| {
@@ -95,7 +95,7 @@ mod tests {
         let s = source();
         // Cells of 27 by 24 m; the place is four cells away.
         let away = s.position.xy() + Vector2::new(60.0, -85.0);
-        let end = MapEnd::of(&sure_of(away, 0.99), &[declared(s.position.xy())], std::slice::from_ref(&s));
+        let end = MapEnd::from_belief(&sure_of(away, 0.99), &[declared(s.position.xy())], std::slice::from_ref(&s));
         let m = end.off_m.unwrap();
         assert!(m > 80.0 && end.off_cells.unwrap() >= 3.0, "{end:?}");
         let said = end.remark.unwrap();
@@ -104,7 +104,7 @@ mod tests {
             format!("the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared")
         );
         // Declared where the map says: only the truth disagrees.
-        let end = MapEnd::of(&sure_of(away, 0.99), &[declared(away)], std::slice::from_ref(&s));
+        let end = MapEnd::from_belief(&sure_of(away, 0.99), &[declared(away)], std::slice::from_ref(&s));
         let said = end.remark.unwrap();
         assert!(said.contains("from the source") && !said.contains("declared"), "{said}");
     }
@@ -113,8 +113,8 @@ mod tests {
     fn it_says_nothing_of_a_map_that_is_right_or_unsure() {
         let s = source();
         let (here, away) = (s.position.xy(), s.position.xy() + Vector2::new(60.0, -85.0));
-        assert_eq!(MapEnd::of(&sure_of(here, 0.99), &[declared(here)], std::slice::from_ref(&s)).remark, None);
-        assert_eq!(MapEnd::of(&sure_of(away, 0.5), &[], &[s]).remark, None);
-        assert_eq!(MapEnd::of(&sure_of(away, 0.99), &[], &[]).off_m, None);
+        assert_eq!(MapEnd::from_belief(&sure_of(here, 0.99), &[declared(here)], std::slice::from_ref(&s)).remark, None);
+        assert_eq!(MapEnd::from_belief(&sure_of(away, 0.5), &[], &[s]).remark, None);
+        assert_eq!(MapEnd::from_belief(&sure_of(away, 0.99), &[], &[]).off_m, None);
     }
 }

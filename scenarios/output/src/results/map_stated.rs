@@ -32,7 +32,7 @@ pub struct MapStated {
 impl MapStated {
     /// From a map and the true sources.
     #[must_use]
-    pub fn of(map: &Belief, at_declaration: bool, sources: &[SourceTruth]) -> Self {
+    pub fn from_belief(map: &Belief, at_declaration: bool, sources: &[SourceTruth]) -> Self {
         let best = map.grid.centre(map.best).xy();
         let any = |yes: &dyn Fn(&SourceTruth) -> bool| (!sources.is_empty()).then(|| sources.iter().any(yes));
         Self {
@@ -77,18 +77,18 @@ mod tests {
     fn the_cell_is_one_of_space_and_the_distance_one_of_the_plane() {
         let map = column();
         let middle = map.grid.centre(map.best);
-        let said = MapStated::of(&map, true, &[at(middle)]);
+        let said = MapStated::from_belief(&map, true, &[at(middle)]);
         assert_eq!((said.cell_p, said.near_p), (0.5, 1.0));
         assert_eq!((said.cell_true, said.near_true), (Some(true), Some(true)));
-        let above = MapStated::of(&map, true, &[at(middle + Vector3::new(0.0, 0.0, 5.0))]);
+        let above = MapStated::from_belief(&map, true, &[at(middle + Vector3::new(0.0, 0.0, 5.0))]);
         assert_eq!((above.cell_true, above.near_true), (Some(false), Some(true)));
         let beside = [4.9, 5.1].map(|m| {
-            let said = MapStated::of(&map, true, &[at(middle + Vector3::new(m, 0.0, 0.0))]);
+            let said = MapStated::from_belief(&map, true, &[at(middle + Vector3::new(m, 0.0, 0.0))]);
             (said.cell_true, said.near_true)
         });
         let no = Some(false);
         assert_eq!(beside, [(no, Some(true)), (no, no)]);
-        let none = MapStated::of(&map, false, &[]);
+        let none = MapStated::from_belief(&map, false, &[]);
         assert_eq!((none.cell_true, none.near_true), (None, None));
     }
 
@@ -96,7 +96,7 @@ mod tests {
     fn an_even_map_has_the_discs_share_of_its_area() {
         let mut map = column();
         map.p = Arc::new(vec![1.0 / map.p.len() as f64; map.p.len()]);
-        let said = MapStated::of(&map, true, &[]);
+        let said = MapStated::from_belief(&map, true, &[]);
         // A disc of 25π m² in 10⁴ m²; a part of a cell is 0.16 m², and some 60 of them lie on its edge.
         let disc = 25.0 * std::f64::consts::PI / 1e4;
         assert!((said.near_p / disc - 1.0).abs() < 0.02, "{}", said.near_p);

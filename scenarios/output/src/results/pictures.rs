@@ -112,7 +112,7 @@ impl Pictures {
             metres(p.x),
             metres(p.y),
             metres(p.z),
-            degrees(Heading::of(look.xy()).deg()),
+            degrees(Heading::from_vector(look.xy()).deg()),
             degrees(math::asin((-look.z).clamp(-1.0, 1.0)).to_degrees()),
             degrees(picture.view_rad.to_degrees()),
             metres(e.position.x),

@@ -287,7 +287,7 @@ pub struct Versions {
 }
 
 impl Versions {
-    pub(crate) fn of(rheotaxis: &str) -> Self {
+    pub(crate) fn with_version(rheotaxis: &str) -> Self {
         Self { rheotaxis: rheotaxis.to_string(), scenario: VERSION, rapier3d: RAPIER }
     }
 }

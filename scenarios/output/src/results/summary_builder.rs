@@ -122,7 +122,7 @@ impl Robot {
         let mut declarations: Vec<DeclarationSummary> = (score.declarations.iter())
             .map(|d| {
                 let [traced_m, fix_m] = self.made.get(&d.number).copied().unwrap_or_default();
-                DeclarationSummary { traced_m, fix_m, ..DeclarationSummary::of(d, sources) }
+                DeclarationSummary { traced_m, fix_m, ..DeclarationSummary::compare(d, sources) }
             })
             .collect();
         let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
@@ -134,10 +134,10 @@ impl Robot {
             sources_declared,
             declarations,
             regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
-            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &score.declarations, sources)),
+            map: (self.map.as_ref()).map(|last| MapEnd::from_belief(last, &score.declarations, sources)),
             map_stated: match (&self.map_declared, &self.map) {
-                (Some(map), _) => Some(MapStated::of(map, true, sources)),
-                (None, map) => (map.as_ref()).map(|last| MapStated::of(last, false, sources)),
+                (Some(map), _) => Some(MapStated::from_belief(map, true, sources)),
+                (None, map) => (map.as_ref()).map(|last| MapStated::from_belief(last, false, sources)),
             },
             regions: (self.regions.all.iter().zip(0..))
                 .map(|(region, k)| RegionSummary {
@@ -241,7 +241,7 @@ impl SummaryBuilder {
             success_rule: self.run.success.clone(),
             seed: self.run.seed.number(),
             key: self.run.seed.key().mark(),
-            versions: Versions::of(&self.run.version),
+            versions: Versions::with_version(&self.run.version),
             digest: end.digest.clone(),
             outcome: end.outcome,
             error: end.error.clone(),
@@ -251,7 +251,7 @@ impl SummaryBuilder {
                     id: s.id.clone(),
                     position: s.position.xy().into(),
                     depth_m: -s.position.z,
-                    flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
+                    flow_heading_deg: s.direction().map(|u| Heading::from_vector(u).deg()),
                 })
                 .collect(),
             robots: self.robots.iter().map(|r| r.summary(score(&r.id), sources)).collect(),

@@ -30,7 +30,7 @@ pub struct Bed {
 impl Bed {
     /// That of an area.
     #[must_use]
-    pub fn of(area: &Area, terrain: &Terrain) -> Self {
+    pub fn from_terrain(area: &Area, terrain: &Terrain) -> Self {
         let share = |k: usize| (1.0 + 2.0 * MARGIN) * (k as f64 / (POINTS - 1) as f64 - 0.5);
         let at = |i: usize, j: usize| {
             let local = Vector2::new(share(i) * area.length_m, share(j) * area.width_m);
@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn the_bed_covers_more_than_the_area_and_looks_up() {
         let (area, terrain) = (sample::area(), sample::terrain());
-        let bed = Bed::of(&area, &terrain);
+        let bed = Bed::from_terrain(&area, &terrain);
         assert_eq!(bed.points.len(), bed.rows * bed.columns);
         let mut covered_m2 = 0.0;
         for [a, b, c] in bed.triangles().iter().map(|t| t.map(|k| bed.points[k])) {
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn deeper_is_darker_and_a_level_bed_has_one_colour() {
-        let bed = Bed::of(&sample::area(), &sample::terrain());
+        let bed = Bed::from_terrain(&sample::area(), &sample::terrain());
         let mut of_depth: Vec<(f64, f32)> =
             (bed.points.iter().zip(bed.colours())).map(|(p, [r, g, b, _])| (-p.z, r + g + b)).collect();
         of_depth.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -133,7 +133,7 @@ mod tests {
         // The surface for ROS reaches as far: a multiple of the stride lies between the first and the last point.
         let ends = |b: &Bed| [b.points[0], b.points[b.points.len() - 1]];
         assert_eq!(ends(&bed.coarse()), ends(&bed));
-        let level = Bed::of(&sample::area(), &Terrain::Level { depth_m: 5.0 });
+        let level = Bed::from_terrain(&sample::area(), &Terrain::Level { depth_m: 5.0 });
         let colours = level.colours();
         assert!(colours.iter().all(|c| *c == colours[0]));
     }

@@ -90,7 +90,7 @@ fn shape(look: &Look) -> Value {
             json!({"kind": "mesh", "vertices_m": points(points_m, Vector3::zeros()), "triangles": ""})
         }
         Form::Mesh(triangles) => {
-            let (vertices, triangles) = mesh(&Mesh::of(triangles), Vector3::zeros());
+            let (vertices, triangles) = mesh(&Mesh::from_triangles(triangles), Vector3::zeros());
             json!({"kind": "mesh", "vertices_m": vertices, "triangles": triangles})
         }
     };
@@ -152,7 +152,7 @@ mod tests {
 
     fn document(scenario: &str) -> Value {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
-        let scene = Scene::of(&load(&path).unwrap()).unwrap();
+        let scene = Scene::from_scenario(&load(&path).unwrap()).unwrap();
         serde_json::from_str(&scene.document(7)).unwrap()
     }
 

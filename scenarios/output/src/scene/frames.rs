@@ -94,7 +94,7 @@ mod tests {
     fn machine(scenario: &str) -> Machine {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
         let loaded = load(&path).unwrap();
-        Scene::of(&loaded).unwrap().machines[0].clone()
+        Scene::from_scenario(&loaded).unwrap().machines[0].clone()
     }
 
     /// Pose of a frame in `map`, by the chain of its parents.

@@ -18,7 +18,7 @@ pub struct Mesh {
 impl Mesh {
     /// Of triangles, with equal corners joined, and made coarser if there are more than [`MOST_TRIANGLES`].
     #[must_use]
-    pub fn of(triangles: &[[Vector3<f64>; 3]]) -> Self {
+    pub fn from_triangles(triangles: &[[Vector3<f64>; 3]]) -> Self {
         Self::limited(triangles, MOST_TRIANGLES)
     }
 
@@ -88,10 +88,10 @@ mod tests {
     #[test]
     fn small_surfaces_keep_every_corner_once() {
         let corner = |k: u8| Vector3::new(f64::from(k % 2), f64::from(k / 2 % 2), f64::from(k / 4));
-        let mesh = Mesh::of(&[[0, 1, 2].map(corner), [1, 3, 2].map(corner)]);
+        let mesh = Mesh::from_triangles(&[[0, 1, 2].map(corner), [1, 3, 2].map(corner)]);
         assert_eq!(mesh.vertices.len(), 4);
         assert_eq!(mesh.triangles, [[0, 1, 2], [1, 3, 2]]);
-        assert_eq!(Mesh::of(&[]), Mesh::default());
+        assert_eq!(Mesh::from_triangles(&[]), Mesh::default());
     }
 
     #[test]

@@ -69,7 +69,7 @@ impl Scene {
     ///
     /// # Errors
     /// If the run could not be assembled: files of obstacles, vehicles or gantries are missing or wrong.
-    pub fn of(loaded: &Loaded) -> Result<Self, AssembleError> {
+    pub fn from_scenario(loaded: &Loaded) -> Result<Self, AssembleError> {
         let scenario = &loaded.scenario;
         let area = scenario.area.build();
         let terrain = scenario.terrain.build(&area);
@@ -98,7 +98,7 @@ impl Scene {
             scenario: loaded.name.clone(),
             title: scenario.title.clone(),
             corners: area.corners().to_vec(),
-            bed: Bed::of(&area, &terrain),
+            bed: Bed::from_terrain(&area, &terrain),
             surface: scenario.gantries.is_empty(),
             solids: solids(scenario, &loaded.base_dir)?,
             sources: sources.collect(),
@@ -135,7 +135,7 @@ fn solids(scenario: &Scenario, base_dir: &Path) -> Result<Vec<Solid>, AssembleEr
             true => PERMEABLE,
             false => ROCK,
         };
-        Ok(Solid { mesh: Mesh::of(&obstacle.triangles()), name: obstacle.id, colour })
+        Ok(Solid { mesh: Mesh::from_triangles(&obstacle.triangles()), name: obstacle.id, colour })
     };
     scenario.obstacles.iter().map(solid).collect()
 }

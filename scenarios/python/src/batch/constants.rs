@@ -26,7 +26,7 @@ pub(super) struct BatchConstants {
 
 impl BatchConstants {
     /// Reads all environments.
-    pub(super) fn of(rules: &Rules, groups: &[Group]) -> Self {
+    pub(super) fn from_groups(rules: &Rules, groups: &[Group]) -> Self {
         let n = rules.agents.len();
         let mut told = Self {
             seen: vec![Vec::new(); n],
@@ -47,7 +47,7 @@ impl BatchConstants {
             told.truncated.push(env.state == State::Truncated);
             told.success.push(env.success);
             told.t_s.push(env.t_s);
-            told.outcomes.push(env.outcome.map(|o| o.words()));
+            told.outcomes.push(env.outcome.map(|o| o.label()));
             told.digests.push(env.digest.clone());
         }
         told

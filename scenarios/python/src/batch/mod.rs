@@ -135,7 +135,7 @@ impl Batch {
             return refused(format!("there are at most {MOST} environments in a batch, got {n}"));
         }
         let agents = apart(py, || {
-            let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 1);
+            let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 1);
             let ocean = origin.build(&loaded.base_dir).map_err(other)?;
             take_over(&mut loaded, &ocean, period_s).map_err(other)
         })?;
@@ -244,7 +244,7 @@ impl Batch {
     fn look<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let told = apart(py, || {
             let inside = self.inside.lock().unwrap_or_else(PoisonError::into_inner);
-            Ok(BatchConstants::of(&self.rules, &inside.groups))
+            Ok(BatchConstants::from_groups(&self.rules, &inside.groups))
         })?;
         told.dict(py)
     }

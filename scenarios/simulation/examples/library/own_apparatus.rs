@@ -56,7 +56,7 @@ fn measure(clock: Res<Clock>, ocean: Res<Ocean>, mut buoys: Query<&mut Moored>, 
     let t_s = clock.t_s();
     for mut buoy in &mut buoys {
         if buoy.every.due(&clock) {
-            let now_kg_m3 = ocean.dye(t_s).at(&buoy.p_W);
+            let now_kg_m3 = ocean.dye(t_s).concentration(&buoy.p_W);
             buoy.readings += 1;
             buoy.mean_kg_m3 += (now_kg_m3 - buoy.mean_kg_m3) / buoy.readings as f64;
             let value = json!({ "t_s": t_s, "dye_kg_m3": now_kg_m3 });

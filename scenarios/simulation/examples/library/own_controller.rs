@@ -46,7 +46,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut trial = Trial::assemble(&scenario, 1)?;
     trial.control("auv0", decide)?;
     let ended = trial.finish_quietly();
-    println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
+    println!("{} after {:.0} s", ended.outcome.label(), ended.t_s);
     for declared in ended.declarations.values().flatten() {
         println!("declared at {:.0} m east", declared.position.x);
     }

@@ -83,7 +83,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let went_m = 150.0 - robot.truth.pose.p_WB.x;
     println!("{}: {went_m:.0} m up-stream in a minute", robot.behaviour.name());
     let ended = trial.run(&mut rheotaxis::trial::Unwatched);
-    println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
+    println!("{} after {:.0} s", ended.outcome.label(), ended.t_s);
     if went_m < 30.0 {
         return Err("the strategy did not take the vehicle up-stream".into());
     }

@@ -12,7 +12,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scenario = load(Path::new("uniform_channel"))?;
     // The seed is 1. The same seed gives the same run, bit by bit.
     let ended = Trial::assemble(&scenario, 1)?.finish_quietly();
-    println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
+    println!("{} after {:.0} s", ended.outcome.label(), ended.t_s);
     for declared in ended.declarations.values().flatten() {
         let place = declared.position;
         println!("declared at {:.1} m east, {:.1} m north by {}", place.x, place.y, declared.rule);

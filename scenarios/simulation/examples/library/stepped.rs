@@ -38,7 +38,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let searcher = &score.searchers[0];
     println!(
         "{}: {:.0} m travelled, {} detections, {:.1} m from a source at the closest",
-        trial.ended().outcome.words(),
+        trial.ended().outcome.label(),
         searcher.travelled_m,
         searcher.detections,
         score.closest_m()

@@ -125,7 +125,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
             SearcherParts {
                 strategy,
                 name: spec.strategy.name(),
-                bounds: Bounds::of(spec.strategy.is_own()),
+                bounds: Bounds::for_origin(spec.strategy.is_own()),
                 rng: Box::new(Stream::new(seed, id, "strategy")),
             },
             Briefing { area: setting.area, home: fix, able },

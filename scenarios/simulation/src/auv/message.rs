@@ -97,7 +97,7 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Vec<(
         let corners = corners.map(|p| [p.x, p.y]);
         doing = merged(doing, json!({"region": k, "region_name": region_name(k), "region_m": corners}));
     }
-    let wrong: Vec<String> = (abnormal.iter()).filter(|a| a.robot == r.id && !a.over).map(Incident::words).collect();
+    let wrong: Vec<String> = (abnormal.iter()).filter(|a| a.robot == r.id && !a.over).map(Incident::describe).collect();
     if !wrong.is_empty() {
         doing = merged(doing, json!({ "abnormal": wrong }));
     }

@@ -43,7 +43,7 @@ pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Reply, String> 
 /// An answer as [`read_answer`] reads it, to the last bit.
 #[must_use]
 pub fn answer_json(answer: &Reply) -> Value {
-    let mut value = serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written");
+    let mut value = serde_json::to_value(AnswerForm::from_reply(answer)).expect("numbers and names can be written");
     drop_nulls(&mut value);
     value
 }
@@ -110,7 +110,7 @@ impl AnswerForm {
         })
     }
 
-    fn of(answer: &Reply) -> Self {
+    fn from_reply(answer: &Reply) -> Self {
         let mut form = Self {
             behaviour: answer.behaviour.map(|b: Behaviour| b.name().to_string()),
             declare: answer.declared.map(|d| DeclareForm {
@@ -126,7 +126,7 @@ impl AnswerForm {
             ..Self::default()
         };
         match &answer.order {
-            Some(MotionOrder::Move(order)) => form.put(order),
+            Some(MotionOrder::Move(order)) => form.set_order(order),
             Some(MotionOrder::Head(order)) => {
                 form.head = Some(HeadForm {
                     target_m: order.target_m.into(),
@@ -140,7 +140,7 @@ impl AnswerForm {
         form
     }
 
-    fn put(&mut self, order: &MoveOrder) {
+    fn set_order(&mut self, order: &MoveOrder) {
         let [depth_m, altitude_m] = heights(order.vertical);
         let (id, speed_m_s) = (order.id, order.speed_m_s);
         let manoeuvre = match &order.manoeuvre {

@@ -45,7 +45,7 @@ pub fn markdown(more: &[FileKind]) -> String {
 
 fn reference(more: &[FileKind]) -> Reference {
     let kinds: Vec<FileKind> = [kind::VEHICLE].iter().chain(more).copied().collect();
-    Reference::of(&schema::schema(&kinds))
+    Reference::from_schema(&schema::schema(&kinds))
 }
 
 /// The JSON Schema of a scenario, for `docs/scenario.schema.json`.

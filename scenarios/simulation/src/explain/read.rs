@@ -100,7 +100,7 @@ pub(super) struct Variant {
 
 impl Reference {
     /// From a schema.
-    pub(super) fn of(schema: &Value) -> Self {
+    pub(super) fn from_schema(schema: &Value) -> Self {
         let named = |schema: &Value| Named { what: what(schema), shape: shape(schema) };
         let types = schema["$defs"].as_object().into_iter().flatten();
         let Named { what, shape: root } = named(schema);

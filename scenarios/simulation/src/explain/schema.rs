@@ -33,14 +33,14 @@ pub(super) fn schema(kinds: &[FileKind]) -> Value {
     if let Some(types) = read.get_mut("$defs").and_then(Value::as_object_mut) {
         for (name, schema) in types {
             if let Some(schema) = schema.as_object_mut() {
-                sources::put(name, schema);
-                units::put(name, schema);
+                sources::add_sources(name, schema);
+                units::add_units(name, schema);
             }
         }
     }
     if let Some(whole) = read.as_object_mut() {
         whole.insert("title".into(), "A scenario of rheotaxis".into());
-        units::put("Scenario", whole);
+        units::add_units("Scenario", whole);
     }
     sorted(read)
 }

@@ -18,7 +18,7 @@ const FIELDS: &[(&str, &[Entry])] = &[
 ];
 
 /// Puts the sources of a type's fields or variants into its schema.
-pub(super) fn put(name: &str, schema: &mut Object) {
+pub(super) fn add_sources(name: &str, schema: &mut Object) {
     if let Some(Value::Array(variants)) = schema.get_mut("oneOf") {
         for variant in variants.iter_mut().filter_map(Value::as_object_mut) {
             let Some(name) = super::read::variant_name(variant) else {

@@ -75,7 +75,7 @@ const VARIANTS: &[(&str, &str, &str)] = &[
 ];
 
 /// Puts units into the schema of a type.
-pub(super) fn put(of: &str, schema: &mut Object) {
+pub(super) fn add_units(of: &str, schema: &mut Object) {
     if let Some(Value::Object(fields)) = schema.get_mut("properties") {
         for (name, field) in fields {
             if let Some(unit) = of_field(of, name) {

@@ -32,17 +32,17 @@ pub struct NewestReadings {
 impl NewestReadings {
     /// The newest readings of all instruments are those of `readings`, as far as there are any.
     pub(crate) fn hear(&mut self, t_s: f64, readings: &Readings) {
-        fn put<T: Clone>(newest: &mut Option<TimedReading<T>>, t_s: f64, read: Option<&T>) {
+        fn replace<T: Clone>(newest: &mut Option<TimedReading<T>>, t_s: f64, read: Option<&T>) {
             if let Some(value) = read.cloned() {
                 *newest = Some(TimedReading { t_s, value });
             }
         }
-        put(&mut self.dvl, t_s, readings.dvl.as_ref());
-        put(&mut self.adcp, t_s, readings.adcp.as_ref());
-        put(&mut self.attitude, t_s, readings.attitude.as_ref());
-        put(&mut self.depth, t_s, readings.depth.as_ref());
-        put(&mut self.altimeter, t_s, readings.altimeter.as_ref());
-        put(&mut self.ranging, t_s, readings.ranging.as_ref());
+        replace(&mut self.dvl, t_s, readings.dvl.as_ref());
+        replace(&mut self.adcp, t_s, readings.adcp.as_ref());
+        replace(&mut self.attitude, t_s, readings.attitude.as_ref());
+        replace(&mut self.depth, t_s, readings.depth.as_ref());
+        replace(&mut self.altimeter, t_s, readings.altimeter.as_ref());
+        replace(&mut self.ranging, t_s, readings.ranging.as_ref());
     }
 
     /// Fills what is missing with earlier readings, for whoever leaves out a frame.

@@ -73,7 +73,7 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
         Searcher {
             strategy,
             name: block.tracker.name(),
-            bounds: Bounds::of(block.tracker.is_own()),
+            bounds: Bounds::for_origin(block.tracker.is_own()),
             rng: Stream::new(seed, id, "tracker"),
             stopped_s: None,
         },

@@ -22,7 +22,8 @@ struct FaultEpisode {
 impl FaultLog {
     /// Those of a robot; steps take `dt_s`.
     pub(crate) fn new(faults: &[FaultSpec], dt_s: f64) -> Self {
-        let told = |fault: &FaultSpec| FaultEpisode { span: fault.span(dt_s), words: fault.what.words(), event: None };
+        let told =
+            |fault: &FaultSpec| FaultEpisode { span: fault.span(dt_s), words: fault.what.describe(), event: None };
         Self(faults.iter().map(told).collect())
     }
 

@@ -72,7 +72,7 @@ impl IncidentKind {
 
     /// In words, for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::LeftArea => "left the area",
             Self::NoBottomLock => "no bottom lock",
@@ -132,10 +132,10 @@ pub struct Incident {
 impl Incident {
     /// What is wrong, in words.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         match &self.fault {
-            Some(fault) => format!("{}: {fault}", self.what.words()),
-            None => self.what.words().to_string(),
+            Some(fault) => format!("{}: {fault}", self.what.label()),
+            None => self.what.label().to_string(),
         }
     }
 
@@ -148,7 +148,7 @@ impl Incident {
             (false, s) if s >= 1.0 => format!(", for {s:.0} s and still so"),
             (false, _) => String::new(),
         };
-        format!("{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}", self.words(), self.t_s, p.x, p.y, -p.z)
+        format!("{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}", self.describe(), self.t_s, p.x, p.y, -p.z)
     }
 }
 

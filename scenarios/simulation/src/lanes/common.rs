@@ -107,7 +107,7 @@ impl Common {
         Ok(Self {
             robots: Machines::new(&mut world, robots),
             gantries: Machines::new(&mut world, gantries),
-            trial: Trial::of(scenario, Simulation::of(world, tick, origin.clone()), Vec::new()),
+            trial: Trial::from_simulation(scenario, Simulation::from_world(world, tick, origin.clone()), Vec::new()),
         })
     }
 
@@ -134,7 +134,7 @@ impl Common {
         parts.exchange(world);
         let mut rosters = Rosters::default();
         rosters.exchange(world);
-        let fleet = Fleet::of(&loaded.scenario);
+        let fleet = Fleet::from_scenario(&loaded.scenario);
         let launched = caught(|| launch(world, &fleet, &loaded.scenario, &loaded.base_dir, seed));
         rosters.exchange(world);
         parts.exchange(world);

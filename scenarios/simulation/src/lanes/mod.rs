@@ -6,11 +6,11 @@
 //! run that [`Trial`] makes alone, bit by bit. A lane that ends early, fails or panics does not touch the others.
 //!
 //! ```no_run
-//! # use rheotaxis::{lanes::{Lanes, LaneError, alike}, scenario::{cost, load}, trial::Unwatched};
+//! # use rheotaxis::{lanes::{Lanes, LaneError, group_by_ocean}, scenario::{cost, load}, trial::Unwatched};
 //! # use world::seeds::Seed;
 //! let arms = [load("a.ron".as_ref())?, load("b.ron".as_ref())?];
 //! let runs: Vec<_> = arms.iter().map(|arm| (arm, Seed::from(7))).collect();
-//! for group in alike(&runs, cost::limit()) {
+//! for group in group_by_ocean(&runs, cost::limit()) {
 //!     let mut lanes = Lanes::default();
 //!     for n in group {
 //!         lanes.add(runs[n].0, runs[n].1, || Ok::<_, LaneError>(Unwatched))?;
@@ -20,17 +20,17 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod alike;
 mod caught;
 mod common;
+mod course;
 mod run;
 mod shared;
 #[cfg(test)]
 mod tests;
 
-pub use alike::alike;
 pub use caught::caught;
 pub use common::Worlds;
+pub use course::group_by_ocean;
 pub use shared::{Shared, Standing};
 
 use crate::assemble::Simulation;
@@ -40,8 +40,8 @@ use crate::ocean::{Mismatch, Ocean, Origin, SpunUp};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
 use crate::trial::{Trial, Watch};
-use alike::Course;
 use bevy_ecs::prelude::World;
+use course::Course;
 use world::frames::NOT_FINITE;
 use world::seeds::Seed;
 
@@ -109,7 +109,7 @@ impl<W: Watch> Lanes<W> {
         watch: impl FnOnce() -> Result<W, E>,
     ) -> Result<(), E> {
         assert!(!self.spun_up, "lanes are added before the spin-up");
-        let course = Course::of(&loaded.scenario, &loaded.base_dir, seed.into());
+        let course = Course::from_scenario(&loaded.scenario, &loaded.base_dir, seed.into());
         if let Some(block) = self.course.as_ref().and_then(|ours| ours.unlike(&course)) {
             return Err(LaneError::Unlike(block).into());
         }
@@ -151,8 +151,8 @@ impl<W: Watch> Lanes<W> {
         });
         self.ocean = taken(&mut world);
         let tick = tick.map_err(panicked)??;
-        let simulation = Simulation::of(world, tick, course.origin.clone());
-        Ok(Trial::of(&loaded.scenario, simulation, sources))
+        let simulation = Simulation::from_world(world, tick, course.origin.clone());
+        Ok(Trial::from_simulation(&loaded.scenario, simulation, sources))
     }
 
     /// Takes over the spin-up of another run instead of one of its own. The state is copied.

@@ -49,7 +49,7 @@ impl Runs {
     }
 
     /// Empties a place, or puts a run into it.
-    pub(super) fn put(&mut self, place: usize, run: Option<Run>) {
+    pub(super) fn set(&mut self, place: usize, run: Option<Run>) {
         if self.within == Some(place) {
             self.vacate();
         }

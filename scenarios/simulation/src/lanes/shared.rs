@@ -72,7 +72,7 @@ impl Shared {
         kept: Option<&SpunUp>,
     ) -> Result<Self, LaneError> {
         let loaded = &worlds.loaded;
-        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+        let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, seed);
         let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
         let mut ocean = built?;
         ocean.step_at_most(loaded.scenario.time.drift_period_s.get());
@@ -99,7 +99,7 @@ impl Shared {
     /// # Errors
     /// If it cannot be built.
     pub fn spin_up(loaded: &Loaded, seed: impl Into<Seed>) -> Result<SpunUp, LaneError> {
-        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+        let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, seed);
         let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
         let mut ocean = built?;
         ocean.spin_up(|_| true);
@@ -112,7 +112,7 @@ impl Shared {
     /// # Errors
     /// If it cannot be assembled, or panics; the place is then empty.
     pub fn begin(&mut self, place: usize, seed: impl Into<Seed>) -> Result<Vec<Question>, LaneError> {
-        self.runs.put(place, None);
+        self.runs.set(place, None);
         let kept = self.hold()?;
         self.runs.vacate();
         let begun = self.begun(place, seed.into());
@@ -131,7 +131,7 @@ impl Shared {
             None => LaneSlot::Own(Box::new(self.assembled(seed)?)),
         };
         let run = Run { seat, at: At::Acted, failed: None };
-        self.runs.put(place, Some(run));
+        self.runs.set(place, Some(run));
         let step = self.clock.step;
         let asked = self.turn(place, |trial| {
             trial.begin_at(step);
@@ -139,7 +139,7 @@ impl Shared {
         });
         if let Some(said) = self.failure(place) {
             let said = said.to_string();
-            self.runs.put(place, None);
+            self.runs.set(place, None);
             return Err(LaneError::Panicked(said));
         }
         self.stands(place, asked.as_ref().map_or(At::Over, |(at, _)| *at));
@@ -170,8 +170,8 @@ impl Shared {
         let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
         self.ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
-        let simulation = Simulation::of(world, tick, self.origin.clone());
-        Ok(Trial::of(scenario, simulation, sources))
+        let simulation = Simulation::from_world(world, tick, self.origin.clone());
+        Ok(Trial::from_simulation(scenario, simulation, sources))
     }
 
     /// Takes a world in which the runs take turns, unless each has one of its own. Returns whether it was there before.
@@ -193,7 +193,7 @@ impl Shared {
 
     /// Ends the run in a place before its time.
     pub fn leave(&mut self, place: usize) {
-        self.runs.put(place, None);
+        self.runs.set(place, None);
     }
 
     /// Steps the ocean and all runs until some of them ask; returns the questions, by place. Those left open by the

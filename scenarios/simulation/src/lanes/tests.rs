@@ -1,6 +1,6 @@
 //! Lanes that fail, panic or stop, and what can be in lanes at all.
 
-use super::{LaneError, Lanes, alike};
+use super::{LaneError, Lanes, group_by_ocean};
 use crate::error::AssembleError;
 use crate::extend::{Extend, Systems};
 use crate::outcome::RunOutcome;
@@ -182,7 +182,7 @@ fn a_lane_of_another_ocean_is_refused_by_what_differs() {
         let refused = lanes.add(&other, seed, watch).expect_err("another ocean");
         assert!(matches!(&refused, LaneError::Unlike(what) if what == block), "{refused}");
         let runs = [(&base, seed), (&other, seed), (&base, seed)];
-        assert_eq!(alike(&runs, cost::MEMORY), [vec![0, 2], vec![1]]);
+        assert_eq!(group_by_ocean(&runs, cost::MEMORY), [vec![0, 2], vec![1]]);
     }
     let mut lanes = Lanes::default();
     let watch = || Ok::<_, LaneError>(Unwatched);
@@ -190,7 +190,7 @@ fn a_lane_of_another_ocean_is_refused_by_what_differs() {
     let refused = lanes.add(&base, 8, watch).expect_err("another seed");
     assert!(refused.to_string().contains("`seed` differs"), "{refused}");
     let other = [(&base, seed), (&base, Seed::from(8))];
-    assert_eq!(alike(&other, cost::MEMORY), [vec![0], vec![1]]);
+    assert_eq!(group_by_ocean(&other, cost::MEMORY), [vec![0], vec![1]]);
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn lanes_share_the_memory_that_a_run_may_use() {
     let one = cost::cost(&base.scenario).bytes();
     let lane = cost::of_lane(&base.scenario).bytes();
     assert!(lane > 0.0 && lane < one);
-    let sizes = |bytes: f64| -> Vec<usize> { alike(&runs, bytes).iter().map(Vec::len).collect() };
+    let sizes = |bytes: f64| -> Vec<usize> { group_by_ocean(&runs, bytes).iter().map(Vec::len).collect() };
     assert_eq!(sizes(one + 4.5 * lane), [5]);
     assert_eq!(sizes(one + 1.5 * lane), [2, 2, 1]);
     // What does not fit by itself was refused when it was read; here it goes alone.

@@ -42,7 +42,7 @@ pub struct Origin {
 
 impl Origin {
     /// The origin of a run of a scenario; paths are relative to `base_dir`.
-    pub fn of(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Self {
+    pub fn from_scenario(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Self {
         let files = scenario.obstacles.iter().filter_map(ObstacleSpec::file);
         let time = &scenario.time;
         Self {

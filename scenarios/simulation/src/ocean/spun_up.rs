@@ -85,7 +85,7 @@ pub enum Mismatch {
     #[error("the state was spun up with another `{0}`: runs may share a spin-up only if this is the same")]
     Block(String),
     /// Another seed or another key, which gives another plume.
-    #[error("the state was spun up with seed {}, this run has seed {}", theirs.told(), ours.told())]
+    #[error("the state was spun up with seed {}, this run has seed {}", theirs.describe(), ours.describe())]
     Seed {
         /// The seed of the spin-up.
         theirs: Seed,

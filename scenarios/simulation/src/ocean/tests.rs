@@ -119,10 +119,10 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
     let mut seen = std::collections::BTreeSet::new();
     for name in ["reef_mesh", "harbour_3d", "duck_mt", "dalian_bay", "flume_crab", "wp_turbulent"] {
         let loaded = load(Path::new(name)).unwrap();
-        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 7);
+        let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 7);
         let whole = serde_json::to_value(&loaded.scenario).unwrap();
         let as_it_is: Scenario = serde_json::from_value(whole.clone()).unwrap();
-        let same = Origin::of(&as_it_is, &loaded.base_dir, 7);
+        let same = Origin::from_scenario(&as_it_is, &loaded.base_dir, 7);
         assert_eq!(origin.unlike(&same), None, "{name}");
         for (path, others) in varied::<Scenario>(&whole) {
             let block = block(&path);
@@ -132,7 +132,7 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
                 "{block}: say whether water or plume follow from it; if they do, Origin needs it"
             );
             for other in others.iter().filter(|other| **other != as_it_is) {
-                let unlike = origin.unlike(&Origin::of(other, &loaded.base_dir, 7));
+                let unlike = origin.unlike(&Origin::from_scenario(other, &loaded.base_dir, 7));
                 assert_eq!(unlike.is_some(), counts, "{name}: {path} counts: {unlike:?}");
                 // A file of another name is named as what is missing, not as where it is asked for.
                 let named = unlike.is_none_or(|u| u == block || (block == "obstacles" && u == "files"));
@@ -149,7 +149,7 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
 #[test]
 fn every_field_of_an_origin_counts() {
     let loaded = load(Path::new("reef_mesh")).unwrap();
-    let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 7);
+    let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 7);
     let whole = serde_json::to_value(&origin).unwrap();
     let mut varied_blocks = std::collections::BTreeSet::new();
     for (path, others) in varied::<Origin>(&whole) {
@@ -171,7 +171,7 @@ fn a_file_of_the_same_name_with_other_contents_is_another_ocean() {
     let loaded = load(Path::new("reef_mesh")).unwrap();
     let file = loaded.scenario.obstacles.iter().find_map(ObstacleSpec::file).unwrap();
     let dir = tempfile::tempdir().unwrap();
-    let origin = |base: &Path| Origin::of(&loaded.scenario, base, 7);
+    let origin = |base: &Path| Origin::from_scenario(&loaded.scenario, base, 7);
     let theirs = origin(&loaded.base_dir);
     assert_eq!(theirs.unlike(&origin(dir.path())).as_deref(), Some("files"));
     let copy = dir.path().join(file);

@@ -6,10 +6,10 @@ use super::outline::Outline;
 ///
 /// # Errors
 /// What is wrong with path or value. Whether the scenario allows the value is for its reader to say.
-pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
+pub fn set_value(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = value.trim();
     whole(value)?;
-    let outline = Outline::of(text);
+    let outline = Outline::scan(text);
     let exact = outline.nodes.iter().rev().find(|n| n.path == path && !path.is_empty());
     if let Some(node) = exact {
         let mut changed = text.to_string();
@@ -63,7 +63,7 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
 
 /// A value must be one RON value: it must not end the field and begin another.
 fn whole(value: &str) -> Result<(), String> {
-    let outline = Outline::of(value);
+    let outline = Outline::scan(value);
     let one = outline.open.is_empty()
         && (outline.nodes.last()).is_some_and(|n| n.path.is_empty() && n.whole == (0..value.len()))
         && !value.contains("//")
@@ -80,19 +80,19 @@ mod tests {
 
     #[test]
     fn values_are_replaced_in_place() {
-        let beta = put(TEXT, "robots[0].strategy.track_in.beta_deg", "45").unwrap();
+        let beta = set_value(TEXT, "robots[0].strategy.track_in.beta_deg", "45").unwrap();
         assert_eq!(beta, TEXT.replace("20", "45"));
-        let depth = put(TEXT, "robots[0].start.v", "Altitude(3)").unwrap();
+        let depth = set_value(TEXT, "robots[0].start.v", "Altitude(3)").unwrap();
         assert_eq!(depth, TEXT.replace("Depth(2.0)", "Altitude(3)"));
     }
 
     #[test]
     fn fields_left_to_their_default_are_added() {
-        let step = put(TEXT, "time.step_s", "0.02").unwrap();
+        let step = set_value(TEXT, "time.step_s", "0.02").unwrap();
         assert_eq!(step, TEXT.replace("limit_s: 5", "limit_s: 5, step_s: 0.02"));
-        let mass = put(TEXT, "robots[0].body.mass.kg", "30").unwrap();
+        let mass = set_value(TEXT, "robots[0].body.mass.kg", "30").unwrap();
         assert_eq!(mass, TEXT.replace("Remus()", "Remus(mass: (kg: 30))"));
-        let title = put(TEXT, "title", "\"t\"").unwrap();
+        let title = set_value(TEXT, "title", "\"t\"").unwrap();
         assert_eq!(title, TEXT.replace("(limit_s: 5)", "(limit_s: 5), title: \"t\""));
     }
 
@@ -108,7 +108,7 @@ mod tests {
             ("time.limit_s", "(1", "is not one RON value"),
             ("time.limit_s", "", "is not one RON value"),
         ] {
-            let said = put(TEXT, path, value).unwrap_err();
+            let said = set_value(TEXT, path, value).unwrap_err();
             assert!(said.contains(problem), "{path} {value}: {said}");
         }
     }

@@ -237,7 +237,7 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
     let path = format!("robots[{i}]");
     match Vehicle::load(&robot.vehicle, &FolderFiles(base_dir)) {
         Ok(vehicle) => {
-            for told in vehicle.told() {
+            for told in vehicle.doubts() {
                 let field = match vehicle {
                     Vehicle::Described(_) => format!("{path}.vehicle"),
                     _ => format!("{path}.vehicle.urdf"),

@@ -55,7 +55,7 @@ fn worked_out(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain
     let t = &scenario.time;
     let (spin_up_s, limit_s, step_s) = (t.spin_up_s.get(), t.limit_s.get(), t.step_s.get());
     let shape = scenario.water.grid_shape(area, terrain.deepest_m());
-    let sharpest = SharpestMixing::of(water, area, terrain, &shape, spin_up_s + limit_s);
+    let sharpest = SharpestMixing::sharpest(water, area, terrain, &shape, spin_up_s + limit_s);
     let drift_s = Every::period(t.drift_period_s.get(), step_s).period_s(step_s);
     for (field, dt_s, lasts_s) in
         [("drift_period_s", drift_s, limit_s), ("spin_up_period_s", t.spin_up_period_s.get().min(spin_up_s), spin_up_s)]
@@ -70,7 +70,7 @@ fn worked_out(scenario: &Scenario, water: &Water, area: &Area, terrain: &Terrain
         let whole = |s: f64| (s / step_s).floor() * step_s;
         let longest_s = sharpest.longest_step_s(dt_s, lasts_s).map(whole);
         let longest_s = longest_s.filter(|s| *s > 0.0).map(below);
-        found.push(told(field, dt_s, step_s, lasts_s, &uneven, longest_s));
+        found.push(findings(field, dt_s, step_s, lasts_s, &uneven, longest_s));
     }
     found
 }
@@ -88,7 +88,14 @@ fn below(s: f64) -> f64 {
     (s * scale + 1e-6).floor() / scale
 }
 
-fn told(field: &str, dt_s: f64, step_s: f64, lasts_s: f64, uneven: &Uneven, longest_s: Option<f64>) -> UnplacedFault {
+fn findings(
+    field: &str,
+    dt_s: f64,
+    step_s: f64,
+    lasts_s: f64,
+    uneven: &Uneven,
+    longest_s: Option<f64>,
+) -> UnplacedFault {
     let percent = |part: f64| (100.0 * part - 1e-9).ceil();
     let cure = match longest_s {
         Some(s) => format!("at most {s} s keeps it within {} %", percent(EVEN)),

@@ -63,7 +63,7 @@ pub fn cost(scenario: &Scenario) -> Cost {
 fn of_ocean(scenario: &Scenario) -> Cost {
     let (area, times) = (scenario.area.build(), times(scenario));
     let program = Part::new("", "the program and its figures");
-    let mut cost = Cost::of(program.holds(PROGRAM.0).takes(PROGRAM.1));
+    let mut cost = Cost::single(program.holds(PROGRAM.0).takes(PROGRAM.1));
     cost.add(scenario.water.cost(&area, depth_m(scenario), &times));
     let carries_m_s = scenario.water.carries_m_s();
     for (i, source) in scenario.sources.iter().enumerate() {
@@ -105,7 +105,7 @@ fn robot_cost(robot: &RobotSpec, scenario: &Scenario, depth_m: f64, waves: f64, 
     let area = scenario.area.build();
     let steps = times.mission_s / times.step_s;
     let hull = Part::new("", format!("{steps:.1e} steps of a vehicle"));
-    let mut cost = Cost::of(hull.takes(steps * (VEHICLE_S[0] + waves * VEHICLE_S[1])));
+    let mut cost = Cost::single(hull.takes(steps * (VEHICLE_S[0] + waves * VEHICLE_S[1])));
     let looks = robot.strategy.flies_for().contains(&true);
     let obstacles = scenario.obstacles.len();
     cost.add(robots::sense::cost(&robot.sensors, obstacles, looks, times).under("sensors"));

@@ -44,7 +44,7 @@ pub enum ScenarioError {
 impl ScenarioError {
     /// One or more mistakes of one text, put in the order of the text.
     #[must_use]
-    pub fn of(path: &str, mut faults: Vec<Fault>) -> Self {
+    pub fn from_faults(path: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|f| (f.line, f.column));
         match faults.len() {
             1 => Box::new(faults.remove(0)).into(),

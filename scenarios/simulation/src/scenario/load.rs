@@ -45,10 +45,10 @@ impl Loaded {
     /// If it is not a scenario: all mistakes of form.
     pub fn of_text(path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Result<Self, ScenarioError> {
         let scenario = parse(&path.display().to_string(), &text)?;
-        Ok(Self::of(scenario, path, name, base_dir, text))
+        Ok(Self::from_parts(scenario, path, name, base_dir, text))
     }
 
-    fn of(scenario: Scenario, path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Self {
+    fn from_parts(scenario: Scenario, path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Self {
         Self { read: scenario.clone(), scenario, text, path, name, base_dir, registry: Registry::now() }
     }
 
@@ -90,7 +90,7 @@ impl Loaded {
     pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
         let found = check(&self.scenario, &self.base_dir);
         let text = self.text();
-        let outline = Outline::of(&text);
+        let outline = Outline::scan(&text);
         let path = self.path.display().to_string();
         let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) = found
             .into_iter()
@@ -100,7 +100,7 @@ impl Loaded {
             warnings.sort_by_key(|f| (f.line, f.column));
             Ok(warnings)
         } else {
-            Err(ScenarioError::of(&path, faults))
+            Err(ScenarioError::from_faults(&path, faults))
         }
     }
 }
@@ -164,7 +164,7 @@ fn loaded(path: &Path, name: String, base_dir: PathBuf, text: String) -> Result<
     let shown = path.display().to_string();
     let scenario = read_whole(&shown, &text, &|s| check(s, &base_dir))?;
     let path = path.to_path_buf();
-    Ok(Loaded::of(scenario, path, name, base_dir, text))
+    Ok(Loaded::from_parts(scenario, path, name, base_dir, text))
 }
 
 /// Hash of a scenario's text, 32 hexadecimal digits.
@@ -205,7 +205,7 @@ fn read_whole(
     text: &str,
     meaning: &dyn Fn(&Scenario) -> Vec<UnplacedFault>,
 ) -> Result<Scenario, ScenarioError> {
-    let outline = Outline::of(text);
+    let outline = Outline::scan(text);
     if outline.nodes.is_empty() {
         return Err(ScenarioError::File {
             path: name.to_string(),

@@ -31,7 +31,7 @@ mod unread;
 mod version;
 
 pub use catalog::{CATALOG, Template, template};
-pub use change::put;
+pub use change::set_value;
 pub use check::{check, check_within};
 pub use fault::{Fault, ScenarioError, Severity, UnplacedFault};
 pub use folder_files::FolderFiles;

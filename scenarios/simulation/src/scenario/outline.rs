@@ -92,7 +92,7 @@ impl Frame {
 
 impl Outline {
     /// Scans a text.
-    pub fn of(text: &str) -> Self {
+    pub fn scan(text: &str) -> Self {
         // Deeper values are dropped: their paths, each longer than the one around it, would fill the memory.
         let (mut nodes, mut deeper) = (Vec::new(), Vec::new());
         let mut stack = vec![Frame::new(String::new(), None, false)];
@@ -146,7 +146,7 @@ impl Outline {
     }
 
     /// The innermost node over a place.
-    pub(super) fn at(&self, place: usize) -> Option<&Node> {
+    pub(super) fn innermost(&self, place: usize) -> Option<&Node> {
         self.nodes.iter().filter(|n| n.whole.start <= place && place < n.whole.end).min_by_key(|n| n.whole.len())
     }
 }
@@ -223,7 +223,7 @@ mod tests {
     )"##;
 
     fn value(path: &str) -> &'static str {
-        let o = Outline::of(TEXT);
+        let o = Outline::scan(TEXT);
         TEXT.get(o.find(path).unwrap().value.clone()).unwrap()
     }
 
@@ -240,13 +240,13 @@ mod tests {
     #[test]
     fn a_path_the_text_lacks_leads_to_what_is_around_it() {
         assert_eq!(value("robots[0].start.depth_m"), "(id: \"a\")");
-        assert!(Outline::of(TEXT).find("").is_some());
+        assert!(Outline::scan(TEXT).find("").is_some());
     }
 
     #[test]
     fn places_lead_to_their_paths() {
-        let o = Outline::of(TEXT);
-        let at = |needle: &str| o.at(TEXT.find(needle).unwrap()).unwrap().path.clone();
+        let o = Outline::scan(TEXT);
+        let at = |needle: &str| o.innermost(TEXT.find(needle).unwrap()).unwrap().path.clone();
         assert_eq!(at("east_m"), "robots[1].start.east_m");
         assert_eq!(at("2.0"), "robots[1].start.v");
         assert_eq!(at("robots"), "robots");
@@ -256,11 +256,11 @@ mod tests {
     #[test]
     fn a_cut_text_says_what_is_open_at_any_cut() {
         for cut in (0..TEXT.len()).filter(|&i| TEXT.is_char_boundary(i)) {
-            let o = Outline::of(&TEXT[..cut]);
+            let o = Outline::scan(&TEXT[..cut]);
             assert_eq!(o.open.is_empty(), cut == 0, "cut at {cut}");
         }
         let cut = TEXT.find("east_m").unwrap();
-        let open: String = Outline::of(&TEXT[..cut]).open.iter().map(|o| o.0).collect();
+        let open: String = Outline::scan(&TEXT[..cut]).open.iter().map(|o| o.0).collect();
         assert_eq!(open, "([(((".to_string());
     }
 
@@ -269,7 +269,7 @@ mod tests {
         let n = 100_000;
         let text = format!("({}1{})", "a: (".repeat(n), ")".repeat(n));
         for text in [&text, &text[..text.len() - n]] {
-            let all: usize = Outline::of(text).nodes.iter().map(|n| n.path.len()).sum();
+            let all: usize = Outline::scan(text).nodes.iter().map(|n| n.path.len()).sum();
             assert!(all < 1 << 16, "{all} bytes");
         }
     }

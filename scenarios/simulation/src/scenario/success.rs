@@ -33,7 +33,7 @@ impl SuccessSpec {
 impl SuccessSpec {
     /// The rule in words.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         match self {
             SuccessSpec::Declared(d) => format!("a source is declared within {} m of a true one", d.within_m.get()),
             SuccessSpec::AllDeclared(d) => {

@@ -8,8 +8,8 @@ use std::ops::Range;
 /// Its place and the finding.
 pub(super) fn unread(text: &str, error: &SpannedError) -> (Range<usize>, UnplacedFault) {
     let span = offset(text, error.span.start)..offset(text, error.span.end);
-    let outline = Outline::of(text);
-    let path = outline.at(span.start).map_or("", |n| n.path.as_str());
+    let outline = Outline::scan(text);
+    let path = outline.innermost(span.start).map_or("", |n| n.path.as_str());
     let message = lower(&error.code.to_string());
     (trimmed(text, span), UnplacedFault::error(path, message))
 }

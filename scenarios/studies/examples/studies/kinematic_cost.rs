@@ -102,7 +102,7 @@ impl Mission<'_> {
                     for (k, p) in places.iter().enumerate() {
                         trial.until(t_s(k));
                         if which == 1 {
-                            felt += trial.simulation.ocean().dye(t_s(k)).at(p);
+                            felt += trial.simulation.ocean().dye(t_s(k)).concentration(p);
                         }
                     }
                 }

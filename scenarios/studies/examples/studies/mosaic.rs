@@ -34,7 +34,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let bundled = template(SCENARIO).ok_or("not in the catalogue")?;
     let text = bundled.text.replace(CLEARER.0, CLEARER.1);
     let loaded = load_text(&Registry::default(), SCENARIO, &text)?;
-    let mut ocean = Origin::of(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
+    let mut ocean = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
     ocean.spin_up(|_| true);
     let Terrain::Level { depth_m } = ocean.terrain else {
         return Err("a level bed is needed: all pictures are from one height".into());

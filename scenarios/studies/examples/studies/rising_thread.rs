@@ -44,7 +44,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     {
         let mut scenario = loaded.scenario.clone();
         scenario.sources[0].release.buoyancy = buoyancy;
-        let origin = Origin::of(&scenario, &loaded.base_dir, 1);
+        let origin = Origin::from_scenario(&scenario, &loaded.base_dir, 1);
         sides.push((title, watched(&origin, &loaded.base_dir)?));
     }
     println!("| distance, cm | neutral, cm above the bed | brine, cm | rise by Briggs without turbulence, cm |");
@@ -105,15 +105,18 @@ fn drawn(sides: &[(&str, Side)]) -> String {
         panel.grid(&mut c, 60.0);
         panel.clip(&mut c);
         for [x, z] in &side.filaments {
-            let p = panel.at([100.0 * x, 100.0 * z]);
+            let p = panel.position([100.0 * x, 100.0 * z]);
             c.circle(p, 1.6, &Style::fill("#7a4fa3").faint(0.45));
         }
         for height in PROBES_CM {
-            let line = [panel.x[0], panel.x[1]].map(|x| panel.at([x, height]));
+            let line = [panel.x[0], panel.x[1]].map(|x| panel.position([x, height]));
             c.line(line[0], line[1], &Style::line("#444444", 1.0).dashed("5 4"));
         }
-        let mean =
-            side.heights_m.iter().enumerate().map(|(n, z)| panel.at([100.0 * SLICE_M * (n as f64 + 0.5), 100.0 * z]));
+        let mean = side
+            .heights_m
+            .iter()
+            .enumerate()
+            .map(|(n, z)| panel.position([100.0 * SLICE_M * (n as f64 + 0.5), 100.0 * z]));
         c.polyline(mean.collect(), &Style::line("#d2691e", 2.2));
         c.unclip();
         panel.frame(&mut c, 1.0);
@@ -121,9 +124,9 @@ fn drawn(sides: &[(&str, Side)]) -> String {
         panel.y_ticks(&mut c, 40.0, 11.0);
         c.bold([panel.left, panel.top - 8.0], 13.0, Anchor::Start, title);
         c.upright([22.0, panel.top + 65.0], 11.0, "cm above the bed");
-        let at = panel.at([panel.x[1] - 1.0, 12.9]);
+        let at = panel.position([panel.x[1] - 1.0, 12.9]);
         c.text(at, 10.0, Anchor::End, "height of the middle probe");
-        let at = panel.at([panel.x[1] - 1.0, 7.9]);
+        let at = panel.position([panel.x[1] - 1.0, 7.9]);
         c.text(at, 10.0, Anchor::End, "outer probes");
     }
     c.text([450.0, 400.0], 11.0, Anchor::Middle, "cm down-stream of the nozzle; line: mean height over five minutes");

@@ -186,7 +186,7 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
         let middle = panel.left + 0.5 * panel.width;
         c.text([middle, 310.0], 11.0, Anchor::Middle, "log10 of the number");
         for (column, ink) in columns.iter().zip(INK) {
-            let points: Vec<_> = x.iter().zip(column).map(|(x, y)| panel.at([*x, *y])).collect();
+            let points: Vec<_> = x.iter().zip(column).map(|(x, y)| panel.position([*x, *y])).collect();
             for p in &points {
                 c.circle(*p, 3.0, &Style::fill(ink));
             }
@@ -194,7 +194,7 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
         }
         // Proportional growth through the last time.
         let (end, last) = (x[x.len() - 1], columns[0][x.len() - 1]);
-        let line = [[x[0], last - (end - x[0])], [end, last]].map(|p| panel.at(p));
+        let line = [[x[0], last - (end - x[0])], [end, last]].map(|p| panel.position(p));
         panel.clip(&mut c);
         c.line(line[0], line[1], &Style::line("#888888", 1.0).dashed("4 3"));
         c.unclip();

@@ -5,7 +5,7 @@ use super::contained::contained;
 use super::one_run::{Gatherer, RunName, failed, guarded, outcome_name};
 use super::row::RunRow;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::lanes::{LaneError, Lanes, alike};
+use rheotaxis::lanes::{LaneError, Lanes, group_by_ocean};
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, cost};
@@ -36,7 +36,7 @@ pub(crate) fn in_lanes(
 ) {
     let all: Vec<_> = runs.iter().map(|(name, l)| (*l, name.seed)).collect();
     let mut spun = Vec::new();
-    for group in alike(&all, cost::limit()) {
+    for group in group_by_ocean(&all, cost::limit()) {
         if !(heed.begin)() {
             return;
         }

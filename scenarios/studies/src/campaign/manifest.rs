@@ -74,7 +74,7 @@ impl Manifest {
             scenario_hash: base.hash(),
             block,
             runs: campaign.n_runs(),
-            seeds: campaign.spec.seeds.words(),
+            seeds: campaign.spec.seeds.describe(),
             key: campaign.key.mark(),
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
@@ -134,7 +134,7 @@ impl Manifest {
     ///
     /// # Errors
     /// If there is none, or it cannot be read.
-    pub fn of(dir: &Path) -> Result<Self, CampaignError> {
+    pub fn open(dir: &Path) -> Result<Self, CampaignError> {
         Self::find(dir)?.ok_or_else(|| CampaignError::NoCampaign {
             dir: dir.to_owned(),
             problem: format!("there is no {FILE} in it"),
@@ -225,7 +225,7 @@ impl Manifest {
             Err(e) if e.source.kind() != ErrorKind::AlreadyExists => return Err(e.into()),
             _ => {}
         }
-        let there = Self::of(dir)?;
+        let there = Self::open(dir)?;
         let block = if asked { self.block } else { there.block };
         let what = there.differences(&Self { block, ..self.clone() });
         if what.is_empty() {
@@ -265,7 +265,7 @@ mod tests {
         assert_eq!((first.block, second.block), (4, 4));
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
         assert_eq!(first.seeds, "seeds 1 to 10");
-        assert_eq!(Manifest::of(dir.path()).unwrap().campaign().unwrap().n_runs(), 40);
+        assert_eq!(Manifest::open(dir.path()).unwrap().campaign().unwrap().n_runs(), 40);
     }
 
     #[test]
@@ -277,7 +277,7 @@ mod tests {
             let mut odd = good.clone();
             odd[field] = value;
             fs::write(dir.path().join(FILE), odd.to_string()).unwrap();
-            let read = Manifest::of(dir.path()).and_then(|m| m.campaign().map(drop));
+            let read = Manifest::open(dir.path()).and_then(|m| m.campaign().map(drop));
             read.unwrap_err().to_string()
         };
         for (field, value, says) in [
@@ -299,7 +299,7 @@ mod tests {
         let mut old = good.clone();
         old.as_object_mut().unwrap().remove("format");
         fs::write(dir.path().join(FILE), old.to_string()).unwrap();
-        let said = Manifest::of(dir.path()).unwrap_err().to_string();
+        let said = Manifest::open(dir.path()).unwrap_err().to_string();
         assert!(said.contains("the folder has format 1, this program reads and writes format 2"), "{said}");
     }
 }

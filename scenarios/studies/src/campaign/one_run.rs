@@ -59,7 +59,7 @@ impl<'a> Gatherer<'a> {
         let builder = SummaryBuilder::new(&RunInfo {
             scenario_name: loaded.name.clone(),
             title: loaded.scenario.title.clone(),
-            success: loaded.scenario.success.words(),
+            success: loaded.scenario.success.describe(),
             scenario_text: String::new(),
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
@@ -88,7 +88,7 @@ impl<'a> Gatherer<'a> {
                 ..Totals::default()
             },
         };
-        let summary = self.builder.finish(&end, &SourceTruth::of(trial, &ended));
+        let summary = self.builder.finish(&end, &SourceTruth::from_run(trial, &ended));
         row(name, &summary, loaded.scenario.success.declared_within_m())
     }
 }

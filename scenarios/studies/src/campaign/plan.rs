@@ -5,7 +5,7 @@ use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use super::threads::with_threads;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
-use rheotaxis::scenario::{Fault, Loaded, Outline, put};
+use rheotaxis::scenario::{Fault, Loaded, Outline, set_value};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
 use world::math;
@@ -65,7 +65,7 @@ impl Campaign {
     /// Remarks on how the file was read: that its seeds are those of version 1.
     #[must_use]
     pub fn notes(&self) -> Vec<Fault> {
-        let located = |found| Fault::located(&self.shown, &self.text, &Outline::of(&self.text), found);
+        let located = |found| Fault::located(&self.shown, &self.text, &Outline::scan(&self.text), found);
         self.spec.note().map(located).into_iter().collect()
     }
 
@@ -167,7 +167,7 @@ impl Campaign {
         let mut text = self.base.text().into_owned();
         let condition = self.condition(condition);
         for (path, value) in condition.iter().chain(&self.arm(arm).set) {
-            text = put(&text, path, value).map_err(|problem| CampaignError::Override {
+            text = set_value(&text, path, value).map_err(|problem| CampaignError::Override {
                 variant: shown.clone(),
                 path: path.clone(),
                 problem,

@@ -29,7 +29,7 @@ fn each_block(
     dir: &Path,
     mut take: impl FnMut(Vec<RunRow>) -> Result<(), CampaignError>,
 ) -> Result<Manifest, CampaignError> {
-    let manifest = Manifest::of(dir)?;
+    let manifest = Manifest::open(dir)?;
     manifest.campaign()?;
     for block in present(dir, &manifest)? {
         match read_block(dir, &manifest, block) {
@@ -46,7 +46,7 @@ fn each_block(
 /// # Errors
 /// If there is no such run, or its block is not whole.
 pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
-    let manifest = Manifest::of(dir)?;
+    let manifest = Manifest::open(dir)?;
     manifest.campaign()?;
     let runs = manifest.runs;
     if run >= runs {

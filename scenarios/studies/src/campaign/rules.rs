@@ -24,7 +24,7 @@ impl Campaign {
     pub fn success_rules(&self) -> Result<Vec<String>, CampaignError> {
         let mut rules = Vec::new();
         self.each("success", |scenario| {
-            let words = scenario.success.words();
+            let words = scenario.success.describe();
             if !rules.contains(&words) {
                 rules.push(words);
             }

@@ -53,7 +53,7 @@ impl Seeds {
 
     /// The seeds in words.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn describe(self) -> String {
         match self {
             Seeds::Literal { first, count: 1 } => format!("seed {first}"),
             Seeds::Literal { first, count } => format!("seeds {first} to {}", first + (count - 1)),
@@ -128,7 +128,7 @@ mod tests {
         let all: Vec<u64> = (0..3).map(|k| seeds.seed(7, k)).collect();
         assert_eq!(all, [101, 102, 103]);
         assert_eq!(seeds.seed(0, 2), seeds.seed(1, 2));
-        assert_eq!(seeds.words(), "seeds 101 to 103");
+        assert_eq!(seeds.describe(), "seeds 101 to 103");
     }
 
     #[test]

@@ -83,7 +83,7 @@ pub struct Arm {
 impl Arm {
     /// What it sets, `path=value` joined by `; `.
     #[must_use]
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         let set: Vec<String> = self.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
         if set.is_empty() { "as it is".to_string() } else { set.join("; ") }
     }
@@ -133,20 +133,20 @@ impl CampaignSpec {
     /// If it is not a campaign, with the place.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
         let meaning = |file: &File| {
-            let (spec, mut found) = Self::of(file.clone());
+            let (spec, mut found) = Self::from_file(file.clone());
             found.extend(spec.check());
             found
         };
         let file: File = read(name, text, &meaning)?;
-        let outline = Outline::of(text);
-        let (spec, found) = Self::of(file);
+        let outline = Outline::scan(text);
+        let (spec, found) = Self::from_file(file);
         let faults: Vec<Fault> =
             (found.into_iter().chain(spec.check())).map(|found| Fault::located(name, text, &outline, found)).collect();
-        if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::of(name, faults)) }
+        if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::from_faults(name, faults)) }
     }
 
     /// What a file means, and which of its fields its version does not have.
-    fn of(file: File) -> (Self, Vec<UnplacedFault>) {
+    fn from_file(file: File) -> (Self, Vec<UnplacedFault>) {
         let mut found = Vec::new();
         let mut conditions = file.conditions;
         let odd = |found: &mut Vec<UnplacedFault>, problem| {

@@ -49,8 +49,8 @@ impl Status {
     ///
     /// # Errors
     /// If there is no campaign in it.
-    pub fn of(dir: &Path) -> Result<Self, CampaignError> {
-        let manifest = Manifest::of(dir)?;
+    pub fn examine(dir: &Path) -> Result<Self, CampaignError> {
+        let manifest = Manifest::open(dir)?;
         let campaign = manifest.campaign()?;
         let named = |name: &String| ArmStatus { name: name.clone(), ..ArmStatus::default() };
         let wanted = wanted(&campaign, dir, &manifest);

@@ -72,14 +72,14 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
             match column {
                 Column::Number(get, _) => {
                     let values = rows.map(|r| get(r).map(u64::cast_signed));
-                    put::<Int64Type>(to, *optional, values)?;
+                    write_values::<Int64Type>(to, *optional, values)?;
                 }
-                Column::Truth(get, _) => put::<BoolType>(to, *optional, rows.map(|r| Some(get(r))))?,
+                Column::Truth(get, _) => write_values::<BoolType>(to, *optional, rows.map(|r| Some(get(r))))?,
                 Column::Text(get, _) => {
                     let values = rows.map(|r| get(r).map(ByteArray::from));
-                    put::<ByteArrayType>(to, *optional, values)?;
+                    write_values::<ByteArrayType>(to, *optional, values)?;
                 }
-                Column::Real(get, _) => put::<DoubleType>(to, *optional, rows.map(get))?,
+                Column::Real(get, _) => write_values::<DoubleType>(to, *optional, rows.map(get))?,
             }
         }
         group.close().map(drop)
@@ -91,7 +91,7 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
     }
 }
 
-fn put<D: DataType>(
+fn write_values<D: DataType>(
     mut to: SerializedColumnWriter<'_>,
     optional: bool,
     values: impl Iterator<Item = Option<D::T>>,

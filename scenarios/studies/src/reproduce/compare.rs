@@ -23,7 +23,7 @@ pub enum Standing {
 impl Standing {
     /// In words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Standing::None => "-",
             Standing::Inside => "inside",
@@ -52,10 +52,11 @@ pub struct FigureComparison {
 pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<FigureComparison> {
     let ours = |f: &Figure| {
         let asked = |r: &&RunRow| {
-            f.arm.as_ref().is_none_or(|arm| r.arm == *arm) && f.among.is_none_or(|event| event.of(r) == Some(true))
+            f.arm.as_ref().is_none_or(|arm| r.arm == *arm)
+                && f.among.is_none_or(|event| event.happened(r) == Some(true))
         };
         let of: Vec<RunRow> = runs.iter().filter(asked).cloned().collect();
-        f.quantity.of(&of)
+        f.quantity.estimate(&of)
     };
     row.figures.iter().map(|f| one(f, ours(f))).collect()
 }

@@ -1,6 +1,6 @@
 //! Values of a row's scenario that are drawn anew for every seed.
 
-use rheotaxis::scenario::{Loaded, put};
+use rheotaxis::scenario::{Loaded, set_value};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use world::math;
@@ -46,7 +46,7 @@ impl Law {
     }
 
     /// The value for a number from 0 to 1.
-    fn at(&self, u: f64) -> String {
+    fn value(&self, u: f64) -> String {
         match self {
             Self::Even(a, b) => format!("{:.6}", a + (b - a) * u),
             Self::Log(a, b) => format!("{:.6}", a * math::exp(u * math::ln(b / a))),
@@ -115,9 +115,9 @@ fn changed<'a>(
 ) -> Result<Cow<'a, Loaded>, String> {
     let mut text = loaded.text();
     for d in draws.iter().filter(|d| d.in_arm(arm)) {
-        let value = d.of.at(number(&d.path));
+        let value = d.of.value(number(&d.path));
         let said = |problem| format!("draw `{}`: {problem}", d.path);
-        text = Cow::Owned(put(&text, &d.path, &value).map_err(said)?);
+        text = Cow::Owned(set_value(&text, &d.path, &value).map_err(said)?);
     }
     let Cow::Owned(text) = text else {
         return Ok(Cow::Borrowed(loaded));

@@ -83,7 +83,7 @@ impl Table {
     }
 
     /// Takes over the runs of a row; those of equal seed and arm are replaced.
-    pub fn put(&mut self, row: &RowResult) {
+    pub fn merge(&mut self, row: &RowResult) {
         self.hash.clone_from(&row.scenario.1);
         for run in &row.runs {
             let run = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..run.clone() };
@@ -258,7 +258,7 @@ mod tests {
         assert_eq!(Table::read(dir.path(), &reference).unwrap(), None);
         let mut table = Table::default();
         let first = reproduced(&reference, 5..8);
-        table.put(&first);
+        table.merge(&first);
         table.write(dir.path(), &first).unwrap();
         let mut back = Table::read(dir.path(), &reference).unwrap().unwrap();
         assert_eq!(back.from_seed(5, 9, &reference).len(), 3 * reference.arms.len());
@@ -266,7 +266,7 @@ mod tests {
         let one = &back.of_arms(&reference)[0];
         assert_eq!(one.declarations[0].t_s.to_bits(), (0.1_f64 + 0.2).to_bits());
         assert_eq!(one.mission_wall_s, 0.0);
-        back.put(&reproduced(&reference, 3..6));
+        back.merge(&reproduced(&reference, 3..6));
         back.write(dir.path(), &first).unwrap();
         let again = Table::read(dir.path(), &reference).unwrap().unwrap();
         assert_eq!(again.from_seed(3, 9, &reference).len(), 5 * reference.arms.len());
@@ -276,7 +276,7 @@ mod tests {
     fn a_table_that_the_program_no_longer_gives_is_stale() {
         let reference = reference();
         let mut table = Table::default();
-        table.put(&reproduced(&reference, 1..3));
+        table.merge(&reproduced(&reference, 1..3));
         assert_eq!(table.stale(&reference, 0), None);
         let said = table.stale(&reference, 1).unwrap();
         assert!(said.contains("in the table"), "{said}");
@@ -294,7 +294,7 @@ mod tests {
         let begun = RowResult::begin(&reference);
         let row = reproduce(&reference, begun, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         let mut table = Table::default();
-        table.put(&row);
+        table.merge(&row);
         table.write(dir.path(), &row).unwrap();
         let mut table = Table::read(dir.path(), &reference).unwrap().unwrap();
         assert_eq!(table.stale(&reference, 1), None);
@@ -320,7 +320,7 @@ mod tests {
         let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
         let row = reproduced(&reference, 1..3);
         let mut table = Table::default();
-        table.put(&row);
+        table.merge(&row);
         table.write(dir.path(), &row).unwrap();
         let path = dir.path().join("wp_laminar.csv");
         let text = std::fs::read_to_string(&path).unwrap();

@@ -56,7 +56,7 @@ fn said(r: &RunRow, k: u32, verdict: Verdict) -> Option<bool> {
 impl RunEvent {
     /// Whether it happened; `None` if the run cannot tell.
     #[must_use]
-    pub fn of(self, r: &RunRow) -> Option<bool> {
+    pub fn happened(self, r: &RunRow) -> Option<bool> {
         match self {
             RunEvent::Success => Some(r.success),
             RunEvent::Declared => Some(r.declared_s.is_some()),
@@ -69,7 +69,7 @@ impl RunEvent {
             RunEvent::RegionFixOver(k, m) => {
                 of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
             }
-            RunEvent::RegionFixUnder(k, m) => RunEvent::RegionFixOver(k, m).of(r).map(|over| !over),
+            RunEvent::RegionFixUnder(k, m) => RunEvent::RegionFixOver(k, m).happened(r).map(|over| !over),
             RunEvent::RegionErrorOver(k, m) => of_region(r, k)?.error_m.map(|error_m| error_m >= f64::from(m)),
             RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
@@ -166,7 +166,7 @@ impl Measure {
 
     /// The value for a run; `None` if the run has none.
     #[must_use]
-    pub fn of(self, r: &RunRow) -> Option<f64> {
+    pub fn value(self, r: &RunRow) -> Option<f64> {
         let sound = |count: usize| r.error.is_none().then_some(count as f64);
         let less = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a - b);
         match self {
@@ -232,7 +232,7 @@ mod tests {
             sources_declared: 1,
             ..RunRow::default()
         };
-        let yes = |e: RunEvent| e.of(&row);
+        let yes = |e: RunEvent| e.happened(&row);
         assert_eq!([0, 1, 2].map(|k| yes(RunEvent::RegionDeclared(k))), [Some(true), Some(false), Some(true)]);
         assert_eq!([0, 1, 2].map(|k| yes(RunEvent::RegionAtEdge(k))), [Some(true), Some(false), Some(false)]);
         assert_eq!(yes(RunEvent::RegionFixOver(2, 12)), Some(true));
@@ -242,7 +242,7 @@ mod tests {
         assert_eq!(yes(RunEvent::RegionAcrossOver(2, 31)), Some(true));
         assert_eq!(yes(RunEvent::RegionAcrossOver(2, 32)), Some(false));
         assert_eq!(yes(RunEvent::RegionErrorOver(1, 1)), None);
-        let of = |m: Measure| m.of(&row);
+        let of = |m: Measure| m.value(&row);
         assert_eq!(of(Measure::Declarations), Some(3.0));
         assert_eq!(of(Measure::FarDeclarations(40)), Some(1.0));
         assert_eq!(of(Measure::SourcesDeclared), Some(1.0));
@@ -250,7 +250,7 @@ mod tests {
         assert_eq!(of(Measure::RegionErrorM(1)), None);
         // A failed run says nothing about its declarations.
         let failed = RunRow { error: Some("x".into()), ..row.clone() };
-        assert_eq!(Measure::Declarations.of(&failed), None);
+        assert_eq!(Measure::Declarations.value(&failed), None);
     }
 
     #[test]
@@ -262,7 +262,7 @@ mod tests {
         };
         let row =
             RunRow { declarations: vec![at(0, Verdict::Verified), at(1, Verdict::CannotTell)], ..RunRow::default() };
-        let of = |k| [RunEvent::Verified(k), RunEvent::Rejected(k), RunEvent::CannotTell(k)].map(|e| e.of(&row));
+        let of = |k| [RunEvent::Verified(k), RunEvent::Rejected(k), RunEvent::CannotTell(k)].map(|e| e.happened(&row));
         assert_eq!(of(0), [Some(true), Some(false), Some(false)]);
         assert_eq!(of(1), [Some(false), Some(false), Some(true)]);
         // A place that was never reached has no verdict.
@@ -277,15 +277,15 @@ mod tests {
             zone_since_s: Some(400.0),
             ..row(0, Some((1.0, 1.0)))
         };
-        assert_eq!(Measure::IdentificationS.of(&found), Some(500.0));
+        assert_eq!(Measure::IdentificationS.value(&found), Some(500.0));
         // Six points, five intervals.
-        assert_eq!(Measure::LcdpIntervalS.of(&found), Some(100.0));
+        assert_eq!(Measure::LcdpIntervalS.value(&found), Some(100.0));
         // One point has no interval; a rule on other things has no points; without a declaration nothing is measured.
         let one = RunRow { zone_points: Some(1.0), ..found };
-        assert_eq!(Measure::LcdpIntervalS.of(&one), None);
+        assert_eq!(Measure::LcdpIntervalS.value(&one), None);
         for other in [row(0, Some((1.0, 1.0))), row(1, None)] {
-            assert_eq!(Measure::IdentificationS.of(&other), None);
-            assert_eq!(Measure::LcdpIntervalS.of(&other), None);
+            assert_eq!(Measure::IdentificationS.value(&other), None);
+            assert_eq!(Measure::LcdpIntervalS.value(&other), None);
         }
     }
 }

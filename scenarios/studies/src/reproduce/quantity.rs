@@ -50,7 +50,7 @@ impl Quantity {
 
     /// From rows of runs. In a failed run, nothing happened and nothing was measured.
     #[must_use]
-    pub fn of(self, rows: &[RunRow]) -> Estimate {
+    pub fn estimate(self, rows: &[RunRow]) -> Estimate {
         let quantile_of = |m: Measure, p: f64| {
             of_values(rows, m, |sorted| {
                 let enough = sorted.len() >= LEAST_VALUES;
@@ -60,7 +60,7 @@ impl Quantity {
         };
         match self {
             Quantity::Share(event) => {
-                let asked: Vec<bool> = rows.iter().filter_map(|r| event.of(r)).collect();
+                let asked: Vec<bool> = rows.iter().filter_map(|r| event.happened(r)).collect();
                 let k = asked.iter().filter(|yes| **yes).count() as u64;
                 share(k, asked.len() as u64)
             }
@@ -103,7 +103,7 @@ fn of_values(
     measure: Measure,
     figure: impl Fn(&[f64]) -> (Option<f64>, Option<Interval>),
 ) -> Estimate {
-    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
+    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.value(r)));
     let (value, interval) = figure(&sorted);
     Estimate {
         n: sorted.len() as u64,
@@ -127,22 +127,22 @@ mod tests {
             row(2, None),
             RunRow { error: Some("x".into()), ..row(3, None) },
         ];
-        let declared = Quantity::Share(RunEvent::Declared).of(&rows);
+        let declared = Quantity::Share(RunEvent::Declared).estimate(&rows);
         assert_eq!((declared.count, declared.n), (Some(2), 4));
-        let success = Quantity::Share(RunEvent::Success).of(&rows);
+        let success = Quantity::Share(RunEvent::Success).estimate(&rows);
         assert_eq!((success.count, success.interval), (Some(1), Some(wilson(1, 4))));
-        let along = Quantity::Share(RunEvent::MostlyAlong).of(&rows);
+        let along = Quantity::Share(RunEvent::MostlyAlong).estimate(&rows);
         assert_eq!((along.count, along.n), (Some(0), 2));
-        let median = |m| Quantity::Median(m).of(&rows).value;
+        let median = |m| Quantity::Median(m).estimate(&rows).value;
         assert_eq!(median(Measure::ErrorM), Some(27.5));
         assert_eq!(median(Measure::ErrorAlongM), Some(16.5));
         assert_eq!(median(Measure::ErrorAcrossM), Some(22.0));
-        assert_eq!(Quantity::Median(Measure::TravelledM).of(&rows).n, 3);
-        let mean = Quantity::Mean(Measure::ErrorM).of(&rows);
+        assert_eq!(Quantity::Median(Measure::TravelledM).estimate(&rows).n, 3);
+        let mean = Quantity::Mean(Measure::ErrorM).estimate(&rows);
         assert_eq!(mean.value, Some(27.5));
         // Two values say nothing about their spread: Student's interval of them would reach from -258 to 313 m.
         assert_eq!((mean.n, mean.interval), (2, None));
-        assert_eq!(Quantity::Median(Measure::ErrorM).of(&rows).interval, None);
+        assert_eq!(Quantity::Median(Measure::ErrorM).estimate(&rows).interval, None);
     }
 
     #[test]
@@ -153,7 +153,7 @@ mod tests {
             ..row(k, Some((if k == 0 { 5000.0 } else { 1.0 }, 0.0)))
         };
         let rows: Vec<RunRow> = (0..5).map(|k| gained(k, 0.01 * (k as f64 - 2.0))).collect();
-        let interval = |m| Quantity::Mean(m).of(&rows).interval.unwrap();
+        let interval = |m| Quantity::Mean(m).estimate(&rows).interval.unwrap();
         // One of five values is a thousand times the others: Student's interval would begin at -1775 m.
         assert!(interval(Measure::ErrorM).low > 0.0);
         // A gain may be a loss: the interval about 0 is equally wide on both sides.
@@ -169,7 +169,7 @@ mod tests {
             Quantity::Mean(Measure::ErrorM),
             Quantity::Share(RunEvent::MostlyAlong),
         ] {
-            let e = q.of(&[]);
+            let e = q.estimate(&[]);
             assert_eq!((e.n, e.value, e.interval), (0, None, None));
         }
     }

@@ -7,7 +7,7 @@ use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::Arm;
 use output::files::ReportError;
-use rheotaxis::scenario::{Loaded, ScenarioError, load, put, template};
+use rheotaxis::scenario::{Loaded, ScenarioError, load, set_value, template};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use shipped::ROWS;
@@ -255,7 +255,7 @@ impl Reference {
             };
             let mut text = loaded.text().into_owned();
             for (path, value) in &arm.set {
-                text = put(&text, path, value).map_err(|problem| wrong(path, problem))?;
+                text = set_value(&text, path, value).map_err(|problem| wrong(path, problem))?;
             }
             let shown = format!("{} (arm {})", loaded.name, arm.name);
             let (name, base_dir) = (loaded.name.clone(), loaded.base_dir.clone());

@@ -62,7 +62,7 @@ impl TimeLeft {
 
     /// Time until all rows are done, in words; `None` as long as a row has not been measured.
     #[must_use]
-    pub fn words(&self) -> Option<String> {
+    pub fn describe(&self) -> Option<String> {
         let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         let left: Option<Vec<f64>> = rows.iter().map(|r| r.left_s()).collect();
         Some(duration(left?.iter().sum::<f64>() / self.threads as f64))
@@ -78,15 +78,15 @@ mod tests {
         let left = TimeLeft::new([4, 10].into_iter(), 2);
         let run = |spin_up_wall_s, mission_wall_s| RunRow { spin_up_wall_s, mission_wall_s, ..RunRow::default() };
         left.heard(0, &run(1.0, 3.0), 4);
-        assert_eq!(left.words(), None);
+        assert_eq!(left.describe(), None);
         // Three of 4 s and nine of 20 s, two at a time.
         left.heard(1, &run(0.0, 20.0), 10);
-        assert_eq!(left.words().as_deref(), Some("96 s"));
+        assert_eq!(left.describe().as_deref(), Some("96 s"));
         // A row that is done leaves nothing; one that is to have fewer runs leaves less.
         for _ in 0..3 {
             left.heard(0, &run(0.0, 4.0), 4);
         }
         left.heard(1, &run(0.0, 40.0), 3);
-        assert_eq!(left.words().as_deref(), Some("15 s"));
+        assert_eq!(left.describe().as_deref(), Some("15 s"));
     }
 }

@@ -40,7 +40,7 @@ fn cells(c: &FigureComparison) -> [String; 6] {
     if let Some(i) = c.papers_interval {
         write!(paper, " [{}]", unit.show_interval(i)).expect(TEXT);
     }
-    let standing = c.standing.words().to_string();
+    let standing = c.standing.label().to_string();
     [c.figure.name.clone(), ours, interval, c.ours.n.to_string(), paper, standing]
 }
 
@@ -81,7 +81,7 @@ pub fn table(r: &RowResult, columns: Option<usize>) -> String {
     if let Some(error) = first_error(r) {
         writeln!(out, "\n{}", line(&format!("first failure: {error}"))).expect(TEXT);
     }
-    writeln!(out, "\n{}", line(&Walls::of(&r.runs).words())).expect(TEXT);
+    writeln!(out, "\n{}", line(&Walls::sum(&r.runs).describe())).expect(TEXT);
     out
 }
 
@@ -129,7 +129,7 @@ pub fn write(dir: &Path, all: &[RowResult]) -> Result<Vec<PathBuf>, ReportError>
             Err(error) => failures.push(error),
         }
     }
-    ReportError::of(failures).map_or(Ok(written), Err)
+    ReportError::combine(failures).map_or(Ok(written), Err)
 }
 
 fn markdown(all: &[RowResult]) -> String {
@@ -177,7 +177,7 @@ fn markdown(all: &[RowResult]) -> String {
         if let Some(error) = first_error(r) {
             writeln!(out, "- First failure: {error}.").expect(TEXT);
         }
-        writeln!(out, "\n{}", Walls::of(&r.runs).words()).expect(TEXT);
+        writeln!(out, "\n{}", Walls::sum(&r.runs).describe()).expect(TEXT);
     }
     out
 }
@@ -188,7 +188,7 @@ fn figures_csv(all: &[RowResult]) -> String {
             let (i, s, p) = (c.ours.interval, c.ours.spread, c.papers_interval);
             let standing = match c.standing {
                 Standing::None => "",
-                standing => standing.words(),
+                standing => standing.label(),
             };
             [
                 r.row.id.clone(),

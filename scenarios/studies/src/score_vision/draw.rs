@@ -23,7 +23,7 @@ pub enum Content {
 
 impl Content {
     /// The content of scene `n`: every other scene shows the source, the rest take turns.
-    fn of(n: u64) -> Self {
+    fn for_scene(n: u64) -> Self {
         match n % 6 {
             0..=2 => Content::Source,
             3 => Content::Dye,
@@ -96,7 +96,7 @@ pub fn draw(seed: u64, n: u64) -> SceneDraw {
     let visibility_m = growing(even(0.0, 1.0), low, high);
     SceneDraw {
         n,
-        content: Content::of(n),
+        content: Content::for_scene(n),
         visibility_m,
         illuminance_klx: growing(even(0.0, 1.0), 5.0, 80.0),
         sun_elevation_deg: even(20.0, 75.0),

@@ -13,7 +13,7 @@ const COLOURS: [&str; 6] = ["#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00
 
 type Pick = fn(&Figures) -> &Ratio;
 
-fn of(all: &[Figures], way: usize, range: Option<(f64, f64)>) -> &Figures {
+fn find_figures(all: &[Figures], way: usize, range: Option<(f64, f64)>) -> &Figures {
     (all.iter()).find(|f| f.method == METHODS[way] && f.visibility_m == range).expect("every way has every range")
 }
 
@@ -60,7 +60,7 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
         for (way, colour) in COLOURS.into_iter().enumerate() {
             let mut line = Vec::new();
             for (b, range) in BINS.into_iter().enumerate() {
-                let ratio = pick(of(all, way, Some(range)));
+                let ratio = pick(find_figures(all, way, Some(range)));
                 let x = p.px(b as f64 + 0.5 + 0.09 * (way as f64 - 2.5));
                 let Some(v) = ratio.value else { continue };
                 line.push([x, p.py(v)]);
@@ -92,16 +92,16 @@ pub(super) fn curves(all: &[Figures]) -> Canvas {
         let title = format!("visibility {}", range_words(Some(range)));
         c.bold([p.left, p.top - 8.0], 12.5, Anchor::Start, &title);
         p.grid(&mut c, 60.0);
-        c.line(p.at([0.0, 0.0]), p.at([1.0, 1.0]), &Style::line(GREY, 0.8).dashed("4 4"));
+        c.line(p.position([0.0, 0.0]), p.position([1.0, 1.0]), &Style::line(GREY, 0.8).dashed("4 4"));
         p.x_ticks(&mut c, true, 11.0);
         p.y_ticks(&mut c, 60.0, 11.0);
         for (way, colour) in COLOURS.into_iter().enumerate() {
-            let roc = &of(all, way, Some(range)).verification;
+            let roc = &find_figures(all, way, Some(range)).verification;
             let mut line = p.all(&roc.curve);
-            line.push(p.at([1.0, 1.0]));
+            line.push(p.position([1.0, 1.0]));
             c.polyline(line, &Style::line(colour, 1.8).faint(0.85));
             let share = |(n, k): (u64, u64)| k as f64 / n.max(1) as f64;
-            let at = p.at([share(roc.without), share(roc.with)]);
+            let at = p.position([share(roc.without), share(roc.with)]);
             c.circle(at, 4.5, &Style::line(colour, 2.0));
         }
         p.frame(&mut c, 1.0);

@@ -30,7 +30,7 @@ pub struct Counts {
 impl Counts {
     /// Compares found pixels with true pixels.
     #[must_use]
-    pub fn of(found: &GrayImage, there: &GrayImage) -> Self {
+    pub fn compare(found: &GrayImage, there: &GrayImage) -> Self {
         let mut counts = Self::default();
         for (f, t) in found.pixels().zip(there.pixels()) {
             match (f.0[0] > 0, t.0[0] > 0) {
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn counts_by_hand() {
         let row = |bits: [u8; 4]| GrayImage::from_fn(4, 1, |x, _| Luma([255 * bits[x as usize]]));
-        let got = Counts::of(&row([1, 1, 0, 0]), &row([1, 0, 1, 0]));
+        let got = Counts::compare(&row([1, 1, 0, 0]), &row([1, 0, 1, 0]));
         assert_eq!(got, Counts { hit: 1, false_alarm: 1, missed: 1 });
     }
 

@@ -89,8 +89,8 @@ fn rows(scene: &SceneDraw, shot: &Shot, spec: &VerifierSpec) -> Vec<SceneRow> {
         SceneRow {
             scene: scene.clone(),
             method,
-            dye: Counts::of(&dye, &shot.dye),
-            source: Counts::of(&body, &shot.source),
+            dye: Counts::compare(&dye, &shot.dye),
+            source: Counts::compare(&body, &shot.source),
             score: seen.score,
             verified: seen.verified,
         }

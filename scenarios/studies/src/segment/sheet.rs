@@ -34,7 +34,7 @@ pub(super) fn sheet(s: &SegmentedPicture) -> Result<RgbImage, String> {
     let rows = tiles.len().div_ceil(COLUMNS) as f64;
     let width = GAP + COLUMNS as f64 * (TILE + GAP);
     let mut c = Canvas::new(width, 34.0 + rows * (tall + CAPTION + GAP) + GAP);
-    c.bold([GAP, 25.0], 14.0, Anchor::Start, &format!("{}, {w} × {h}: {}", s.name, s.sighting.words()));
+    c.bold([GAP, 25.0], 14.0, Anchor::Start, &format!("{}, {w} × {h}: {}", s.name, s.sighting.label()));
     for (n, (caption, _)) in tiles.iter().enumerate() {
         let [x, y] = place(n);
         c.text([x, y - 6.0], 11.5, Anchor::Start, caption);

@@ -114,7 +114,7 @@ pub fn table(s: &SegmentedPicture) -> String {
         "\nplume {:.2}% of the picture, source {:.2}%: {}",
         100.0 * v.dye_share,
         100.0 * v.source_share,
-        v.words()
+        v.label()
     );
     out
 }

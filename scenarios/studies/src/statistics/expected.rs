@@ -21,7 +21,7 @@ pub(super) struct Expected {
 }
 
 impl Expected {
-    pub(super) fn of(channel: &Channel) -> Self {
+    pub(super) fn from_channel(channel: &Channel) -> Self {
         let scale = channel.u_star_m_s * channel.depth_m;
         Self { k_y: TRANSVERSE * scale, k_z: VERTICAL * scale, mean_m_s: channel.mean_m_s }
     }

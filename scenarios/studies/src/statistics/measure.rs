@@ -136,7 +136,7 @@ pub fn statistics(
 }
 
 fn built(loaded: &Loaded, seed: Seed) -> Result<(Water, Plume), AssembleError> {
-    let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+    let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, seed);
     Ok(origin.build(&loaded.base_dir)?.state())
 }
 
@@ -201,7 +201,7 @@ impl Watch {
         for (i, distance) in self.distances.iter().enumerate() {
             let p = self.source.xy() + self.along * *distance;
             for (k, height) in self.heights.iter().enumerate() {
-                let value = dye.at(&Vector3::new(p.x, p.y, self.bed_z + height));
+                let value = dye.concentration(&Vector3::new(p.x, p.y, self.bed_z + height));
                 self.odour[i][k].values.push(value);
             }
         }
@@ -248,7 +248,7 @@ impl Watch {
         }
         let mut figures = Vec::new();
         let channel = water.channel();
-        let expected = channel.map(Expected::of);
+        let expected = channel.map(Expected::from_channel);
         self.widths(expected.as_ref(), &mut figures);
         let nozzle = plume.sources()[0].release.nozzle.as_ref();
         self.centreline(expected.as_ref(), nozzle.map(|n| n.volume_m3_s()), plume, &mut figures);

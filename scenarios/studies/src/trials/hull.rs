@@ -67,7 +67,7 @@ fn view(
     outlines: &[(Vec<Vector3<f64>>, &str)],
     looks: &Looks,
 ) {
-    let flat = |p: &Vector3<f64>| panel.at([p[axes[0]], p[axes[1]]]);
+    let flat = |p: &Vector3<f64>| panel.position([p[axes[0]], p[axes[1]]]);
     panel.grid(c, 45.0);
     panel.frame(c, 1.0);
     panel.x_ticks(c, true, 11.0);

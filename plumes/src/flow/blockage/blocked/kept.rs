@@ -28,10 +28,10 @@ impl ObstacleFlow {
             return;
         }
         to.word(*first);
-        to.words(phi);
+        to.write_list(phi);
         for Faces { x, y, s } in fields.iter().map(|f| &**f) {
             for list in [x, y, s] {
-                to.words(list);
+                to.write_list(list);
             }
         }
         let SolutionReport { steps, divergence, open_cells: _, cells: _ } = solved;

@@ -25,7 +25,7 @@ pub(crate) mod tests;
 
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
-use crate::quad::Pair;
+use crate::simd::f32x4::Pair;
 use nalgebra::Vector2;
 pub(crate) use octave::{Life, Octave};
 use schemars::JsonSchema;
@@ -53,7 +53,7 @@ pub(super) fn cost() -> Cost {
     let nodes = table::COUNT as f64;
     let part =
         Part::new("finest_m", format!("{nodes:.1e} nodes of small eddies")).holds(nodes * 40.0).takes(nodes * 1e-6);
-    Cost::of(part)
+    Cost::single(part)
 }
 
 /// The part of each octave that moves a filament.

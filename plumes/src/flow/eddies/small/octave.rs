@@ -4,7 +4,7 @@
 
 use super::table::{LONGEST, Table};
 use crate::flow::channel::Channel;
-use crate::quad::Pair;
+use crate::simd::f32x4::Pair;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use world::math;
 use world::seeds::Stream;
@@ -126,7 +126,7 @@ impl Octave {
         label: [f32; 3],
     ) -> [f32; 3] {
         // SAFETY: as the caller promises.
-        let (v, a) = unsafe { table.at::<P>(self.in_table(life, label)) };
+        let (v, a) = unsafe { table.interpolate::<P>(self.in_table(life, label)) };
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

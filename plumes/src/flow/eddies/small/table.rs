@@ -9,7 +9,7 @@
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::{Four, Fourier};
-use crate::quad::{Pair, Quad, fetch_soon};
+use crate::simd::f32x4::{F32x4, Pair, fetch_soon};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use world::math;
@@ -90,8 +90,8 @@ impl Table {
     /// # Safety
     /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(super) unsafe fn at<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
-        let Cell { near, far, part } = Cell::of(q);
+    pub(super) unsafe fn interpolate<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+        let Cell { near, far, part } = Cell::locate(q);
         // SAFETY: here and below, as the caller promises.
         let mut both = unsafe { P::new(&[[0.0; 4]; 2]) };
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
@@ -104,7 +104,7 @@ impl Table {
                 }
             }
         }
-        let three = |q: Quad| {
+        let three = |q: F32x4| {
             let [x, y, z, _] = q.array();
             [x, y, z]
         };
@@ -115,7 +115,7 @@ impl Table {
     /// Asks the processor for the nodes round a place in sides of the box.
     #[inline(always)]
     pub(super) fn fetch_soon(&self, q: [f32; 3]) {
-        let Cell { near, far, .. } = Cell::of(q);
+        let Cell { near, far, .. } = Cell::locate(q);
         for i in [near[0], far[0]] {
             for j in [near[1], far[1]] {
                 for k in [near[2], far[2]] {
@@ -135,7 +135,7 @@ struct Cell {
 
 impl Cell {
     #[inline(always)]
-    fn of(q: [f32; 3]) -> Self {
+    fn locate(q: [f32; 3]) -> Self {
         let mut new = Self { near: [0; 3], far: [0; 3], part: [0.0; 3] };
         for (d, q) in q.into_iter().enumerate() {
             let c = q * NODES as f32;
@@ -174,11 +174,11 @@ fn summed(field: &mut [Four]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quad::Twice;
+    use crate::simd::f32x4::PortablePair;
 
     fn at(table: &Table, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         // SAFETY: a pair that every machine of the target has.
-        unsafe { table.at::<Twice>(q) }
+        unsafe { table.interpolate::<PortablePair>(q) }
     }
 
     /// At the nodes' centres, where the interpolation is smoothest: the curl of the potential is the velocity, and the

@@ -6,7 +6,7 @@ use crate::flow::channel::{Channel, OpenChannelSpec};
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::eddies::tests_eddies::{BED, channel_spec, flume};
 use crate::flow::water::{Water, WaterSpec};
-use crate::quad::Twice;
+use crate::simd::f32x4::PortablePair;
 use world::math;
 use world::ranges::Positive;
 use world::seeds::Stream;
@@ -37,7 +37,7 @@ fn velocity(small: &Small, t_s: f64, shear: f32, p: [f32; 3]) -> [f32; 3] {
     let labels: Vec<[f32; 3]> = lives.iter().map(label).collect();
     let weights = small.weights(0.0, false);
     // SAFETY: a pair that every machine of the target has.
-    unsafe { small.velocity::<Twice>(&lives, p[2], &weights, &labels) }
+    unsafe { small.velocity::<PortablePair>(&lives, p[2], &weights, &labels) }
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn kernels_feel_only_what_is_larger() {
             let labels = vec![[x, 0.3 * x, -0.1]; lives.len()];
             let weights = small.weights(size, false);
             // SAFETY: a pair that every machine of the target has.
-            let v = unsafe { small.velocity::<Twice>(&lives, -0.1, &weights, &labels) };
+            let v = unsafe { small.velocity::<PortablePair>(&lives, -0.1, &weights, &labels) };
             sum += v.iter().map(|v| v * v).sum::<f32>();
         }
         sum.sqrt()

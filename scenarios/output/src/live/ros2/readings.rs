@@ -13,7 +13,7 @@ const SURFACE_PA: f64 = 101_325.0;
 const WEIGHT_N_M3: f64 = 1025.0 * 9.806_65;
 
 /// Adds the messages of all readings.
-pub(super) fn put(of: &mut MachineMessages, heard: &NewestReadings) {
+pub(super) fn add_readings(of: &mut MachineMessages, heard: &NewestReadings) {
     let body = of.machine.frame(BODY);
     if let Some(TimedReading { t_s, value }) = &heard.attitude {
         let attitude = Attitude {
@@ -23,12 +23,12 @@ pub(super) fn put(of: &mut MachineMessages, heard: &NewestReadings) {
             rates_rad_s: value.rates_rad_s,
         };
         let imu = Imu { t_ns: nanoseconds(*t_s), frame: &body, attitude: attitude.R_WB(), rates: value.rates_rad_s };
-        of.put(&topics::IMU, imu.cdr());
+        of.add(&topics::IMU, imu.cdr());
     }
     if let Some(TimedReading { t_s, value }) = &heard.depth {
         let pressure_Pa = SURFACE_PA + WEIGHT_N_M3 * value.depth_m;
         let cdr = fluid_pressure(nanoseconds(*t_s), &body, pressure_Pa);
-        of.put(&topics::PRESSURE, cdr);
+        of.add(&topics::PRESSURE, cdr);
     }
     if let (Some(TimedReading { t_s, value }), Some(limits_m)) = (&heard.altimeter, of.machine.altimeter_m) {
         let range = Range {
@@ -38,25 +38,25 @@ pub(super) fn put(of: &mut MachineMessages, heard: &NewestReadings) {
             limits_m,
             range_m: value.valid.then_some(value.altitude_m),
         };
-        of.put(&topics::ALTIMETER, range.cdr());
+        of.add(&topics::ALTIMETER, range.cdr());
     }
     if let Some(scan) = &heard.ranging {
         ranging(of, scan, &body);
     }
     if let Some(TimedReading { t_s, value }) = heard.dvl.as_ref().filter(|r| r.value.valid) {
         let cdr = twist_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
-        of.put(&topics::DVL, cdr);
+        of.add(&topics::DVL, cdr);
     }
     if let Some(TimedReading { t_s, value }) = heard.adcp.as_ref().filter(|r| r.value.valid) {
         let cdr = vector3_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
-        of.put(&topics::ADCP, cdr);
+        of.add(&topics::ADCP, cdr);
     }
 }
 
 /// The echoes of the forward ranging as points, and the nearest.
 fn ranging(of: &mut MachineMessages, TimedReading { t_s, value: scan }: &TimedReading<RangeScan>, body: &str) {
     let t_ns = nanoseconds(*t_s);
-    of.put(&topics::RANGING, echo_cloud(t_ns, body, scan));
+    of.add(&topics::RANGING, echo_cloud(t_ns, body, scan));
     if let Some((limits_m, view_rad)) = of.machine.ranging {
         let nearest = Range {
             t_ns,
@@ -65,6 +65,6 @@ fn ranging(of: &mut MachineMessages, TimedReading { t_s, value: scan }: &TimedRe
             limits_m,
             range_m: (scan.beams.iter().filter_map(|b| b.echo_m)).min_by(f64::total_cmp),
         };
-        of.put(&topics::NEAREST, nearest.cdr());
+        of.add(&topics::NEAREST, nearest.cdr());
     }
 }

@@ -47,7 +47,7 @@ impl<'a> MachineMessages<'a> {
     }
 
     /// Adds a message on a topic of this machine.
-    pub(super) fn put(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
+    pub(super) fn add(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
         self.put_named(topic, "", cdr);
     }
 
@@ -99,23 +99,23 @@ impl LatchedTopics {
             let child = of.machine.frame(link);
             let odometry =
                 Odometry { t_ns, frame: MAP, child: &child, position: pose.p_WB, attitude: pose.R_WB, linear, angular };
-            of.put(topic, odometry.cdr());
+            of.add(topic, odometry.cdr());
             tf.push(transform(t_ns, MAP, child, pose));
         }
-        readings::put(of, &r.heard);
+        readings::add_readings(of, &r.heard);
         if let Some(c) = r.chemical {
-            of.put(&topics::CHEMICAL, float64(c.volts));
+            of.add(&topics::CHEMICAL, float64(c.volts));
         }
         if let Some(flow) = e.flow {
             let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
-            of.put(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
+            of.add(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
         }
         self.behaviour(of, r.behaviour.name());
         if !r.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
             // The stamp is that of the start, so that the same path is the same message.
             let same = path(0, MAP, &r.planned);
             if self.is_new(plan_of(of), same) {
-                of.put(&topics::PLAN, path(t_ns, MAP, &r.planned));
+                of.add(&topics::PLAN, path(t_ns, MAP, &r.planned));
             }
         }
         for d in &r.declarations {
@@ -126,7 +126,7 @@ impl LatchedTopics {
     fn gantry(&mut self, of: &mut MachineMessages, g: &GantryFrame, tf: &mut Vec<Transform>) {
         let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
         tf.extend(slid(of.t_ns, of.machine, &names(of.machine), &positions));
-        of.put(&topics::JOINTS, joint_state(of.t_ns, "", &joints(g)));
+        of.add(&topics::JOINTS, joint_state(of.t_ns, "", &joints(g)));
         if let Some(scan) = &g.scan {
             let probes = of.machine.probes.iter().zip(&scan.volts[..scan.count]);
             for (probe, volts) in probes {
@@ -142,7 +142,7 @@ impl LatchedTopics {
     fn behaviour(&mut self, of: &mut MachineMessages, name: &str) {
         let cdr = text(name);
         if self.is_new(format!("{}/behaviour", of.machine.name), cdr.clone()) {
-            of.put(&topics::BEHAVIOUR, cdr);
+            of.add(&topics::BEHAVIOUR, cdr);
         }
     }
 
@@ -152,7 +152,7 @@ impl LatchedTopics {
         let cdr = pose_stamped(nanoseconds(d.t_s), MAP, &p, &UnitQuaternion::identity());
         let which = format!("{}/declaration/{:?}", of.machine.name, d.region);
         if self.is_new(which, cdr.clone()) {
-            of.put(&topics::DECLARATION, cdr);
+            of.add(&topics::DECLARATION, cdr);
         }
     }
 

@@ -18,7 +18,7 @@ pub enum Qos {
 impl Qos {
     /// In words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Qos::Clock => "best effort, depth 1",
             Qos::Sensor => "best effort, depth 5",

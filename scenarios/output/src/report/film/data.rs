@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 const BED: usize = 40;
 
 /// `None` for a run without machine and without plume.
-pub(super) fn of(run: &RunReport<'_>) -> Option<Value> {
-    let plan = Plan::of(run)?;
+pub(super) fn film_data(run: &RunReport<'_>) -> Option<Value> {
+    let plan = Plan::from_run(run)?;
     let robots = || run.track.robots.iter().filter(|t| !t.rows.is_empty());
     // A gantry beside robots is drawn on their plan.
     let gantries = || run.gantries.iter().filter(|g| !g.rows.is_empty());
@@ -22,12 +22,12 @@ pub(super) fn of(run: &RunReport<'_>) -> Option<Value> {
     let mut known = Behaviours::default();
     let mut all: Vec<Value> = robots().map(|t| tracks::robot(t, &plan, n, &mut known)).collect();
     all.extend(gantries().map(|g| tracks::gantry(g, &plan, n, &mut known)));
-    let plume = wisps::of(run.plume_film, &plan);
+    let plume = wisps::encode(run.plume_film, &plan);
     if all.is_empty() && (plume.is_null() || run.plume_film.moments.len() < 2) {
         return None;
     }
-    let cut = Cut::of(run, &plan);
-    let place = |p: [f64; 2]| plan.at(p).map(|x| (x / plan.quantum()).round());
+    let cut = Cut::along_flow(run, &plan);
+    let place = |p: [f64; 2]| plan.position(p).map(|x| (x / plan.quantum()).round());
     let solids = run.obstacles.iter().map(|o| {
         let corners: Vec<_> = o.corners.iter().map(|c| place(*c)).collect();
         json!({"name": o.id, "corners": corners, "z": o.z, "permeable": o.permeable})

@@ -22,7 +22,7 @@ const SCRIPTS: [&str; 4] = [
 /// The data of the animation as JSON that is safe inside a page; `None` for a run in which nothing moved.
 #[must_use]
 pub fn film(run: &RunReport<'_>) -> Option<String> {
-    data::of(run).map(|data| in_page(&data.to_string()))
+    data::film_data(run).map(|data| in_page(&data.to_string()))
 }
 
 /// A section of the page with an animation and its heading; the data are those of [`film`]. The page needs

@@ -42,7 +42,7 @@ pub(super) struct Cut {
 }
 
 impl Plan {
-    pub(super) fn of(run: &RunReport<'_>) -> Option<Self> {
+    pub(super) fn from_run(run: &RunReport<'_>) -> Option<Self> {
         let mut plan = Self {
             origin: Vector2::zeros(),
             along: Vector2::x(),
@@ -63,7 +63,7 @@ impl Plan {
             plan.names = ["Down-stream (cm)", "To the left (cm)"];
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
-        let mut add = |p: Vector2<f64>| points.push(plan.at([p.x, p.y]));
+        let mut add = |p: Vector2<f64>| points.push(plan.position([p.x, p.y]));
         run.sources.iter().for_each(|s| add(s.position.xy()));
         for t in &run.track.robots {
             let places = t.rows.iter().map(|r| Vector2::new(r.p[0], r.p[1]));
@@ -82,7 +82,7 @@ impl Plan {
         (plan.u, plan.v) = (range(0, 0.05)?, range(1, 0.05)?);
         if flume {
             // The whole width of the flume, as long as it does not dwarf the track.
-            let across = corners.map(|p| plan.at([p.x, p.y])[1]);
+            let across = corners.map(|p| plan.position([p.x, p.y])[1]);
             let across = range_of(across.into_iter(), 0.0)?;
             let length = plan.u[1] - plan.u[0];
             if across[1] - across[0] < 1.2 * length {
@@ -98,7 +98,7 @@ impl Plan {
     }
 
     /// A place (east, north, m) on the plan, in its units.
-    pub(super) fn at(&self, p: [f64; 2]) -> [f64; 2] {
+    pub(super) fn position(&self, p: [f64; 2]) -> [f64; 2] {
         let d = (Vector2::from(p) - self.origin) * self.per_m;
         [d.dot(&self.along), self.along.perp(&d)]
     }
@@ -117,7 +117,7 @@ impl Plan {
 
 impl Cut {
     /// Along the flow at the source, or along the area without a source in moving water.
-    pub(super) fn of(run: &RunReport<'_>, plan: &Plan) -> Self {
+    pub(super) fn along_flow(run: &RunReport<'_>, plan: &Plan) -> Self {
         let source = run.best_declared();
         let flow = source.map(|s| s.flow).filter(|f| f.norm() > 1e-6);
         let (along, name) = match (flow, source) {
@@ -127,7 +127,7 @@ impl Cut {
             (None, None) => (run.area.axis.unit(), "Along the area (m)"),
         };
         let origin = source.map_or(run.area.centre, |s| s.position.xy());
-        let from = plan.at([origin.x, origin.y]);
+        let from = plan.position([origin.x, origin.y]);
         // Directions turn with the axes of the plan.
         let along = [along.dot(&plan.along), plan.along.perp(&along)];
         let local = |[u, v]: [f64; 2]| {
@@ -135,7 +135,7 @@ impl Cut {
             [d[0] * along[0] + d[1] * along[1], along[0] * d[1] - along[1] * d[0]]
         };
         let mut reach: Vec<[f64; 2]> = Vec::new();
-        let mut add = |p: [f64; 2]| reach.push(local(plan.at(p)));
+        let mut add = |p: [f64; 2]| reach.push(local(plan.position(p)));
         for t in &run.track.robots {
             t.rows.iter().for_each(|r| add([r.p[0], r.p[1]]));
         }

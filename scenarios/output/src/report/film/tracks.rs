@@ -74,7 +74,7 @@ pub(super) fn robot(t: &RobotTrack, plan: &Plan, n: usize, known: &mut Behaviour
     let (mut at, mut u, mut v, mut z) = (vec![], vec![], vec![], vec![]);
     let (mut bu, mut bv, mut reads, mut above, mut does) = (vec![], vec![], vec![], vec![], vec![]);
     for (r, group) in groups(&t.rows, n) {
-        let (p, b) = (plan.at([r.p[0], r.p[1]]), plan.at(r.believed));
+        let (p, b) = (plan.position([r.p[0], r.p[1]]), plan.position(r.believed));
         let numbers = [(r.t_s, 0.01), (p[0], q), (p[1], q), (r.p[2], 0.01)];
         let [Some(t), Some(x), Some(y), Some(h)] = numbers.map(|(x, q)| whole(x, q)) else {
             continue;
@@ -88,18 +88,18 @@ pub(super) fn robot(t: &RobotTrack, plan: &Plan, n: usize, known: &mut Behaviour
         let read = highest(group.iter().filter_map(|r| r.reading));
         reads.push(read.and_then(|x| whole(x, 1e-4)));
         above.push(whole(r.altitude_m, 0.01));
-        does.push(known.number(palette::words(r.behaviour), palette::behaviour(r.behaviour)));
+        does.push(known.number(palette::behaviour_label(r.behaviour), palette::behaviour(r.behaviour)));
     }
     let lost = t.lost_over_time.iter().filter_map(|l| {
-        let p = plan.at(l.p);
+        let p = plan.position(l.p);
         let numbers = [(p[0], q), (p[1], q), (l.from_s, 0.01)].map(|(x, q)| whole(x, q));
         let [u, v, from] = [numbers[0]?, numbers[1]?, numbers[2]?];
         Some((u, v, from, l.until_s.and_then(|t| whole(t, 0.01))))
     });
     let declared = t.declarations.iter().filter_map(|d| {
-        let p = plan.at([d.position.x, d.position.y]);
+        let p = plan.position([d.position.x, d.position.y]);
         let ring = d.evidence.and_then(|e| {
-            let m = plan.at(e.middle_m);
+            let m = plan.position(e.middle_m);
             let [u, v, r] = [m[0], m[1], e.reach_m * plan.per_m].map(|x| whole(x, q));
             Some([u?, v?, r?])
         });
@@ -111,8 +111,8 @@ pub(super) fn robot(t: &RobotTrack, plan: &Plan, n: usize, known: &mut Behaviour
     });
     let regions = t.regions.iter().zip(0..).map(|(r, k)| {
         json!({
-            "name": region_name(k), "words": r.state.words(),
-            "corners": r.area.corners().map(|p| plan.at([p.x, p.y]).map(|x| whole(x, q))),
+            "name": region_name(k), "words": r.state.label(),
+            "corners": r.area.corners().map(|p| plan.position([p.x, p.y]).map(|x| whole(x, q))),
             "from": r.from_s.and_then(|t| whole(t, 0.01)), "until": r.until_s.and_then(|t| whole(t, 0.01)),
         })
     });
@@ -139,7 +139,7 @@ pub(super) fn gantry(g: &GantryTrack, plan: &Plan, n: usize, known: &mut Behavio
     let mut volts: Vec<Vec<Option<i64>>> = vec![Vec::new(); probes];
     let mut limits: Vec<Vec<Option<i64>>> = vec![Vec::new(); probes];
     for (r, group) in groups(&g.rows, n) {
-        let p = plan.at(r.head);
+        let p = plan.position(r.head);
         let [Some(t), Some(x), Some(y)] = [(r.t_s, 0.01), (p[0], q), (p[1], q)].map(|(x, q)| whole(x, q)) else {
             continue;
         };
@@ -156,13 +156,13 @@ pub(super) fn gantry(g: &GantryTrack, plan: &Plan, n: usize, known: &mut Behavio
         let (name, colour) = (palette::gantry_words(r.behaviour), palette::gantry_behaviour(r.behaviour));
         does.push(known.number(name, colour));
     }
-    let head = g.rows.last().map_or([0.0; 2], |r| plan.at(r.head));
+    let head = g.rows.last().map_or([0.0; 2], |r| plan.position(r.head));
     let tips = g.tips.iter().filter_map(|p| {
-        let t = plan.at([p[0], p[1]]);
+        let t = plan.position([p[0], p[1]]);
         Some([whole(t[0] - head[0], q)?, whole(t[1] - head[1], q)?, whole(p[2], 1e-4)?])
     });
     let declared = g.declared.zip(g.stopped).and_then(|(p, (t_s, _))| {
-        let p = plan.at(p);
+        let p = plan.position(p);
         Some(json!({"u": whole(p[0], q)?, "v": whole(p[1], q)?, "t": whole(t_s, 0.01)?, "edge": false,
             "words": "declared", "ring": null}))
     });

@@ -20,11 +20,11 @@ type Placed = ([f64; 2], Wisp);
 /// The plume, with filaments that lie far outside the plan left out. Bytes of a filament: two of each place on the
 /// plan, as a share of the plan's ranges widened by a tenth; one of its height; one of its size and one of its
 /// concentration, both on a scale of logarithms; one that is zero.
-pub(super) fn of(film: &PlumeFilm, plan: &Plan) -> Value {
+pub(super) fn encode(film: &PlumeFilm, plan: &Plan) -> Value {
     let wide = |r: [f64; 2]| [r[0] - 0.1 * (r[1] - r[0]), r[1] + 0.1 * (r[1] - r[0])];
     let (u, v) = (wide(plan.u), wide(plan.v));
     let inside = |w: &Wisp| {
-        let p = plan.at([w.p[0], w.p[1]]);
+        let p = plan.position([w.p[0], w.p[1]]);
         (u[0] <= p[0] && p[0] <= u[1] && v[0] <= p[1] && p[1] <= v[1]).then_some((p, *w))
     };
     let shown = SHOWN.min(ALL / film.moments.len().max(1));

@@ -72,7 +72,7 @@ pub(super) fn score(
     score: &mut Score,
 ) {
     let p_W = truth.pose.p_WB;
-    score.at(id.place, &p_W);
+    score.moved_to(id.place, &p_W);
     score.outcome(id.place, decision.outcome);
     let own = &mut score.searchers[id.place];
     if let Some(declaration) = decision.declared {

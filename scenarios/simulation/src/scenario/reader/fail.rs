@@ -56,7 +56,7 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    fn of(said: &str) -> Self {
+    fn parse(said: &str) -> Self {
         let (legal, got) = match said.rsplit_once(", got ") {
             Some((legal, got)) => (legal, Some(got)),
             None => (said, None),
@@ -151,7 +151,7 @@ impl Display for Misfit {
 
 impl Fail {
     /// Sets the value that the failure is about, unless it is about one inside it.
-    pub(super) fn at(mut self, id: usize) -> Self {
+    pub(super) fn about(mut self, id: usize) -> Self {
         self.at.get_or_insert(id);
         self
     }
@@ -171,7 +171,7 @@ impl std::error::Error for Fail {}
 
 impl serde::de::Error for Fail {
     fn custom<T: Display>(message: T) -> Self {
-        Self::new(What::Refused(Refusal::of(&message.to_string())))
+        Self::new(What::Refused(Refusal::parse(&message.to_string())))
     }
 
     fn invalid_type(_: serde::de::Unexpected<'_>, expected: &dyn serde::de::Expected) -> Self {

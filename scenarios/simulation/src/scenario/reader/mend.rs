@@ -64,7 +64,7 @@ impl<'a> Mender<'a> {
     }
 
     /// All mistakes found so far.
-    pub(super) fn told(&mut self) -> Vec<Placed> {
+    pub(super) fn mistakes(&mut self) -> Vec<Placed> {
         let tree = self.reading.tree.get_mut();
         let mut found = std::mem::take(&mut tree.faults);
         found.extend(self.told.iter().map(|told| told.with_hint(tree)));
@@ -93,7 +93,7 @@ impl<'a> Mender<'a> {
 
     /// The place of a path in the text.
     pub(super) fn place(&self, path: &str) -> Range<usize> {
-        let outline = Outline::of(self.reading.text);
+        let outline = Outline::scan(self.reading.text);
         outline.find(path).map_or(0..0, |n| n.whole.clone())
     }
 

@@ -76,7 +76,7 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
     }
     let faults = found.into_iter();
     let faults = faults.map(|(at, found)| Fault::new(name, text, at, found));
-    Err(ScenarioError::of(name, faults.collect()))
+    Err(ScenarioError::from_faults(name, faults.collect()))
 }
 
 fn mistakes<T: DeserializeOwned>(
@@ -84,7 +84,7 @@ fn mistakes<T: DeserializeOwned>(
     renamed: Option<Renamed>,
     meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
 ) -> Vec<Placed> {
-    let Some(tree) = Tree::of(text) else {
+    let Some(tree) = Tree::parse(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, UnplacedFault::error("", problem))];
     };
@@ -92,7 +92,7 @@ fn mistakes<T: DeserializeOwned>(
     mender.rename();
     let first = mender.read(0);
     // Mistakes that only later readings find come from their stand-ins.
-    let mut found = mender.told();
+    let mut found = mender.mistakes();
     let others = (1..FILLINGS).filter_map(|filling| mender.read(filling));
     let values: Vec<T> = first.into_iter().chain(others).collect();
     let mut said = values.iter().map(meaning);

@@ -24,7 +24,7 @@ pub(in crate::scenario) struct Renamed {
 impl Renamed {
     /// Whether a text has the name that it must not use.
     pub(super) fn misused(&self, text: &str) -> bool {
-        let outline = Outline::of(text);
+        let outline = Outline::scan(text);
         (outline.nodes.iter()).any(|n| n.path == self.elsewhere && n.whole != n.value)
     }
 }

@@ -9,8 +9,8 @@ use std::ops::Range;
 
 impl Tree {
     /// Parses a text. `None` if brackets are nested too deep.
-    pub(super) fn of(text: &str) -> Option<Self> {
-        let tokens = Tokens::of(text);
+    pub(super) fn parse(text: &str) -> Option<Self> {
+        let tokens = Tokens::scan(text);
         let plain = Parser::new(text, &tokens, false).whole()?;
         if plain.brackets == 0 && !plain.cut {
             return Some(plain);

@@ -26,7 +26,7 @@ pub(super) struct Tokens {
 impl Tokens {
     /// Scans a text. A missing quote would exchange inside and outside of all later texts; then each text in quotes is
     /// taken to end with its line.
-    pub(super) fn of(text: &str) -> Self {
+    pub(super) fn scan(text: &str) -> Self {
         let whole = scan(text, false);
         if !whole.cut {
             return whole;
@@ -93,14 +93,14 @@ mod tests {
     #[test]
     fn one_quote_too_few_ends_with_its_line() {
         let text = "(a: \"one,\n b: \"two\", c: 3)";
-        let tokens = Tokens::of(text);
+        let tokens = Tokens::scan(text);
         let unclosed: Vec<&str> = (tokens.unclosed.iter()).map(|r| &text[r.clone()]).collect();
         assert_eq!(unclosed, ["\"one"]);
         assert_eq!(meant("\"eel, n: 1)"), 4);
         assert_eq!(meant("\"one, two)],"), 9);
         assert!(!tokens.cut);
-        let cut = Tokens::of("(a: \"one\", b: \"tw");
+        let cut = Tokens::scan("(a: \"one\", b: \"tw");
         assert!(cut.cut && cut.unclosed.is_empty());
-        assert!(!Tokens::of("(a: \"one\ntwo\", b: \"\\\\\")").cut);
+        assert!(!Tokens::scan("(a: \"one\ntwo\", b: \"\\\\\")").cut);
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct Reading<'a> {
 impl Reading<'_> {
     /// A failure about this value, if it is not about one within it.
     pub(super) fn about(&self, id: usize, fail: Fail) -> Fail {
-        let fail = fail.at(id);
+        let fail = fail.about(id);
         self.first.borrow_mut().get_or_insert_with(|| fail.clone());
         fail
     }

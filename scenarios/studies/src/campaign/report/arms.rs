@@ -25,7 +25,7 @@ impl ArmMeasure {
 
     /// Its name for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             ArmMeasure::Time => "time to declaration",
             ArmMeasure::Path => "path",
@@ -44,7 +44,7 @@ impl ArmMeasure {
 
     /// The value for one run; `None` if there is nothing to measure.
     #[must_use]
-    pub fn of(self, row: &RunRow) -> Option<f64> {
+    pub fn value(self, row: &RunRow) -> Option<f64> {
         match self {
             ArmMeasure::Time => row.declared_s,
             ArmMeasure::Path => row.error.is_none().then_some(row.travelled_m),
@@ -78,7 +78,7 @@ pub(super) struct Share {
 }
 
 impl Share {
-    pub(super) fn of(rows: &[&RunRow], what: impl Fn(&RunRow) -> bool) -> Self {
+    pub(super) fn count(rows: &[&RunRow], what: impl Fn(&RunRow) -> bool) -> Self {
         Self { count: rows.iter().filter(|r| what(r)).count() as u64, n: rows.len() as u64 }
     }
 
@@ -135,18 +135,18 @@ pub(super) fn figures(arm: &str, rows: &[&RunRow], limit_s: f64) -> ArmFigures {
     ArmFigures {
         arm: arm.to_string(),
         failed: rows.iter().filter(|r| r.error.is_some()).count() as u64,
-        success: Share::of(rows, |r| r.success),
-        declared: Share::of(rows, |r| r.declared_s.is_some()),
+        success: Share::count(rows, |r| r.success),
+        declared: Share::count(rows, |r| r.declared_s.is_some()),
         restricted: restricted(rows, limit_s),
         measured: ArmMeasure::ALL.map(|m| measured(m, rows)).to_vec(),
     }
 }
 
 fn measured(measure: ArmMeasure, rows: &[&RunRow]) -> Measured {
-    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
+    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.value(r)));
     let interval = |p| {
         let enough = sorted.len() >= LEAST_VALUES;
-        enough.then(|| quantile_interval(&sorted, p, SEED, measure.words()))?
+        enough.then(|| quantile_interval(&sorted, p, SEED, measure.label()))?
     };
     Measured {
         measure,

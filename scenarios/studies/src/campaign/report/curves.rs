@@ -45,7 +45,7 @@ pub(super) fn not_yet_declared(arm: &str, rows: &[&RunRow]) -> Curve {
 /// Share of all runs whose declaration is at most this far from the source.
 pub(super) fn errors(arm: &str, rows: &[&RunRow]) -> Curve {
     let ecdf = Ecdf::new(rows.iter().filter_map(|r| r.error_m), rows.len() as u64);
-    let (y, interval) = ecdf.at(-1.0);
+    let (y, interval) = ecdf.share_at(-1.0);
     let mut points = vec![Point { x: 0.0, y, interval }];
     points.extend(ecdf.steps().into_iter().map(|(x, y, interval)| Point { x, y, interval }));
     Curve {

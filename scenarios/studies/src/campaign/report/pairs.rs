@@ -33,11 +33,11 @@ impl Compares {
 
     /// Its name for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Compares::Success => "success",
             Compares::Restricted => "restricted time",
-            Compares::Measure(m) => m.words(),
+            Compares::Measure(m) => m.label(),
         }
     }
 
@@ -103,7 +103,7 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
         Compares::Success => paired_share(pairs.iter().map(|(a, b)| (a.success, b.success)), Better::More),
         Compares::Restricted => restricted,
         Compares::Measure(m) => {
-            paired_median(pairs.iter().filter_map(|(a, b)| m.of(a).zip(m.of(b))), Better::Less, SEED, m.words())
+            paired_median(pairs.iter().filter_map(|(a, b)| m.value(a).zip(m.value(b))), Better::Less, SEED, m.label())
         }
     };
     let n = pairs.len();

@@ -141,7 +141,7 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
         let ends = values.flat_map(|(v, i)| [v, i.low, i.high]).chain([0.0]);
         let known = range_of(ends, 0.06).filter(|[low, high]| high - low > 1e-6);
         let x = known.unwrap_or([-1.0, 1.0]);
-        let label = format!("Difference in {} ({unit})", by.words());
+        let label = format!("Difference in {} ({unit})", by.label());
         list(&mut c, 38.0 + per_panel * k as f64, x, Some(0.0), &entries, &label);
     }
     c.svg("differences")

@@ -29,7 +29,7 @@ impl Stated {
 
     /// In words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Stated::Cell => "best cell",
             Stated::Near => "within 5 m of it",
@@ -37,7 +37,7 @@ impl Stated {
     }
 
     /// The stated probability, and whether it was true; `None` without a map or a source.
-    fn of(self, r: &RunRow) -> Option<(f64, bool)> {
+    fn statement(self, r: &RunRow) -> Option<(f64, bool)> {
         let (p, yes) = match self {
             Stated::Cell => (r.map_cell_p, r.map_cell_true),
             Stated::Near => (r.map_near_p, r.map_near_true),
@@ -104,14 +104,14 @@ pub struct Reliability {
 /// Of an arm's runs that have a map: two statements each.
 pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
     let one = |of: Stated| {
-        let said: Vec<_> = rows.iter().filter_map(|r| of.of(r)).collect();
+        let said: Vec<_> = rows.iter().filter_map(|r| of.statement(r)).collect();
         let bins = EDGES.windows(2).filter_map(|e| {
             let last = e[1] == EDGES[EDGES.len() - 1];
             let inside = |p: f64| p >= e[0] && (p < e[1] || last);
             let of: Vec<_> = said.iter().copied().filter(|s| inside(s.0)).collect();
             Bin::new(e[0], e[1], &of)
         });
-        let declared = rows.iter().filter(|r| of.of(r).is_some() && r.map_declared == Some(1));
+        let declared = rows.iter().filter(|r| of.statement(r).is_some() && r.map_declared == Some(1));
         Some(Reliability {
             arm: arm.to_string(),
             of,
@@ -130,7 +130,7 @@ pub(crate) fn table(all: &[Reliability]) -> Table {
         let line = |b: &Bin, between: String| {
             [
                 r.arm.clone(),
-                r.of.words().to_string(),
+                r.of.label().to_string(),
                 between,
                 b.n.to_string(),
                 share.number(b.stated),
@@ -178,7 +178,7 @@ pub(crate) fn csv(all: &[Reliability]) -> String {
             let i = b.interval();
             [
                 r.arm.clone(),
-                r.of.words().to_string(),
+                r.of.label().to_string(),
                 b.from.to_string(),
                 b.to.to_string(),
                 b.n.to_string(),
@@ -229,19 +229,19 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
             c.polyline(panel.all(&points), &line);
             for b in &r.bins {
                 let i = b.interval();
-                let bar = [i.low, i.high].map(|y| panel.at([b.stated, y]));
+                let bar = [i.low, i.high].map(|y| panel.position([b.stated, y]));
                 c.line(bar[0], bar[1], &Style::line(colour(n), 0.8));
                 // Area by the number of runs.
                 let share = b.n as f64 / r.all.n as f64;
                 let size = 2.0 + 5.0 * share.sqrt();
-                c.circle(panel.at([b.stated, b.share()]), size, &Style::fill(colour(n)));
+                c.circle(panel.position([b.stated, b.share()]), size, &Style::fill(colour(n)));
             }
         }
         panel.frame(&mut c, 1.0);
         panel.x_ticks(&mut c, true, 11.0);
         panel.y_ticks(&mut c, 60.0, 11.0);
         let middle = panel.left + SIDE / 2.0;
-        c.text([middle, TOP - 10.0], 12.0, Anchor::Middle, of.words());
+        c.text([middle, TOP - 10.0], 12.0, Anchor::Middle, of.label());
         c.text([middle, TOP + SIDE + 34.0], 12.0, Anchor::Middle, "Stated");
     }
     c.upright([22.0, TOP + SIDE / 2.0], 12.0, "Share that is true");

@@ -80,7 +80,7 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
             scale.head("90 % quantile"),
             scale.head(INTERVAL),
         ];
-        (title(measure.words()), Table::new(head, rows().map(one)))
+        (title(measure.label()), Table::new(head, rows().map(one)))
     };
     ArmMeasure::ALL.into_iter().map(of).collect()
 }
@@ -138,7 +138,7 @@ pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<(String, Table)> {
                     (Compares::Success, Some(d)) => scale.numbers(d.interval),
                     _ => range(n, sound_interval(c), |i| scale.numbers(i)),
                 },
-                d.map_or("not separable: no pairs", |d| d.verdict.words()).to_string(),
+                d.map_or("not separable: no pairs", |d| d.verdict.label()).to_string(),
                 c.rests_on.clone(),
             ]
         };
@@ -151,7 +151,7 @@ pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<(String, Table)> {
             "first is".to_string(),
             "rests on".to_string(),
         ];
-        (title(by.words()), Table::new(head, rows().map(one)))
+        (title(by.label()), Table::new(head, rows().map(one)))
     };
     Compares::ALL.into_iter().map(of).collect()
 }
@@ -194,9 +194,9 @@ pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
         let in_time = Some(r.n - r.at_limit);
         lines.push(line(&what, r.n, in_time, r.mean_s, r.interval));
         for m in &a.measured {
-            let what = format!("{} median", m.measure.words());
+            let what = format!("{} median", m.measure.label());
             lines.push(line(&what, m.n, None, m.median, m.median_interval));
-            let what = format!("{} 90 % quantile", m.measure.words());
+            let what = format!("{} 90 % quantile", m.measure.label());
             lines.push(line(&what, m.n, None, m.q90, m.q90_interval));
         }
         lines
@@ -211,12 +211,12 @@ pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
         [
             c.first.clone(),
             c.second.clone(),
-            c.by.words().to_string(),
+            c.by.label().to_string(),
             d.map_or(0, |d| d.pairs).to_string(),
             value,
             low,
             high,
-            d.map_or("", |d| d.verdict.words()).to_string(),
+            d.map_or("", |d| d.verdict.label()).to_string(),
             c.rests_on.clone(),
             c.warning.clone().unwrap_or_default(),
         ]

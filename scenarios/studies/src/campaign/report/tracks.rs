@@ -31,7 +31,7 @@ pub enum Rank {
 impl Rank {
     /// Its name for people.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Self::Best => "best",
             Self::Median => "median",
@@ -128,7 +128,7 @@ pub(super) fn section(page: &mut Page, shown: &[RemadeRun], arms: usize) {
 fn title(pick: &Pick) -> String {
     let row = &pick.row;
     let under = if row.condition.is_empty() { String::new() } else { format!(", {}", row.condition) };
-    let (arm, rank) = (&row.arm, pick.rank.words());
+    let (arm, rank) = (&row.arm, pick.rank.label());
     format!("{arm}{under}: {rank} run, number {}", row.run)
 }
 
@@ -137,7 +137,7 @@ fn line(pick: &Pick) -> [String; 7] {
     let time_s = row.declared_s.unwrap_or(row.mission_s);
     [
         row.arm.clone(),
-        pick.rank.words().to_string(),
+        pick.rank.label().to_string(),
         row.run.to_string(),
         row.seed.to_string(),
         row.outcome.replace('_', " "),

@@ -16,7 +16,7 @@ pub(crate) struct Walls {
 }
 
 impl Walls {
-    pub(crate) fn of<'a>(rows: impl IntoIterator<Item = &'a RunRow>) -> Self {
+    pub(crate) fn sum<'a>(rows: impl IntoIterator<Item = &'a RunRow>) -> Self {
         let mut walls = Self::default();
         for r in rows {
             walls.runs += 1;
@@ -28,7 +28,7 @@ impl Walls {
     }
 
     /// The sums in a sentence.
-    pub(crate) fn words(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         let total = self.spin_up_s + self.mission_s;
         if total <= 0.0 {
             return "Wall time: none measured.".to_string();
@@ -62,9 +62,9 @@ mod tests {
     fn says_where_the_time_went_and_what_was_saved() {
         let paid = RunRow { spin_up_wall_s: 3.0, mission_wall_s: 1.0, ..row(0, None) };
         let shared = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 2.0, ..row(1, None) };
-        let said = Walls::of(&[paid, shared]).words();
+        let said = Walls::sum(&[paid, shared]).describe();
         assert!(said.contains("6 s, 3.0 s a run; spin-up 50 % (3 s), mission 50 % (3 s)"), "{said}");
         assert!(said.contains("1 runs took their spin-up over from another: about 3 s saved"), "{said}");
-        assert_eq!(Walls::of(&[]).words(), "Wall time: none measured.");
+        assert_eq!(Walls::sum(&[]).describe(), "Wall time: none measured.");
     }
 }

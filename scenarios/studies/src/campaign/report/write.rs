@@ -154,7 +154,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<WrittenRe
         pairs: if comparisons.is_empty() { Vec::new() } else { tables::pairs(&comparisons) },
         warnings: (comparisons.iter()).filter_map(|c| c.warning.clone()).collect(),
         reliable: (!reliable.is_empty()).then(|| (reliability::table(&reliable), reliability::notes(&reliable))),
-        walls: Walls::of(rows).words(),
+        walls: Walls::sum(rows).describe(),
         first_error: rows.iter().filter(|r| r.error.is_some()).min_by_key(|r| r.run).map(|r| {
             let error = r.error.as_deref().unwrap_or_default();
             format!("First failure: run {}: {error}", r.run)

@@ -38,7 +38,7 @@ impl Ecdf {
 
     /// Share of trials at or below `x`, with its interval; 0 if there are no trials.
     #[must_use]
-    pub fn at(&self, x: f64) -> (f64, Interval) {
+    pub fn share_at(&self, x: f64) -> (f64, Interval) {
         let k = self.sorted.partition_point(|v| *v <= x) as u64;
         (k as f64 / self.n.max(1) as f64, wilson(k, self.n))
     }
@@ -51,7 +51,7 @@ impl Ecdf {
         values
             .into_iter()
             .map(|x| {
-                let (share, interval) = self.at(x);
+                let (share, interval) = self.share_at(x);
                 (x, share, interval)
             })
             .collect()
@@ -65,9 +65,9 @@ mod tests {
     #[test]
     fn counts_what_is_at_or_below() {
         let e = Ecdf::new([3.0, 1.0, 1.0, f64::NAN], 5);
-        assert_eq!(e.at(0.9).0, 0.0);
-        assert_eq!(e.at(1.0).0, 0.4);
-        assert_eq!(e.at(9.0), (0.6, wilson(3, 5)));
+        assert_eq!(e.share_at(0.9).0, 0.0);
+        assert_eq!(e.share_at(1.0).0, 0.4);
+        assert_eq!(e.share_at(9.0), (0.6, wilson(3, 5)));
         let steps = e.steps();
         assert_eq!(steps.len(), 2);
         assert_eq!((steps[1].0, steps[1].1), (3.0, 0.6));
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn of_nothing_is_zero_and_unknown() {
         let e = Ecdf::new([], 0);
-        assert_eq!(e.at(1.0), (0.0, wilson(0, 0)));
+        assert_eq!(e.share_at(1.0), (0.0, wilson(0, 0)));
         assert!(e.steps().is_empty());
     }
 }

@@ -36,7 +36,7 @@ pub enum Separation {
 impl Separation {
     /// The verdict in words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn label(self) -> &'static str {
         match self {
             Separation::Better => "better",
             Separation::Worse => "worse",

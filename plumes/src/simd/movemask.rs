@@ -81,7 +81,7 @@ impl Movemask for Avx512 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path::InstructionSet;
+    use crate::simd::dispatch::InstructionSet;
 
     #[test]
     fn bits_are_the_marked_places() {

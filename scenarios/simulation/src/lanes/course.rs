@@ -14,9 +14,9 @@ pub(super) struct Course {
 }
 
 impl Course {
-    pub(super) fn of(scenario: &Scenario, base_dir: &Path, seed: Seed) -> Self {
+    pub(super) fn from_scenario(scenario: &Scenario, base_dir: &Path, seed: Seed) -> Self {
         Self {
-            origin: Origin::of(scenario, base_dir, seed),
+            origin: Origin::from_scenario(scenario, base_dir, seed),
             step_s: scenario.time.step_s.get(),
             drift_period_s: scenario.time.drift_period_s.get(),
         }
@@ -41,7 +41,7 @@ impl Course {
 /// `memory_bytes`; a run that needs more by itself is a group of its own. Each group holds indices of `runs`, in their
 /// order, and the groups come in the order of their first runs.
 #[must_use]
-pub fn alike(runs: &[(&Loaded, Seed)], memory_bytes: f64) -> Vec<Vec<usize>> {
+pub fn group_by_ocean(runs: &[(&Loaded, Seed)], memory_bytes: f64) -> Vec<Vec<usize>> {
     struct Group {
         course: Course,
         runs: Vec<usize>,
@@ -49,7 +49,7 @@ pub fn alike(runs: &[(&Loaded, Seed)], memory_bytes: f64) -> Vec<Vec<usize>> {
     }
     let mut groups: Vec<Group> = Vec::new();
     for (n, (loaded, seed)) in runs.iter().enumerate() {
-        let course = Course::of(&loaded.scenario, &loaded.base_dir, *seed);
+        let course = Course::from_scenario(&loaded.scenario, &loaded.base_dir, *seed);
         let lane = cost::of_lane(&loaded.scenario).bytes();
         let fits = |g: &&mut Group| {
             // This form also keeps out what is not a number.

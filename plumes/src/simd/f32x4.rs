@@ -14,10 +14,10 @@ use std::arch::x86_64 as x86;
 /// Four f32.
 #[derive(Clone, Copy)]
 #[cfg(target_arch = "x86_64")]
-pub(crate) struct Quad(x86::__m128);
+pub(crate) struct F32x4(x86::__m128);
 
 #[cfg(target_arch = "x86_64")]
-impl Quad {
+impl F32x4 {
     #[inline(always)]
     pub(crate) fn new(v: &[f32; 4]) -> Self {
         // SAFETY: reads four f32 at any alignment.
@@ -79,10 +79,10 @@ impl Quad {
 /// Four f32.
 #[derive(Clone, Copy)]
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) struct Quad([f32; 4]);
+pub(crate) struct F32x4([f32; 4]);
 
 #[cfg(not(target_arch = "x86_64"))]
-impl Quad {
+impl F32x4 {
     #[inline(always)]
     pub(crate) fn new(v: &[f32; 4]) -> Self {
         Self(*v)
@@ -148,22 +148,22 @@ pub(crate) trait Pair: Copy {
 
     fn times(self, s: f32) -> Self;
 
-    fn apart(self) -> [Quad; 2];
+    fn apart(self) -> [F32x4; 2];
 }
 
 /// A pair on any machine.
 #[derive(Clone, Copy)]
-pub(crate) struct Twice([Quad; 2]);
+pub(crate) struct PortablePair([F32x4; 2]);
 
-impl Pair for Twice {
+impl Pair for PortablePair {
     #[inline(always)]
     unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
-        Self([Quad::new(&v[0]), Quad::new(&v[1])])
+        Self([F32x4::new(&v[0]), F32x4::new(&v[1])])
     }
 
     #[inline(always)]
     unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self {
-        Self([Quad::new(a), Quad::new(b)])
+        Self([F32x4::new(a), F32x4::new(b)])
     }
 
     #[inline(always)]
@@ -182,7 +182,7 @@ impl Pair for Twice {
     }
 
     #[inline(always)]
-    fn apart(self) -> [Quad; 2] {
+    fn apart(self) -> [F32x4; 2] {
         self.0
     }
 }
@@ -190,10 +190,10 @@ impl Pair for Twice {
 /// A pair in one register of AVX.
 #[derive(Clone, Copy)]
 #[cfg(target_arch = "x86_64")]
-pub(crate) struct Avx(x86::__m256);
+pub(crate) struct AvxPair(x86::__m256);
 
 #[cfg(target_arch = "x86_64")]
-impl Pair for Avx {
+impl Pair for AvxPair {
     #[inline(always)]
     unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
         // SAFETY: reads eight f32 at any alignment; the caller promises AVX.
@@ -225,9 +225,9 @@ impl Pair for Avx {
     }
 
     #[inline(always)]
-    fn apart(self) -> [Quad; 2] {
+    fn apart(self) -> [F32x4; 2] {
         // SAFETY: as above.
-        unsafe { [Quad(x86::_mm256_castps256_ps128(self.0)), Quad(x86::_mm256_extractf128_ps::<1>(self.0))] }
+        unsafe { [F32x4(x86::_mm256_castps256_ps128(self.0)), F32x4(x86::_mm256_extractf128_ps::<1>(self.0))] }
     }
 }
 
@@ -237,9 +237,9 @@ mod tests {
 
     #[test]
     fn arithmetic_is_lane_by_lane() {
-        let a = Quad::new(&[1.0, 2.0, 3.0, 4.0]);
-        let b = Quad::new(&[0.5, -1.0, 8.0, 0.25]);
-        let got = Quad::columns([a.add(b), a.sub(b), a.times(3.0), b]);
+        let a = F32x4::new(&[1.0, 2.0, 3.0, 4.0]);
+        let b = F32x4::new(&[0.5, -1.0, 8.0, 0.25]);
+        let got = F32x4::columns([a.add(b), a.sub(b), a.times(3.0), b]);
         for (d, (x, y)) in [(1.0, 0.5), (2.0, -1.0), (3.0, 8.0), (4.0, 0.25)].into_iter().enumerate() {
             assert_eq!(got[d], [x + y, x - y, x * 3.0, y]);
         }
@@ -251,18 +251,18 @@ mod tests {
         let rows = [[1.5, -2.0, 3.25, 0.1], [7.0, 0.3, -0.2, 5.5]];
         // SAFETY: the callers ask the machine first.
         let [a, b] = unsafe { [P::new(&rows), P::of(&rows[1], &rows[0])] };
-        a.times(0.7).add(b.sub(a)).apart().map(Quad::array)
+        a.times(0.7).add(b.sub(a)).apart().map(F32x4::array)
     }
 
     #[test]
     fn pairs_are_quads_side_by_side() {
         let want = |a: f32, b: f32| a * 0.7 + (b - a);
-        let got = lanes::<Twice>();
+        let got = lanes::<PortablePair>();
         assert_eq!(got[0][0], want(1.5, 7.0));
         assert_eq!(got[1][3], want(5.5, 0.1));
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx") {
-            assert_eq!(lanes::<Avx>(), got);
+            assert_eq!(lanes::<AvxPair>(), got);
         }
     }
 }
