@@ -3,7 +3,7 @@
 use crate::common;
 use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{load, template};
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -79,8 +79,11 @@ fn a_vehicle_that_leaves_its_area_is_told_of() {
 fn frames_carry_what_goes_wrong_and_nothing_else() {
     #[derive(Default)]
     struct Last(Vec<String>);
-    impl Watch for Last {
-        fn frame(&mut self, frame: &Arc<Frame>) {
+    impl Observer for Last {
+        fn see(&mut self, event: &Event) {
+            let Event::Frame(frame) = event else {
+                return;
+            };
             self.0 = frame.abnormal.iter().map(|a| a.what.label().to_string()).collect();
         }
     }

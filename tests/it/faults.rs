@@ -4,7 +4,7 @@ use crate::common;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, load_text, template};
-use rheotaxis::trial::{RunEnd, Trial, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use robots::handoff::Actuation;
 use std::sync::Arc;
 use world::registry::Registry;
@@ -40,9 +40,11 @@ fn channel(faults: &str, limit_s: f64) -> Loaded {
 #[derive(Default)]
 struct States(Vec<(f64, RobotFrame)>);
 
-impl Watch for States {
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.0.push((frame.t_s, frame.robots[0].clone()));
+impl Observer for States {
+    fn see(&mut self, event: &Event) {
+        if let Event::Frame(frame) = event {
+            self.0.push((frame.t_s, frame.robots[0].clone()));
+        }
     }
 }
 

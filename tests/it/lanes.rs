@@ -8,7 +8,7 @@ mod faults;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::score::Score;
-use rheotaxis::trial::{RunEnd, Trial, Unwatched, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use world::ranges::{NonNegative, Positive};
 
 /// Seed of the runs.
@@ -57,4 +57,6 @@ fn in_lanes(all: &[&Loaded]) -> (Vec<End>, Vec<usize>) {
 /// An observer that only knows which lane it is of.
 struct Numbered(usize);
 
-impl Watch for Numbered {}
+impl Observer for Numbered {
+    fn see(&mut self, _event: &Event) {}
+}

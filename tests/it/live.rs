@@ -22,7 +22,7 @@ use output::live::{Live, LiveOptions, Payload, topics};
 use readings::{picture, ping};
 use rheotaxis::frame::Frame;
 use rheotaxis::scenario;
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::net::TcpListener;
@@ -74,7 +74,7 @@ fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
     assert_eq!(token.kind(), SampleKind::Put);
 
     let mut seen = kept(&session, "before_1");
-    live.publish(&frame(4));
+    live.see(&Event::Frame(Arc::new(frame(4))));
     live.finish("d1");
     while !(seen.contains_key("clock") && json(&seen["clock"])["ended"] == true) {
         let sample = next(&samples);
@@ -89,7 +89,7 @@ fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
 #[test]
 fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
     let live = start("during_1");
-    live.publish(&frame(1));
+    live.see(&Event::Frame(Arc::new(frame(1))));
     let session = client(live.endpoint());
     let samples = listen(&session, "during_1");
     // Another thread sends it: it is asked for until it is there.
@@ -100,7 +100,7 @@ fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
     assert_eq!(json(&seen["clock"])["step"], 1, "the state at hand is told at once");
     assert!(!seen.contains_key("meta/digest"), "no digest before the end");
 
-    live.publish(&frame(2));
+    live.see(&Event::Frame(Arc::new(frame(2))));
     live.finish("d1");
     while json(&seen["clock"])["ended"] != true {
         let sample = next(&samples);
@@ -114,7 +114,7 @@ fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
 #[test]
 fn a_subscriber_started_after_the_end_sees_schema_state_and_end_until_the_run_closes() {
     let live = start("after_1");
-    live.publish(&frame(9));
+    live.see(&Event::Frame(Arc::new(frame(9))));
     live.end("d1");
     let session = client(live.endpoint());
     let seen = kept_at_the_end(&session, "after_1");
@@ -158,7 +158,7 @@ fn a_run_that_breaks_off_never_says_that_it_ended() {
     let samples = listen(&session, "broken_1");
     let alive = session.liveliness().declare_subscriber("rheotaxis/broken_1/@live/sim").history(true).wait().unwrap();
     assert_eq!(next(&alive).kind(), SampleKind::Put);
-    live.publish(&frame(1));
+    live.see(&Event::Frame(Arc::new(frame(1))));
     sent(&live);
     drop(live);
     assert_eq!(next(&alive).kind(), SampleKind::Delete);
@@ -172,11 +172,11 @@ fn a_run_that_breaks_off_never_says_that_it_ended() {
 #[test]
 fn every_message_keeps_its_published_schema() {
     let live = start("schema_1");
-    live.publish(&frame(3));
-    live.plume(&plume(100));
-    live.water(&water());
-    live.picture(&picture(1.0));
-    live.ping(&ping(1.0));
+    live.see(&Event::Frame(Arc::new(frame(3))));
+    live.see(&Event::Plume(Arc::new(plume(100))));
+    live.see(&Event::Water(Arc::new(water())));
+    live.see(&Event::Picture(Arc::new(picture(1.0))));
+    live.see(&Event::Ping(Arc::new(ping(1.0))));
     live.end("d1");
     let session = client(live.endpoint());
     let seen = kept_at_the_end(&session, "schema_1");
@@ -227,9 +227,9 @@ fn every_message_keeps_its_published_schema() {
 
 /// Hands on what it sees.
 struct Publishing(Live);
-impl Watch for Publishing {
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.0.publish(frame);
+impl Observer for Publishing {
+    fn see(&mut self, event: &Event) {
+        self.0.see(event);
     }
 }
 

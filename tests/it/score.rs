@@ -4,7 +4,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
-use rheotaxis::trial::{RunEnd, Trial, Unwatched, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use std::path::Path;
 use std::sync::Arc;
 use world::ranges::{Finite, NonNegative, Positive};
@@ -56,10 +56,12 @@ fn reaching_a_source_does_not_hang_on_how_often_frames_are_taken() {
 #[derive(Default)]
 struct Order(Vec<Vec<String>>);
 
-impl Watch for Order {
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        let ids = frame.robots.iter().map(|r| r.id.clone());
-        self.0.push(ids.collect());
+impl Observer for Order {
+    fn see(&mut self, event: &Event) {
+        if let Event::Frame(frame) = event {
+            let ids = frame.robots.iter().map(|r| r.id.clone());
+            self.0.push(ids.collect());
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rheotaxis::ocean::{Mismatch, SpunUp};
 use rheotaxis::scenario::{Id, Loaded, Scenario, load};
-use rheotaxis::trial::{Trial, Unwatched, Watch};
+use rheotaxis::trial::{Event, Observer, Trial, Unwatched};
 use std::path::Path;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 
@@ -121,14 +121,17 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
 
 #[test]
 fn a_stopped_spin_up_gives_nothing_to_share() {
-    struct Impatient;
-    impl Watch for Impatient {
-        fn spun_up(&mut self, share: f64) -> bool {
-            share < 0.5
+    struct Impatient(bool);
+    impl Observer for Impatient {
+        fn see(&mut self, event: &Event) {
+            self.0 = matches!(event, Event::SpinUp(share) if *share >= 0.5);
+        }
+        fn goes_on(&mut self) -> bool {
+            !self.0
         }
     }
     let mut trial = Trial::assemble(&short("uniform_channel"), 1).unwrap();
-    assert!(trial.spin_up(&mut Impatient).is_none());
+    assert!(trial.spin_up(&mut Impatient(false)).is_none());
     let ended = trial.run(&mut Unwatched);
     assert_eq!(ended.outcome, rheotaxis::outcome::RunOutcome::Interrupted);
     assert_eq!(ended.steps, 0);

@@ -10,6 +10,7 @@ use output::shown::printable;
 use rheotaxis::frame::Frame;
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::Loaded;
+use rheotaxis::trial::{Event, Observer};
 use robots::handoff::{RegionState, Verdict, region_name};
 use std::path::Path;
 
@@ -67,11 +68,11 @@ impl Progress {
         self.bar.suspend(|| say::note(format_args!("warning: {line}")));
     }
 
-    pub(super) fn spun_up(&mut self, share: f64) {
+    fn spun_up(&mut self, share: f64) {
         self.bar.set_position((share * PARTS as f64) as u64);
     }
 
-    pub(super) fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Frame) {
         if !self.flying {
             self.flying = true;
             self.bar.reset();
@@ -166,6 +167,17 @@ impl Progress {
         }
         say::line(format_args!("  digest {}", summary.digest));
         say::line(format_args!("  results in {}: open report.html", out.display()));
+    }
+}
+
+impl Observer for Progress {
+    fn see(&mut self, event: &Event) {
+        match event {
+            Event::SpinUp(share) => self.spun_up(*share),
+            Event::SpinUpFromCache(true) => self.say("spin-up taken from the cache"),
+            Event::Frame(frame) => self.frame(frame),
+            _ => {}
+        }
     }
 }
 

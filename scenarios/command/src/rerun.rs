@@ -13,7 +13,7 @@ use rheotaxis::control::Replay;
 use rheotaxis::frame::Frame;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
-use rheotaxis::trial::{RunEnd, Trial, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -97,8 +97,14 @@ fn made(
             lanes.run(|onlooker, trial| result = finished(onlooker, trial, &mut company));
         }
         None => {
-            let watch =
-                || Ok::<_, RunError>(Again { progress: Progress::new(loaded, &run, &company.bars), left: steps, stop });
+            let watch = || {
+                Ok::<_, RunError>(Again {
+                    progress: Progress::new(loaded, &run, &company.bars),
+                    left: steps,
+                    over: false,
+                    stop,
+                })
+            };
             let mut lanes = Lanes::default().with_threads(0);
             lanes.add(loaded, seed, watch)?;
             replay(&mut lanes, recorded)?;
@@ -120,7 +126,7 @@ fn finished(
     Ok(Some(ended))
 }
 
-fn replay<W: Watch>(lanes: &mut Lanes<W>, recorded: &RecordedRun) -> Result<(), RunError> {
+fn replay<O: Observer>(lanes: &mut Lanes<O>, recorded: &RecordedRun) -> Result<(), RunError> {
     let told = Replay::new(recorded.told.clone());
     if let Some((trial, _)) = lanes.newest() {
         for robot in trial.controlled() {
@@ -130,7 +136,7 @@ fn replay<W: Watch>(lanes: &mut Lanes<W>, recorded: &RecordedRun) -> Result<(), 
     Ok(())
 }
 
-fn spun_up<W: Watch>(lanes: &mut Lanes<W>, args: &RerunMcapArgs) {
+fn spun_up<O: Observer>(lanes: &mut Lanes<O>, args: &RerunMcapArgs) {
     if let Some(kept) = cache::opened(&args.cache) {
         lanes.spin_up_with(&kept);
     }
@@ -167,24 +173,20 @@ struct Again {
     progress: Progress,
     /// Steps left.
     left: Option<u64>,
+    over: bool,
     stop: &'static AtomicBool,
 }
 
-impl Watch for Again {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.progress.spun_up(share);
-        !self.stop.load(Ordering::Relaxed)
-    }
-
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.progress.frame(frame);
-    }
-
-    fn go_on(&mut self, _t_s: f64) -> bool {
-        let last = self.left.as_mut().is_some_and(|left| {
+impl Observer for Again {
+    fn see(&mut self, event: &Event) {
+        self.progress.see(event);
+        if let (Event::Tick(_), Some(left)) = (event, &mut self.left) {
             *left = left.saturating_sub(1);
-            *left == 0
-        });
-        !last && !self.stop.load(Ordering::Relaxed)
+            self.over = *left == 0;
+        }
+    }
+
+    fn goes_on(&mut self) -> bool {
+        !self.over && !self.stop.load(Ordering::Relaxed)
     }
 }

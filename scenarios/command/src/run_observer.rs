@@ -9,10 +9,9 @@ use output::follow::Follower;
 use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
 use output::report::is_result;
 use rheotaxis::control::{Exchange, Response};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{RunEnd, Trial, Watch, controlled};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Wants, controlled};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -34,6 +33,8 @@ pub(super) struct RunObserver {
     /// What came of the last question of each robot.
     heard: BTreeMap<String, &'static str>,
     stop: &'static AtomicBool,
+    /// Whether the last tick was not to be the last.
+    held: bool,
 }
 
 impl RunObserver {
@@ -65,7 +66,7 @@ impl RunObserver {
         if cores(args) > 1 && !at_once {
             results = results.beside();
         }
-        Ok(Self { results, live, progress, plane, left: None, heard: BTreeMap::new(), stop })
+        Ok(Self { results, live, progress, plane, left: None, heard: BTreeMap::new(), stop, held: true })
     }
 
     /// Ends the run after so many steps, as another has ended.
@@ -91,6 +92,18 @@ impl RunObserver {
         let key = controller.key();
         self.progress.say(&format!("{robot} asks at {key}; it waits up to {most_s} s for a controller"));
         Ok(Some(controller))
+    }
+
+    /// Says what came of a question, unless it is as the time before.
+    fn tell(&mut self, exchange: &Exchange) {
+        let name = exchange.heard.name();
+        if self.heard.insert(exchange.robot.clone(), name) != Some(name) {
+            let why = match &exchange.heard {
+                Response::Nonsense(why) => format!(": {why}"),
+                _ => String::new(),
+            };
+            self.progress.say(&format!("  {} asked at {:.1} s: {name}{why}", exchange.robot, exchange.t_s));
+        }
     }
 
     fn going(&self) -> bool {
@@ -168,79 +181,32 @@ fn live(
     Ok(Some(live))
 }
 
-impl Watch for RunObserver {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.progress.spun_up(share);
-        self.results.spun_up(share);
-        self.going()
-    }
-
-    fn developed(&mut self, kept: bool) {
-        self.results.developed(kept);
-        if kept {
-            self.progress.say("spin-up taken from the cache");
-        }
-    }
-
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.results.frame(frame);
+impl Observer for RunObserver {
+    fn see(&mut self, event: &Event) {
+        self.results.see(event);
         if let Some(live) = &self.live {
-            live.publish(frame);
+            live.see(event);
         }
-        self.progress.frame(frame);
-    }
-
-    fn plume(&mut self, plume: &PlumeFrame) {
-        self.results.plume(plume);
-        if let Some(live) = &self.live {
-            live.plume(plume);
-        }
-    }
-
-    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
-        match &self.live {
-            None => self.results.water(look),
-            Some(live) => {
-                let water = look();
-                live.water(&water);
-                self.results.water(&|| water.clone());
+        self.progress.see(event);
+        match event {
+            Event::Exchange(exchange) => self.tell(exchange),
+            Event::Tick(t_s) => {
+                let last = self.left.as_mut().is_some_and(|left| {
+                    *left = left.saturating_sub(1);
+                    *left == 0
+                });
+                // Ctrl-C must end a wait of any length.
+                self.held = !last && self.plane.hold(*t_s, || self.going());
             }
+            _ => {}
         }
     }
 
-    fn consulted(&mut self, told: &Exchange) {
-        self.results.consulted(told);
-        let name = told.heard.name();
-        if self.heard.insert(told.robot.clone(), name) != Some(name) {
-            let why = match &told.heard {
-                Response::Nonsense(why) => format!(": {why}"),
-                _ => String::new(),
-            };
-            let line = format!("  {} asked at {:.1} s: {name}{why}", told.robot, told.t_s);
-            self.progress.say(&line);
-        }
+    fn goes_on(&mut self) -> bool {
+        self.held && self.going()
     }
 
-    fn picture(&mut self, picture: &PictureFrame) {
-        if let Some(live) = &self.live {
-            live.picture(picture);
-        }
-        self.results.picture(picture);
-    }
-
-    fn ping(&mut self, ping: &PingFrame) {
-        if let Some(live) = &self.live {
-            live.ping(ping);
-        }
-        self.results.ping(ping);
-    }
-
-    fn go_on(&mut self, t_s: f64) -> bool {
-        let last = self.left.as_mut().is_some_and(|left| {
-            *left = left.saturating_sub(1);
-            *left == 0
-        });
-        // Ctrl-C must end a wait of any length.
-        !last && self.plane.hold(t_s, || self.going())
+    fn wants(&self) -> Wants {
+        self.results.wants().or(Wants { plume: true, water: self.live.is_some() })
     }
 }

@@ -17,7 +17,7 @@ use rheotaxis::cache::SpinUps;
 use rheotaxis::control::Exchange;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Watch, consulted};
+use rheotaxis::trial::{Event, Observer, Trial, Wants, consulted};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -30,36 +30,25 @@ struct Watcher {
     raised: FirstError,
 }
 
-impl Watch for Watcher {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.results.spun_up(share) && self.signals.quiet()
+impl Observer for Watcher {
+    fn see(&mut self, event: &Event) {
+        self.results.see(event);
+        match event {
+            Event::Frame(frame) => {
+                RobotColumns::push(&mut self.robots, frame);
+                GantryColumns::push(&mut self.gantries, frame);
+            }
+            Event::Exchange(exchange) => self.raised.look_at(exchange),
+            _ => {}
+        }
     }
-    fn developed(&mut self, kept: bool) {
-        self.results.developed(kept);
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.results.frame(frame);
-        RobotColumns::push(&mut self.robots, frame);
-        GantryColumns::push(&mut self.gantries, frame);
-    }
-    fn plume(&mut self, plume: &PlumeFrame) {
-        self.results.plume(plume);
-    }
-    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
-        self.results.water(look);
-    }
-    fn picture(&mut self, picture: &PictureFrame) {
-        self.results.picture(picture);
-    }
-    fn ping(&mut self, ping: &PingFrame) {
-        self.results.ping(ping);
-    }
-    fn consulted(&mut self, told: &Exchange) {
-        self.results.consulted(told);
-        self.raised.look_at(told);
-    }
-    fn go_on(&mut self, _t_s: f64) -> bool {
+
+    fn goes_on(&mut self) -> bool {
         self.results.well() && self.raised.quiet() && self.signals.quiet()
+    }
+
+    fn wants(&self) -> Wants {
+        self.results.wants()
     }
 }
 

@@ -36,7 +36,7 @@
 
 use crate::lanes::Lanes;
 use crate::ocean::{Mismatch, Ocean, Origin, SpunUp};
-use crate::trial::{Trial, Watch};
+use crate::trial::{Event, Observer, Trial};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -229,19 +229,19 @@ impl Trial {
     ///
     /// # Panics
     /// If the run has been spun up before.
-    pub fn spin_up_with(&mut self, kept: &SpinUps, watch: &mut dyn Watch) -> Option<SpinUp> {
+    pub fn spin_up_with(&mut self, kept: &SpinUps, observer: &mut dyn Observer) -> Option<SpinUp> {
         let developed = kept.develop(
             self,
             |trial| Some((&trial.simulation.origin, trial.simulation.ocean())),
             Trial::take_over,
-            |trial| trial.spin_up(watch),
+            |trial| trial.spin_up(observer),
         )?;
-        watch.developed(developed.kept);
+        observer.see(&Event::SpinUpFromCache(developed.kept));
         Some(developed)
     }
 }
 
-impl<W: Watch> Lanes<W> {
+impl<O: Observer> Lanes<O> {
     /// As [`Lanes::spin_up`], but a kept spin-up is taken over if there is one, and else one that took long enough is
     /// kept. Whatever is wrong with the folder, the lanes are spun up; [`SpinUps::fault`] tells.
     ///
@@ -249,7 +249,7 @@ impl<W: Watch> Lanes<W> {
     /// If the lanes have been spun up before.
     pub fn spin_up_with(&mut self, kept: &SpinUps) -> Option<SpinUp> {
         let developed = kept.develop(self, Lanes::ocean, Lanes::take_over, Lanes::spin_up)?;
-        self.tell_developed(developed.kept);
+        self.tell_cached(developed.kept);
         Some(developed)
     }
 }

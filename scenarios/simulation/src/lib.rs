@@ -20,7 +20,7 @@
 //!
 //! - `examples/library/shortest.rs`: a whole run in 25 lines.
 //! - `examples/library/stepped.rs`: the state every minute. [`Trial::run`](trial::Trial::run) makes the whole run, and a
-//!   [`Watch`](trial::Watch) sees every frame.
+//!   [`Observer`](trial::Observer) sees every frame.
 //!
 //! # 2. A scenario of your own
 //!

@@ -1,17 +1,17 @@
-//! One run of a scenario from the spin-up to its end. It writes no files and draws nothing: a [`Watch`] does.
+//! One run of a scenario from the spin-up to its end. It writes no files and draws nothing: an [`Observer`] does.
 //!
 //! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be
 //! read in between. All three give the same run, bit for bit.
 
 mod asking;
+mod observer;
 #[cfg(test)]
 mod own_tests;
 mod progress;
-mod watch;
 mod water;
 
 pub use asking::{NotControlled, consulted, controlled};
-pub use watch::{Unwatched, Watch};
+pub use observer::{Event, Observer, Unwatched, Wants};
 
 pub(crate) use progress::Progress;
 
@@ -81,13 +81,13 @@ impl Trial {
     }
 
     /// Lets water and plume develop and returns a copy of them, which other runs can
-    /// [take over](Self::take_over); `None` if `watch` stopped the spin-up. [`Self::run`] spins up by itself if this
+    /// [take over](Self::take_over); `None` if `observer` stopped the spin-up. [`Self::run`] spins up by itself if this
     /// was not called before.
     ///
     /// # Panics
     /// If the run has been spun up before.
-    pub fn spin_up(&mut self, watch: &mut dyn Watch) -> Option<SpunUp> {
-        self.develop(watch);
+    pub fn spin_up(&mut self, observer: &mut dyn Observer) -> Option<SpunUp> {
+        self.develop(observer);
         (self.progress.phase == RunPhase::SpunUp).then(|| {
             let state = self.simulation.ocean().state();
             SpunUp::new(self.simulation.origin.clone(), state)
@@ -111,11 +111,12 @@ impl Trial {
         Ok(())
     }
 
-    fn develop(&mut self, watch: &mut dyn Watch) {
+    fn develop(&mut self, observer: &mut dyn Observer) {
         self.start_afresh();
         let mut stopped = false;
         self.simulation.ocean_mut().spin_up(|share| {
-            stopped = !watch.spun_up(share);
+            observer.see(&Event::SpinUp(share));
+            stopped = !observer.goes_on();
             !stopped
         });
         self.set_out(stopped);
@@ -152,8 +153,8 @@ impl Trial {
     }
 
     /// Makes the run to its end: the spin-up, unless it is done or taken over, and the rest of the mission.
-    pub fn run(&mut self, watch: &mut dyn Watch) -> RunEnd {
-        while self.advance(watch) {}
+    pub fn run(&mut self, observer: &mut dyn Observer) -> RunEnd {
+        while self.advance(observer) {}
         self.ended()
     }
 
@@ -172,18 +173,18 @@ impl Trial {
         true
     }
 
-    /// One tick with an observer; `false` once the run is over or `watch` stopped it.
-    fn advance(&mut self, watch: &mut dyn Watch) -> bool {
+    /// One tick with an observer; `false` once the run is over or `observer` stopped it.
+    fn advance(&mut self, observer: &mut dyn Observer) -> bool {
         if self.progress.phase == RunPhase::Assembled {
-            self.develop(watch);
+            self.develop(observer);
         }
         if !self.going() {
             return false;
         }
-        self.search(watch);
+        self.search(observer);
         self.simulation.drift();
         self.simulation.report();
-        self.heed(watch)
+        self.heed(observer)
     }
 
     /// Whether the mission has begun and lasts.
@@ -192,10 +193,11 @@ impl Trial {
     }
 
     /// Shows an observer what a tick has made; `false` once the run is over or the observer stopped it.
-    pub(crate) fn heed(&mut self, watch: &mut dyn Watch) -> bool {
-        self.show(watch);
+    pub(crate) fn heed(&mut self, observer: &mut dyn Observer) -> bool {
+        self.show(observer);
         let t_s = self.simulation.t_s();
-        let goes_on = watch.go_on(t_s);
+        observer.see(&Event::Tick(t_s));
+        let goes_on = observer.goes_on();
         // A run that is over ended by itself, whoever would stop it then.
         let limit_s = self.scenario.time.limit_s.get();
         if self.all_over() || t_s - self.progress.began_s >= limit_s - 1e-9 {
@@ -269,7 +271,7 @@ impl Trial {
         self.simulation.world.resource()
     }
 
-    fn show(&mut self, watch: &mut dyn Watch) {
+    fn show(&mut self, observer: &mut dyn Observer) {
         if !self.simulation.waits() {
             return;
         }
@@ -277,13 +279,13 @@ impl Trial {
         let (frame, due) = (outbox.frame.take(), outbox.plume_due.take());
         let most = outbox.plume_points;
         for picture in std::mem::take(&mut outbox.pictures) {
-            watch.picture(&picture);
+            observer.see(&Event::Picture(Arc::new(picture)));
         }
         for ping in std::mem::take(&mut outbox.pings) {
-            watch.ping(&ping);
+            observer.see(&Event::Ping(Arc::new(ping)));
         }
         if let Some(frame) = frame.map(Arc::new) {
-            watch.frame(&frame);
+            observer.see(&Event::Frame(Arc::clone(&frame)));
             self.progress.frame = Some(frame);
         }
         if let Some(t_s) = due {
@@ -292,17 +294,19 @@ impl Trial {
             for (sum, p_W) in flow_sums.iter_mut().zip(&*sources) {
                 *sum += self.simulation.velocity(p_W);
             }
-            if watch.sees_plume() {
+            let wants = observer.wants();
+            if wants.plume {
                 let ocean = self.simulation.ocean();
                 let plume = ocean.plume();
-                watch.plume(&PlumeFrame {
-                    t_s,
-                    total: plume.len(),
-                    points: plume.decimated(most),
-                    centre: ocean.area.centre,
-                });
+                let frame =
+                    PlumeFrame { t_s, total: plume.len(), points: plume.decimated(most), centre: ocean.area.centre };
+                observer.see(&Event::Plume(Arc::new(frame)));
             }
-            water::show(&self.simulation, t_s, &mut self.progress.water_shown, watch);
+            // A steady flow is shown once.
+            let shown = std::mem::replace(&mut self.progress.water_shown, true);
+            if wants.water && !(shown && self.simulation.ocean().is_steady()) {
+                observer.see(&Event::Water(Arc::new(water::pictured(self.simulation.ocean(), t_s))));
+            }
         }
     }
 

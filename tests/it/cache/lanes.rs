@@ -4,7 +4,7 @@ use super::kit::{all, developed, files, short};
 use rheotaxis::cache::{SpinUp, SpinUps};
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{RunEnd, Trial, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use std::cell::RefCell;
 use std::rc::Rc;
 use world::ranges::{HeadingDeg, Positive};
@@ -22,17 +22,26 @@ struct Told {
 struct Listener {
     told: Rc<RefCell<Told>>,
     stops: bool,
+    stopped: bool,
     panics: bool,
 }
 
-impl Watch for Listener {
-    fn spun_up(&mut self, _: f64) -> bool {
-        self.told.borrow_mut().shares += 1;
-        !self.stops
+impl Observer for Listener {
+    fn see(&mut self, event: &Event) {
+        match event {
+            Event::SpinUp(_) => {
+                self.told.borrow_mut().shares += 1;
+                self.stopped = self.stops;
+            }
+            Event::SpinUpFromCache(kept) => {
+                assert!(!self.panics, "no room to write");
+                self.told.borrow_mut().kept = Some(*kept);
+            }
+            _ => {}
+        }
     }
-    fn developed(&mut self, kept: bool) {
-        assert!(!self.panics, "no room to write");
-        self.told.borrow_mut().kept = Some(kept);
+    fn goes_on(&mut self) -> bool {
+        !self.stopped
     }
 }
 
@@ -69,12 +78,12 @@ fn together(
 
 struct Named(usize, Listener);
 
-impl Watch for Named {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.1.spun_up(share)
+impl Observer for Named {
+    fn see(&mut self, event: &Event) {
+        self.1.see(event);
     }
-    fn developed(&mut self, kept: bool) {
-        self.1.developed(kept);
+    fn goes_on(&mut self) -> bool {
+        self.1.goes_on()
     }
 }
 

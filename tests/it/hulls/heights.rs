@@ -3,7 +3,7 @@
 use rheotaxis::frame::Frame;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use std::sync::Arc;
 use world::ranges::{NonNegative, Positive};
 
@@ -11,10 +11,12 @@ use world::ranges::{NonNegative, Positive};
 #[derive(Default)]
 struct Heights(usize, usize);
 
-impl Watch for Heights {
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.0 += 1;
-        self.1 += usize::from(frame.robots[0].asked_height().is_some());
+impl Observer for Heights {
+    fn see(&mut self, event: &Event) {
+        if let Event::Frame(frame) = event {
+            self.0 += 1;
+            self.1 += usize::from(frame.robots[0].asked_height().is_some());
+        }
     }
 }
 

@@ -3,10 +3,12 @@
 
 use super::kit::{client, frame, kept, listen, next_of, plume, sent, start};
 use super::readings::{picture, ping};
+use rheotaxis::trial::Event;
 use serde_json::json;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::num::NonZero;
 use std::process::{Child, ChildStdout, Stdio};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use zenoh::Wait;
 
@@ -75,16 +77,16 @@ impl Drop for Process {
 #[test]
 fn a_killed_subscriber_changes_nothing_for_the_others() {
     let live = start("killed_1");
-    live.publish(&frame(0));
+    live.see(&Event::Frame(Arc::new(frame(0))));
     sent(&live);
     let session = client(live.endpoint());
     let samples = listen(&session, "killed_1");
     kept(&session, "killed_1");
     let mut victim = Process::start(live.endpoint(), "rheotaxis/**");
-    live.publish(&frame(1));
+    live.see(&Event::Frame(Arc::new(frame(1))));
     victim.wait_for("STALLED");
     drop(victim);
-    live.publish(&frame(2));
+    live.see(&Event::Frame(Arc::new(frame(2))));
     sent(&live);
     live.finish("d1");
     while next_of(&samples, "/clock") != json!({"t_s": 0.2, "step": 2, "ended": true, "sent": 3, "superseded": 0}) {}
@@ -94,25 +96,25 @@ fn a_killed_subscriber_changes_nothing_for_the_others() {
 #[test]
 fn a_stalled_subscriber_holds_neither_the_run_nor_its_end() {
     let live = start("stalled_1");
-    live.publish(&frame(0));
+    live.see(&Event::Frame(Arc::new(frame(0))));
     sent(&live);
     let mut stalled = Process::start(live.endpoint(), "rheotaxis/**");
-    live.publish(&frame(1));
+    live.see(&Event::Frame(Arc::new(frame(1))));
     stalled.wait_for("STALLED");
     // 12 MB, more than what sockets and queues between the two can take.
     let plume = plume(10_000);
     for step in 2..62 {
-        live.plume(&plume);
-        live.publish(&frame(step));
+        live.see(&Event::Plume(Arc::new(plume.clone())));
+        live.see(&Event::Frame(Arc::new(frame(step))));
         sent(&live);
     }
     // The run meets a thread busy with a full queue, and goes on.
     let (picture, ping) = (picture(1.0), ping(1.0));
     for step in 62..10_062 {
-        live.plume(&plume);
-        live.picture(&picture);
-        live.ping(&ping);
-        live.publish(&frame(step));
+        live.see(&Event::Plume(Arc::new(plume.clone())));
+        live.see(&Event::Picture(Arc::new(picture.clone())));
+        live.see(&Event::Ping(Arc::new(ping.clone())));
+        live.see(&Event::Frame(Arc::new(frame(step))));
     }
     assert_eq!(live.counts().offered, 10_062);
     assert!(live.counts().superseded > 0, "{:?}", live.counts());
@@ -160,8 +162,8 @@ fn one_end(k: u32) {
     let samples = listen(&session, &name);
     kept(&session, &name);
     for step in 0..5 {
-        live.plume(&plume(10_000));
-        live.publish(&frame(step));
+        live.see(&Event::Plume(Arc::new(plume(10_000))));
+        live.see(&Event::Frame(Arc::new(frame(step))));
     }
     live.finish("d1");
     while next_of(&samples, "/clock")["ended"] != true {}

@@ -4,6 +4,7 @@ use super::kit::{client, frame, kept, meta, options, plume, sent, start};
 use super::readings::picture;
 use crate::waits::until;
 use output::live::{ListenOptions, Listener, Live, LiveOptions, News, Plane};
+use rheotaxis::trial::Event;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::net::TcpListener;
@@ -44,9 +45,9 @@ fn to_the_end(listener: &mut Listener) -> (Vec<Value>, News) {
 #[test]
 fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     let live = start("heard_1");
-    live.publish(&frame(1));
-    live.plume(&plume(100));
-    live.picture(&picture(1.0));
+    live.see(&Event::Frame(Arc::new(frame(1))));
+    live.see(&Event::Plume(Arc::new(plume(100))));
+    live.see(&Event::Picture(Arc::new(picture(1.0))));
     // Another thread sends them: they are asked for until all are there.
     let session = client(live.endpoint());
     until("the run keeps all three", || {
@@ -69,7 +70,7 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     assert_eq!(clock["message"]["step"], 1);
     assert_eq!(earlier[0]["key"], "rheotaxis/heard_1/auv/auv0/behaviour");
 
-    live.publish(&frame(2));
+    live.see(&Event::Frame(Arc::new(frame(2))));
     live.finish("d1");
     let (later, end) = to_the_end(&mut listener);
     assert_eq!(end, News::Ended("heard_1".to_owned()));
@@ -146,7 +147,7 @@ fn a_message_that_is_answered_and_then_sent_is_heard_once() {
 #[test]
 fn a_key_narrows_what_is_heard_and_the_end_is_heard_in_any_case() {
     let live = start("narrow_1");
-    live.publish(&frame(1));
+    live.see(&Event::Frame(Arc::new(frame(1))));
     sent(&live);
     let heard = ["auv/*/truth", "rheotaxis/narrow_1/meta/schema/clock", "auv/*/smell"];
     let mut listeners = heard.map(|key| at(&live, Some(key)));

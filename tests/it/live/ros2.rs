@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};
 use rheotaxis::frame::{Frame, TimedReading};
 use rheotaxis::scenario;
+use rheotaxis::trial::Event;
 use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, Beam, DepthReading, DvlReading, RangeScan};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -132,9 +133,9 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
     let wanted: BTreeSet<&str> = ros_topics().iter().map(|t| t.name).collect();
     let mut step = 1;
     until("every topic of the table is heard", || {
-        live.publish(&told(step));
-        live.plume(&plume(10));
-        live.picture(&picture(1.0));
+        live.see(&Event::Frame(Arc::new(told(step))));
+        live.see(&Event::Plume(Arc::new(plume(10))));
+        live.see(&Event::Picture(Arc::new(picture(1.0))));
         sent(&live);
         step += 1;
         heard.extend(samples.try_iter().map(|sample| (name_of(&sample), sample)));
@@ -174,7 +175,7 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
 #[test]
 fn the_clock_goes_on_and_its_messages_are_numbered() {
     let live = start("ros2_clock_1", 32);
-    live.publish(&told(1));
+    live.see(&Event::Frame(Arc::new(told(1))));
     sent(&live);
     let session = client(live.endpoint());
     let clocks = session.declare_subscriber("32/clock/rosgraph_msgs::msg::dds_::Clock_/*").wait().unwrap();
@@ -182,7 +183,7 @@ fn the_clock_goes_on_and_its_messages_are_numbered() {
     publishers(&session, 32);
     let mut before = (0, (0, 0));
     for step in 2..22 {
-        live.publish(&told(step));
+        live.see(&Event::Frame(Arc::new(told(step))));
         sent(&live);
         let sample = next(&clocks);
         let now = (beside(&sample).0, stamp(&sample.payload().to_bytes()));
@@ -197,7 +198,7 @@ fn the_clock_goes_on_and_its_messages_are_numbered() {
 #[test]
 fn who_comes_late_hears_what_is_latched_and_the_node_goes_with_the_run() {
     let live = start("ros2_late_1", 33);
-    live.publish(&told(1));
+    live.see(&Event::Frame(Arc::new(told(1))));
     live.end("d1");
     sent(&live);
     let session = client(live.endpoint());
@@ -230,21 +231,21 @@ fn who_comes_late_hears_what_is_latched_and_the_node_goes_with_the_run() {
 #[test]
 fn a_stalled_node_does_not_hold_the_run() {
     let live = start("ros2_stalled_1", 34);
-    live.publish(&told(0));
+    live.see(&Event::Frame(Arc::new(told(0))));
     sent(&live);
     let mut stalled = Process::start(live.endpoint(), "34/**");
-    live.publish(&told(1));
+    live.see(&Event::Frame(Arc::new(told(1))));
     stalled.wait_for("STALLED");
     // More than what sockets and queues between the two can take.
     let plume = plume(10_000);
     for step in 2..62 {
-        live.plume(&plume);
-        live.publish(&told(step));
+        live.see(&Event::Plume(Arc::new(plume.clone())));
+        live.see(&Event::Frame(Arc::new(told(step))));
         sent(&live);
     }
     for step in 62..10_062 {
-        live.plume(&plume);
-        live.publish(&told(step));
+        live.see(&Event::Plume(Arc::new(plume.clone())));
+        live.see(&Event::Frame(Arc::new(told(step))));
     }
     assert_eq!(live.counts().offered, 10_062);
     assert!(live.counts().superseded > 0, "{:?}", live.counts());

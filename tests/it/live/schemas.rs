@@ -7,7 +7,7 @@ use rheotaxis::control::{Question, Response, read_answer};
 use rheotaxis::frame::Frame;
 use rheotaxis::registry::{Registry, messages};
 use rheotaxis::scenario::{Loaded, load, load_text, template};
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -34,8 +34,11 @@ impl Checking {
     }
 }
 
-impl Watch for Checking {
-    fn frame(&mut self, frame: &Arc<Frame>) {
+impl Observer for Checking {
+    fn see(&mut self, event: &Event) {
+        let Event::Frame(frame) = event else {
+            return;
+        };
         for (key, value) in messages(frame) {
             let of = |pattern: &str| {
                 let chunks = pattern.split('/').zip(key.split('/'));

@@ -5,7 +5,7 @@ use output::files::begin_folder;
 use output::follow::Follower;
 use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{Loaded, load};
-use rheotaxis::trial::{Trial, Watch as _};
+use rheotaxis::trial::{Event, Observer as _, Trial};
 use std::collections::BTreeMap;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -102,7 +102,7 @@ fn a_panic_comes_over() {
     let late = Arc::new(Frame { t_s: 1e10, ..Frame::default() });
     let shown = catch_unwind(AssertUnwindSafe(|| {
         for _ in 0..1000 {
-            follower.frame(&late);
+            follower.see(&Event::Frame(Arc::clone(&late)));
         }
     }));
     let said = shown.expect_err("no recording has such a time");

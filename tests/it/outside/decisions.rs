@@ -4,7 +4,7 @@ use super::kit::{Run, asking, channel, client, controller, external};
 use crate::waits::PATIENCE;
 use rheotaxis::control::{Question, QuestionContent, Response, consultation_json};
 use rheotaxis::scenario::load_text;
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use robots::handoff::Reply;
 use serde_json::{Value, json};
 use world::registry::Registry;
@@ -20,9 +20,11 @@ const EACH_STEP: &str = "External(period_s: 0.02, deadline_s: 20, on_late: Abort
 #[derive(Default)]
 struct Answers(Vec<Value>);
 
-impl Watch for Answers {
-    fn consulted(&mut self, told: &rheotaxis::control::Exchange) {
-        self.0.push(consultation_json(told)["answer"].clone());
+impl Observer for Answers {
+    fn see(&mut self, event: &Event) {
+        if let Event::Exchange(exchange) = event {
+            self.0.push(consultation_json(exchange)["answer"].clone());
+        }
     }
 }
 

@@ -7,22 +7,12 @@ use crate::results::{
     BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo, SummaryBuilder, TrackTable,
 };
 use crate::scene::Scene;
-use rheotaxis::control::Exchange;
 use rheotaxis::error::AssembleError;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::scenario::{Loaded, RecordSpec};
+use rheotaxis::trial::{Event, Observer};
 use std::sync::Arc;
 use world::files::Folder;
-
-/// One thing that a run has shown.
-pub(super) enum RunEvent {
-    Frame(Arc<Frame>),
-    Plume(PlumeFrame),
-    Water(WaterFrame),
-    Consulted(Exchange),
-    Picture(PictureFrame),
-    Ping(PingFrame),
-}
 
 /// All that is gathered while a run goes on.
 pub(super) struct Gatherer {
@@ -94,18 +84,6 @@ impl Gatherer {
         }
     }
 
-    /// Takes one thing in.
-    pub(super) fn take(&mut self, seen: RunEvent) {
-        match seen {
-            RunEvent::Frame(frame) => self.frame(&frame),
-            RunEvent::Plume(plume) => self.plume(&plume),
-            RunEvent::Water(water) => self.record(|r| r.water(&water)),
-            RunEvent::Consulted(told) => self.record(|r| r.consulted(&told)),
-            RunEvent::Picture(picture) => self.picture(&picture),
-            RunEvent::Ping(ping) => self.ping(&ping),
-        }
-    }
-
     fn record(&mut self, write: impl FnOnce(&mut Recorder) -> Result<(), ReportError>) {
         if let Some(recorder) = &mut self.recorder {
             let recorded = write(recorder);
@@ -147,6 +125,20 @@ impl Gatherer {
         {
             let recorded = recorder.echo(&ping.robot, line);
             self.note(recorded);
+        }
+    }
+}
+
+impl Observer for Gatherer {
+    fn see(&mut self, event: &Event) {
+        match event {
+            Event::Frame(frame) => self.frame(frame),
+            Event::Plume(plume) => self.plume(plume),
+            Event::Water(water) => self.record(|r| r.water(water)),
+            Event::Exchange(exchange) => self.record(|r| r.consulted(exchange)),
+            Event::Picture(picture) => self.picture(picture),
+            Event::Ping(ping) => self.ping(ping),
+            Event::SpinUp(_) | Event::SpinUpFromCache(_) | Event::Tick(_) => {}
         }
     }
 }

@@ -15,19 +15,17 @@ pub use gathered::RunResults;
 use crate::files::ReportError;
 use crate::results::{RobotInfo, RunInfo};
 use crate::scene::Scene;
-use gatherer::{Gatherer, RunEvent};
-use rheotaxis::control::Exchange;
+use gatherer::Gatherer;
 use rheotaxis::error::AssembleError;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{RunEnd, Trial, Watch};
+use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Wants};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use worker::GatherWorker;
 use world::files::Folder;
 use world::seeds::Seed;
 
-/// Gathers the results of one run. It is told all that a [`Watch`] is told; [`Follower::finish`] returns them.
+/// Gathers the results of one run. [`Follower::finish`] returns them.
 pub struct Follower {
     run: RunInfo,
     loaded: Loaded,
@@ -36,7 +34,7 @@ pub struct Follower {
     out: Option<Folder>,
     /// Whether there is a recording, for which the flow is looked at.
     recording: bool,
-    desk: GatherWorker,
+    worker: GatherWorker,
     begun: Instant,
     mission_begun: Instant,
     spin_up_kept: bool,
@@ -61,7 +59,7 @@ impl Follower {
         let now = Instant::now();
         Ok(Self {
             robots: gatherer.robots.clone(),
-            desk: GatherWorker::Here(Box::new(gatherer)),
+            worker: GatherWorker::Here(Box::new(gatherer)),
             begun: now,
             mission_begun: now,
             spin_up_kept: false,
@@ -85,7 +83,7 @@ impl Follower {
         // First, so that a scene that cannot be made leaves no file behind.
         let scene = recording.then(|| self.scene().map_err(Box::new));
         let scene = scene.transpose()?;
-        let GatherWorker::Here(gatherer) = &mut self.desk else {
+        let GatherWorker::Here(gatherer) = &mut self.worker else {
             panic!("files are opened before the run");
         };
         let record = &self.loaded.scenario.record;
@@ -99,7 +97,7 @@ impl Follower {
     /// the same; but a few simulated seconds wait to be written, and are lost if the process is killed.
     #[must_use]
     pub fn beside(mut self) -> Self {
-        self.desk = self.desk.move_beside();
+        self.worker = self.worker.move_beside();
         self
     }
 
@@ -130,7 +128,7 @@ impl Follower {
     /// Whether all that was gathered so far could be written. If not, the run should end.
     #[must_use]
     pub fn well(&self) -> bool {
-        self.desk.well()
+        self.worker.well()
     }
 
     /// The results of the run at its end. A recording is closed; the other files are written by [`RunResults::write`].
@@ -140,7 +138,7 @@ impl Follower {
     #[must_use]
     pub fn finish(self, trial: &Trial, ended: &RunEnd) -> RunResults {
         let walls: [Duration; 2] = [self.mission_begun - self.begun, self.mission_begun.elapsed()];
-        let mut gatherer = self.desk.finish();
+        let mut gatherer = self.worker.finish();
         if let Some(recorder) = gatherer.recorder.take() {
             let closed = recorder.finish(&ended.digest, ended.steps).map(drop);
             gatherer.note(closed);
@@ -150,44 +148,24 @@ impl Follower {
     }
 }
 
-impl Watch for Follower {
-    fn spun_up(&mut self, _share: f64) -> bool {
-        self.mission_begun = Instant::now();
-        self.well()
-    }
-
-    fn developed(&mut self, kept: bool) {
-        self.mission_begun = Instant::now();
-        self.spin_up_kept = kept;
-    }
-
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.desk.take(RunEvent::Frame(Arc::clone(frame)));
-    }
-
-    fn plume(&mut self, plume: &PlumeFrame) {
-        self.desk.take(RunEvent::Plume(plume.clone()));
-    }
-
-    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
-        if self.recording {
-            self.desk.take(RunEvent::Water(look()));
+impl Observer for Follower {
+    fn see(&mut self, event: &Event) {
+        match event {
+            Event::SpinUp(_) => self.mission_begun = Instant::now(),
+            Event::SpinUpFromCache(kept) => {
+                self.mission_begun = Instant::now();
+                self.spin_up_kept = *kept;
+            }
+            Event::Tick(_) => {}
+            other => self.worker.take(other.clone()),
         }
     }
 
-    fn consulted(&mut self, told: &Exchange) {
-        self.desk.take(RunEvent::Consulted(told.clone()));
-    }
-
-    fn picture(&mut self, picture: &PictureFrame) {
-        self.desk.take(RunEvent::Picture(picture.clone()));
-    }
-
-    fn ping(&mut self, ping: &PingFrame) {
-        self.desk.take(RunEvent::Ping(ping.clone()));
-    }
-
-    fn go_on(&mut self, _t_s: f64) -> bool {
+    fn goes_on(&mut self) -> bool {
         self.well()
+    }
+
+    fn wants(&self) -> Wants {
+        Wants { plume: true, water: self.recording }
     }
 }

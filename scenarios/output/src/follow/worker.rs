@@ -1,6 +1,7 @@
 //! Where the gathering is done: in the run's own thread, or in one beside it. Both gather the same.
 
-use super::gatherer::{Gatherer, RunEvent};
+use super::gatherer::Gatherer;
+use rheotaxis::trial::{Event, Observer};
 use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,8 +26,8 @@ pub(super) enum GatherWorker {
 
 /// A thread that gathers, and what it will be sent next.
 pub(super) struct GatherThread {
-    next: Vec<RunEvent>,
-    sender: Option<SyncSender<Vec<RunEvent>>>,
+    next: Vec<Event>,
+    sender: Option<SyncSender<Vec<Event>>>,
     thread: Option<JoinHandle<Box<Gatherer>>>,
     well: Arc<AtomicBool>,
 }
@@ -36,11 +37,11 @@ impl GatherWorker {
     ///
     /// # Panics
     /// As the other thread has, if it has.
-    pub(super) fn take(&mut self, seen: RunEvent) {
+    pub(super) fn take(&mut self, event: Event) {
         match self {
-            Self::Here(gatherer) => gatherer.take(seen),
+            Self::Here(gatherer) => gatherer.see(&event),
             Self::Beside(beside) => {
-                beside.next.push(seen);
+                beside.next.push(event);
                 if beside.next.len() >= AT_ONCE && !beside.send() {
                     beside.panic_too();
                 }
@@ -62,15 +63,15 @@ impl GatherWorker {
             return self;
         };
         let well = Arc::new(AtomicBool::new(gatherer.failure.is_none()));
-        let (sender, parcels) = sync_channel::<Vec<RunEvent>>(WAITING);
+        let (sender, parcels) = sync_channel::<Vec<Event>>(WAITING);
         // The gatherer goes in by a channel, so that it is still here if no thread can be had.
         let (put, get) = sync_channel::<Box<Gatherer>>(1);
         let tell = Arc::clone(&well);
         let work = move || {
             let mut gatherer = get.recv().expect("it is sent as soon as the thread is there");
             for parcel in parcels {
-                for seen in parcel {
-                    gatherer.take(seen);
+                for event in parcel {
+                    gatherer.see(&event);
                 }
                 tell.store(gatherer.failure.is_none(), Ordering::Relaxed);
             }

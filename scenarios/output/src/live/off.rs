@@ -2,7 +2,7 @@
 
 use super::{ListenOptions, LiveCounts, LiveError, LiveMeta, LiveOptions, News};
 use rheotaxis::control::{Controller, Heard, Question};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
+use rheotaxis::trial::Event;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -85,19 +85,7 @@ impl Live {
     }
 
     /// Does nothing.
-    pub fn publish(&self, _frame: &Frame) {}
-
-    /// Does nothing.
-    pub fn plume(&self, _plume: &PlumeFrame) {}
-
-    /// Does nothing.
-    pub fn water(&self, _water: &WaterFrame) {}
-
-    /// Does nothing.
-    pub fn picture(&self, _picture: &PictureFrame) {}
-
-    /// Does nothing.
-    pub fn ping(&self, _ping: &PingFrame) {}
+    pub fn see(&self, _event: &Event) {}
 
     /// All zero.
     #[must_use]

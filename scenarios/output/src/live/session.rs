@@ -10,8 +10,8 @@ use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use crate::scene::ros_name;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::topic::chunk;
+use rheotaxis::trial::Event;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Weak};
@@ -169,29 +169,16 @@ impl Live {
         self.warning.as_deref()
     }
 
-    /// Passes on a state; never waits.
-    pub fn publish(&self, frame: &Frame) {
-        self.mailbox.put_frame(frame);
-    }
-
-    /// Passes on a plume; never waits.
-    pub fn plume(&self, plume: &PlumeFrame) {
-        self.mailbox.put_plume(plume);
-    }
-
-    /// Passes on the flow of the water; never waits.
-    pub fn water(&self, water: &WaterFrame) {
-        self.mailbox.put_water(water);
-    }
-
-    /// Passes on a camera's picture; never waits.
-    pub fn picture(&self, picture: &PictureFrame) {
-        self.mailbox.put_picture(picture);
-    }
-
-    /// Passes on a sidescan's ping; never waits.
-    pub fn ping(&self, ping: &PingFrame) {
-        self.mailbox.put_ping(ping);
+    /// Passes on what it publishes of a run; never waits.
+    pub fn see(&self, event: &Event) {
+        match event {
+            Event::Frame(frame) => self.mailbox.put_frame(frame),
+            Event::Plume(plume) => self.mailbox.put_plume(plume),
+            Event::Water(water) => self.mailbox.put_water(water),
+            Event::Picture(picture) => self.mailbox.put_picture(picture),
+            Event::Ping(ping) => self.mailbox.put_ping(ping),
+            Event::Exchange(_) | Event::SpinUp(_) | Event::SpinUpFromCache(_) | Event::Tick(_) => {}
+        }
     }
 
     /// What happened to the states so far.

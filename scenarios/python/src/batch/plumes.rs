@@ -7,7 +7,7 @@ use rheotaxis::cache::{CacheFault, SpinUps};
 use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use std::sync::Arc;
 
 /// Spun-up plumes, the most recently used last.
@@ -21,8 +21,10 @@ pub(crate) struct Plumes {
 /// Stops a spin-up.
 struct Stop<'a>(&'a Halt);
 
-impl Watch for Stop<'_> {
-    fn spun_up(&mut self, _share: f64) -> bool {
+impl Observer for Stop<'_> {
+    fn see(&mut self, _event: &Event) {}
+
+    fn goes_on(&mut self) -> bool {
         self.0.well()
     }
 }

@@ -11,7 +11,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::searchers::SearcherId;
 use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
-use rheotaxis::trial::{Trial, Unwatched, Watch};
+use rheotaxis::trial::{Event, Observer, Trial, Unwatched};
 use robots::handoff::Readings;
 use serde::Serialize;
 use std::sync::Arc;
@@ -61,9 +61,11 @@ fn publish(
 #[derive(Default)]
 struct Arrived(usize);
 
-impl Watch for Arrived {
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.0 += frame.published.len();
+impl Observer for Arrived {
+    fn see(&mut self, event: &Event) {
+        if let Event::Frame(frame) = event {
+            self.0 += frame.published.len();
+        }
     }
 }
 

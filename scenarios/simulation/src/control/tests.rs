@@ -2,7 +2,7 @@ use super::*;
 use crate::ocean::Ocean;
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, load_text, template};
-use crate::trial::{RunEnd, Trial, Unwatched, Watch};
+use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use nalgebra::Vector2;
 use robots::handoff::{Declaration, GantryLayout, MotionOrder, MoveOrder};
 use robots::strategy::Strategy;
@@ -63,9 +63,11 @@ fn controller(plain: &Loaded) -> impl Controller + 'static {
 #[derive(Default)]
 struct Kept(Vec<Exchange>);
 
-impl Watch for Kept {
-    fn consulted(&mut self, told: &Exchange) {
-        self.0.push(told.clone());
+impl Observer for Kept {
+    fn see(&mut self, event: &Event) {
+        if let Event::Exchange(exchange) = event {
+            self.0.push(Exchange::clone(exchange));
+        }
     }
 }
 

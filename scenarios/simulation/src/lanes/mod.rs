@@ -39,7 +39,7 @@ use crate::ocean::system::drift;
 use crate::ocean::{Mismatch, Ocean, Origin, SpunUp};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
-use crate::trial::{Trial, Watch};
+use crate::trial::{Event, Observer, Trial};
 use bevy_ecs::prelude::World;
 use course::Course;
 use world::frames::NOT_FINITE;
@@ -65,28 +65,28 @@ fn prefix(said: &str) -> &'static str {
 }
 
 /// Runs in the same ocean, each with an observer.
-pub struct Lanes<W> {
+pub struct Lanes<O> {
     course: Option<Course>,
     /// In the world of a lane while that lane has its turn; `None` before the first lane.
     ocean: Option<Ocean>,
-    lanes: Vec<Lane<W>>,
+    lanes: Vec<Lane<O>>,
     spun_up: bool,
     threads: usize,
 }
 
-struct Lane<W> {
+struct Lane<O> {
     trial: Trial,
-    watch: W,
+    observer: W,
     failed: Option<String>,
 }
 
-impl<W> Default for Lanes<W> {
+impl<W> Default for Lanes<O> {
     fn default() -> Self {
         Self { course: None, ocean: None, lanes: Vec::new(), spun_up: false, threads: 1 }
     }
 }
 
-impl<W: Watch> Lanes<W> {
+impl<O: Observer> Lanes<O> {
     /// Steps the plume with this many threads; 0 means one for each core. The result is the same with any number.
     #[must_use]
     pub fn with_threads(mut self, n: usize) -> Self {
@@ -94,10 +94,10 @@ impl<W: Watch> Lanes<W> {
         self
     }
 
-    /// Adds the run of a scenario for a seed. `watch` makes its observer, once the run is assembled.
+    /// Adds the run of a scenario for a seed. `observer` makes its observer, once the run is assembled.
     ///
     /// # Errors
-    /// If the run cannot be assembled, if its ocean is another than that of the lanes before, or if `watch` fails. The
+    /// If the run cannot be assembled, if its ocean is another than that of the lanes before, or if `observer` fails. The
     /// lanes before are not touched.
     ///
     /// # Panics
@@ -106,7 +106,7 @@ impl<W: Watch> Lanes<W> {
         &mut self,
         loaded: &Loaded,
         seed: impl Into<Seed>,
-        watch: impl FnOnce() -> Result<W, E>,
+        observer: impl FnOnce() -> Result<O, E>,
     ) -> Result<(), E> {
         assert!(!self.spun_up, "lanes are added before the spin-up");
         let course = Course::from_scenario(&loaded.scenario, &loaded.base_dir, seed.into());
@@ -114,15 +114,15 @@ impl<W: Watch> Lanes<W> {
             return Err(LaneError::Unlike(block).into());
         }
         let trial = self.assembled(loaded, &course)?;
-        let watch = watch()?;
-        self.lanes.push(Lane { trial, watch, failed: None });
+        let observer = observer()?;
+        self.lanes.push(Lane { trial, observer, failed: None });
         Ok(())
     }
 
     /// The run that was added last, with its observer.
-    pub fn newest(&mut self) -> Option<(&mut Trial, &mut W)> {
+    pub fn newest(&mut self) -> Option<(&mut Trial, &mut O)> {
         let lane = self.lanes.last_mut()?;
-        Some((&mut lane.trial, &mut lane.watch))
+        Some((&mut lane.trial, &mut lane.observer))
     }
 
     /// The run of a scenario in the ocean of these lanes, which the first lane builds.
@@ -207,9 +207,9 @@ impl<W: Watch> Lanes<W> {
     }
 
     /// Tells all observers that the spin-up is over, and whether it had been kept.
-    pub(crate) fn tell_developed(&mut self, kept: bool) {
+    pub(crate) fn tell_cached(&mut self, kept: bool) {
         for lane in &mut self.lanes {
-            lane.with(&mut self.ocean, |_, watch| watch.developed(kept));
+            lane.with(&mut self.ocean, |_, observer| observer.see(&Event::SpinUpFromCache(kept)));
         }
     }
 
@@ -230,7 +230,7 @@ impl<W: Watch> Lanes<W> {
 
     /// Makes all runs to their ends: the spin-up, unless it is done or taken over, and the missions. `ended` gets each
     /// run with its observer as soon as it has ended, while the others go on, or what went wrong with it.
-    pub fn run(mut self, mut ended: impl FnMut(W, Result<&Trial, LaneError>)) {
+    pub fn run(mut self, mut ended: impl FnMut(O, Result<&Trial, LaneError>)) {
         if !self.spun_up {
             self.spin_up();
         }
@@ -249,22 +249,22 @@ impl<W: Watch> Lanes<W> {
     /// The turn of each lane between two steps of the ocean: the end of a tick, unless it is the `first`, and the
     /// next one up to that step, also of the ticks in which the ocean rests. Lanes that have ended leave; `false` if
     /// there is none left.
-    fn turns(&mut self, first: bool, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) -> bool {
+    fn turns(&mut self, first: bool, ended: &mut impl FnMut(O, Result<&Trial, LaneError>)) -> bool {
         let mut n = 0;
         while let Some(lane) = self.lanes.get_mut(n) {
-            let going = lane.with(&mut self.ocean, |trial, watch| {
+            let going = lane.with(&mut self.ocean, |trial, observer| {
                 if first {
                     let going = trial.going();
                     if going {
-                        trial.search(watch);
+                        trial.search(observer);
                     }
                     return going;
                 }
                 let quiet = quiet_steps(trial);
                 through(trial, quiet, |trial| {
-                    let going = trial.heed(watch);
+                    let going = trial.heed(observer);
                     if going {
-                        trial.search(watch);
+                        trial.search(observer);
                     }
                     going
                 })
@@ -302,10 +302,13 @@ fn through(trial: &mut Trial, quiet: u64, mut next: impl FnMut(&mut Trial) -> bo
     true
 }
 
-impl<W: Watch> Lane<W> {
+impl<O: Observer> Lane<O> {
     /// Tells the observer how far the spin-up is; `false` if it stops the run.
     fn heard(&mut self, share: f64) -> bool {
-        let told = caught(|| self.watch.spun_up(share));
+        let told = caught(|| {
+            self.observer.see(&Event::SpinUp(share));
+            self.observer.goes_on()
+        });
         told.unwrap_or_else(|said| {
             self.failed = Some(said);
             false
@@ -313,23 +316,23 @@ impl<W: Watch> Lane<W> {
     }
 
     /// Does something while the ocean is in the world of this lane; `None` if the lane has failed.
-    fn with<T>(&mut self, ocean: &mut Option<Ocean>, work: impl FnOnce(&mut Trial, &mut W) -> T) -> Option<T> {
+    fn with<T>(&mut self, ocean: &mut Option<Ocean>, work: impl FnOnce(&mut Trial, &mut O) -> T) -> Option<T> {
         if self.failed.is_some() {
             return None;
         }
         lend(ocean, &mut self.trial);
-        let done = caught(|| work(&mut self.trial, &mut self.watch));
+        let done = caught(|| work(&mut self.trial, &mut self.observer));
         take_back(ocean, &mut self.trial);
         done.map_err(|said| self.failed = Some(said)).ok()
     }
 
     /// Hands on what the run has come to.
-    fn leave(mut self, ocean: &mut Option<Ocean>, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) {
+    fn leave(mut self, ocean: &mut Option<Ocean>, ended: &mut impl FnMut(O, Result<&Trial, LaneError>)) {
         if let Some(said) = self.failed {
-            return ended(self.watch, Err(LaneError::Panicked(said)));
+            return ended(self.observer, Err(LaneError::Panicked(said)));
         }
         lend(ocean, &mut self.trial);
-        ended(self.watch, Ok(&self.trial));
+        ended(self.observer, Ok(&self.trial));
         take_back(ocean, &mut self.trial);
     }
 }

@@ -5,7 +5,7 @@ use crate::error::AssembleError;
 use crate::extend::{Extend, Systems};
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, cost, load_text, template};
-use crate::trial::{RunEnd, Trial, Unwatched, Watch};
+use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use bevy_ecs::prelude::World;
 use world::clock::Clock;
 use world::ranges::{HeadingDeg, Positive};
@@ -52,7 +52,7 @@ fn in_lanes(all: &[&Loaded]) -> Vec<Result<RunEnd, String>> {
     watched(all, |_| Unwatched)
 }
 
-fn watched<W: Watch>(all: &[&Loaded], watch: impl Fn(usize) -> W) -> Vec<Result<RunEnd, String>> {
+fn watched<O: Observer>(all: &[&Loaded], watch: impl Fn(usize) -> O) -> Vec<Result<RunEnd, String>> {
     let mut ends: Vec<_> = all.iter().map(|_| None).collect();
     let mut lanes = Lanes::default();
     for (n, loaded) in all.iter().enumerate() {
@@ -71,12 +71,12 @@ fn watched<W: Watch>(all: &[&Loaded], watch: impl Fn(usize) -> W) -> Vec<Result<
 /// The observer of a lane, which it names.
 struct Noted<W>(usize, W);
 
-impl<W: Watch> Watch for Noted<W> {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.1.spun_up(share)
+impl<O: Observer> Observer for Noted<O> {
+    fn see(&mut self, event: &Event) {
+        self.1.see(event);
     }
-    fn go_on(&mut self, t_s: f64) -> bool {
-        self.1.go_on(t_s)
+    fn goes_on(&mut self) -> bool {
+        self.1.goes_on()
     }
 }
 
@@ -123,15 +123,22 @@ struct Capricious {
     stop_share: Option<f64>,
     stop_s: Option<f64>,
     panic_s: Option<f64>,
+    stops: bool,
 }
 
-impl Watch for Capricious {
-    fn spun_up(&mut self, share: f64) -> bool {
-        self.stop_share.is_none_or(|at| share < at)
+impl Observer for Capricious {
+    fn see(&mut self, event: &Event) {
+        match *event {
+            Event::SpinUp(share) => self.stops = self.stop_share.is_some_and(|at| share >= at),
+            Event::Tick(t_s) => {
+                assert!(self.panic_s.is_none_or(|at| t_s < at), "the disk is full");
+                self.stops = self.stop_s.is_some_and(|at| t_s >= at);
+            }
+            _ => {}
+        }
     }
-    fn go_on(&mut self, t_s: f64) -> bool {
-        assert!(self.panic_s.is_none_or(|at| t_s < at), "the disk is full");
-        self.stop_s.is_none_or(|at| t_s < at)
+    fn goes_on(&mut self) -> bool {
+        !self.stops
     }
 }
 

@@ -1,10 +1,11 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
-use super::{RunPhase, Trial, Watch};
+use super::{Event, Observer, RunPhase, Trial};
 use crate::control::exchanges::{OpenQuestion, put_in, take_questions, truth_of};
 use crate::control::{Controller, Exchange, Question, Response};
 use crate::scenario::Scenario;
 use robots::handoff::ExchangeTiming;
+use std::sync::Arc;
 use world::frames::Truth;
 
 /// A robot that nobody outside this program can control.
@@ -41,18 +42,18 @@ pub fn controlled(scenario: &Scenario) -> Vec<String> {
 impl Trial {
     /// The tick up to the step of the ocean, with the answers of searchers outside this program. Questions that nobody
     /// answers count as put to somebody absent.
-    pub(crate) fn search(&mut self, watch: &mut dyn Watch) {
-        self.observe(watch);
+    pub(crate) fn search(&mut self, observer: &mut dyn Observer) {
+        self.observe(observer);
         for question in self.progress.open.take().unwrap_or_default() {
             let told = put_in(&mut self.simulation.world, question, Response::Absent);
-            watch.consulted(&told);
+            observer.see(&Event::Exchange(Arc::new(told)));
         }
         self.simulation.act();
     }
 
     /// The tick up to the answers from outside, unless that is done, and the answers of the controllers. Returns the
     /// questions that are left; until they are answered, the run keeps them open.
-    pub(crate) fn observe(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
+    pub(crate) fn observe(&mut self, observer: &mut dyn Observer) -> Vec<Question> {
         if self.progress.open.is_some() {
             return Vec::new();
         }
@@ -65,7 +66,8 @@ impl Trial {
             };
             let heard = controller.answer(&question);
             let world = &mut self.simulation.world;
-            watch.consulted(&put_in(world, OpenQuestion::from(&question), heard));
+            let told = put_in(world, OpenQuestion::from(&question), heard);
+            observer.see(&Event::Exchange(Arc::new(told)));
         }
         self.progress.open = Some(open.iter().map(OpenQuestion::from).collect());
         open
@@ -98,19 +100,19 @@ impl Trial {
 
     /// Runs to the next questions that no controller answers, with the spin-up before the first. The answers are given
     /// with [`Self::answer`]; then this, [`Self::step`] or [`Self::run`] goes on. Without questions the run is over.
-    pub fn until_asked(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
+    pub fn until_asked(&mut self, observer: &mut dyn Observer) -> Vec<Question> {
         if self.progress.phase == RunPhase::Assembled {
-            self.develop(watch);
+            self.develop(observer);
         }
-        if self.progress.open.is_some() && !self.advance(watch) {
+        if self.progress.open.is_some() && !self.advance(observer) {
             return Vec::new();
         }
         while self.going() {
-            let open = self.observe(watch);
+            let open = self.observe(observer);
             if !open.is_empty() {
                 return open;
             }
-            self.advance(watch);
+            self.advance(observer);
         }
         Vec::new()
     }
@@ -120,14 +122,14 @@ impl Trial {
         self.progress.open.as_ref().is_some_and(|open| !open.is_empty())
     }
 
-    /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
+    /// Answers an open question of a robot. `observer` gets what came of it, which is returned, too: an answer that the
     /// robot cannot carry out counts as nonsense. `None` if it has no open question.
-    pub fn answer(&mut self, robot: &str, heard: Response, watch: &mut dyn Watch) -> Option<Exchange> {
+    pub fn answer(&mut self, robot: &str, heard: Response, observer: &mut dyn Observer) -> Option<Exchange> {
         let open = self.progress.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
         let question = open.remove(n);
         let told = put_in(&mut self.simulation.world, question, heard);
-        watch.consulted(&told);
+        observer.see(&Event::Exchange(Arc::new(told.clone())));
         Some(told)
     }
 }

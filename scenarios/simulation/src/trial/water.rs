@@ -1,7 +1,5 @@
 //! The flow of the water on a coarse grid, for those who look.
 
-use super::Watch;
-use crate::assemble::Simulation;
 use crate::frame::WaterFrame;
 use crate::ocean::Ocean;
 use nalgebra::{Vector2, Vector3};
@@ -22,16 +20,8 @@ fn rounded(number: f64, parts: f64) -> f64 {
     (number * parts).round() / parts
 }
 
-/// Offers the flow at a time of the mission, s; a steady one only if it was not `shown` before.
-pub(super) fn show(of: &Simulation, t_s: f64, shown: &mut bool, watch: &mut dyn Watch) {
-    let ocean = of.ocean();
-    if !(std::mem::replace(shown, true) && ocean.is_steady()) {
-        watch.water(&|| pictured(ocean, t_s));
-    }
-}
-
 /// The flow at a time of the mission, s. Places inside obstacles are omitted.
-fn pictured(ocean: &Ocean, t_s: f64) -> WaterFrame {
+pub(super) fn pictured(ocean: &Ocean, t_s: f64) -> WaterFrame {
     let area = &ocean.area;
     let along = (PLACES * area.length_m / area.width_m).sqrt();
     let count = |n: f64| n.round().clamp(2.0, MOST) as u32;

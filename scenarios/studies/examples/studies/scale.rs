@@ -10,7 +10,7 @@ use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, load_text, template};
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use std::error::Error;
 use std::process::Command;
 use std::time::Instant;
@@ -126,15 +126,23 @@ fn alone(loaded: &Loaded) -> Result<(f64, f64), Box<dyn Error>> {
 struct Stopwatch {
     begun: Option<Instant>,
     seconds: f64,
+    over: bool,
 }
 
-impl Watch for Stopwatch {
-    fn go_on(&mut self, t_s: f64) -> bool {
+impl Observer for Stopwatch {
+    fn see(&mut self, event: &Event) {
+        let Event::Tick(t_s) = *event else {
+            return;
+        };
         if t_s >= WARM_S {
             let begun = *self.begun.get_or_insert_with(Instant::now);
             self.seconds = begun.elapsed().as_secs_f64();
         }
-        t_s < WARM_S + TIMED_S
+        self.over = t_s >= WARM_S + TIMED_S;
+    }
+
+    fn goes_on(&mut self) -> bool {
+        !self.over
     }
 }
 

@@ -10,7 +10,7 @@ use output::results::{
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Event, Observer, Trial};
 use std::sync::Arc;
 use std::time::Duration;
 use world::seeds::Seed;
@@ -93,17 +93,14 @@ impl<'a> Gatherer<'a> {
     }
 }
 
-impl Watch for Gatherer<'_> {
-    fn spun_up(&mut self, _share: f64) -> bool {
-        (self.go_on)()
+impl Observer for Gatherer<'_> {
+    fn see(&mut self, event: &Event) {
+        if let Event::Frame(frame) = event {
+            self.builder.observe(frame);
+        }
     }
-    fn sees_plume(&self) -> bool {
-        false
-    }
-    fn frame(&mut self, frame: &Arc<Frame>) {
-        self.builder.observe(frame);
-    }
-    fn go_on(&mut self, _t_s: f64) -> bool {
+
+    fn goes_on(&mut self) -> bool {
         (self.go_on)()
     }
 }
