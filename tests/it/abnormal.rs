@@ -1,11 +1,9 @@
 //! What goes wrong in a run is said: on the terminal, in the summary, on the page, in the frames.
 
 use crate::common;
-use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{load, template};
 use rheotaxis::trial::{Event, Observer, Trial};
 use std::path::Path;
-use std::sync::Arc;
 
 /// The channel with these changes.
 #[track_caller]

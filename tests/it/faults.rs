@@ -1,12 +1,11 @@
 //! Faults of robots: what they do to a mission, from when on, and what is said of them.
 
 use crate::common;
-use rheotaxis::frame::{Frame, RobotFrame};
+use rheotaxis::frame::RobotFrame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use robots::handoff::Actuation;
-use std::sync::Arc;
 use world::registry::Registry;
 
 /// A scenario of the catalogue with these faults and changes.

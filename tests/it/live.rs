@@ -20,7 +20,6 @@ use kit::{
 };
 use output::live::{Live, LiveOptions, Payload, topics};
 use readings::{picture, ping};
-use rheotaxis::frame::Frame;
 use rheotaxis::scenario;
 use rheotaxis::trial::{Event, Observer, Trial};
 use serde_json::{Value, json};

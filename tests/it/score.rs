@@ -1,12 +1,10 @@
 //! What a run is judged by hangs on nothing that is written down, and on no order but the file's.
 
-use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use std::path::Path;
-use std::sync::Arc;
 use world::ranges::{Finite, NonNegative, Positive};
 
 /// A search in a channel, cut short.

@@ -262,6 +262,8 @@ fn top_level_holds_only_the_story() {
         ".ci",
         ".git",
         ".gitignore",
+        ".git-blame-ignore-revs",
+        "rustfmt.toml",
         "target",
         "runs",
     ];

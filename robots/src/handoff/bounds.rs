@@ -2,7 +2,8 @@
 //!
 //! All decisions pass here, whichever way they come: those of strategies and those of searchers outside this program.
 
-use super::{Decision, Declaration, GantryDecision, Goal, HeadOrder, Manoeuvre, MoveOrder, Vertical};
+use super::{Decision, Declaration, GantryDecision, Goal, HeadOrder, Manoeuvre, MoveOrder, Shown, Vertical};
+use nalgebra::{Vector2, Vector3};
 use world::units::Heading;
 
 /// Within what numbers must lie.
@@ -174,10 +175,17 @@ impl Decision {
     /// What of it cannot be carried out or shown.
     #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
-        let lost = |p: &nalgebra::Vector2<f64>| bounds.place("lost_points_m", p.as_slice());
-        (self.goal.fault(bounds))
-            .or_else(|| self.declared.and_then(|d| d.fault(bounds)))
-            .or_else(|| self.lost_points.iter().find_map(lost))
+        (self.goal.fault(bounds)).or_else(|| self.declared.and_then(|d| d.fault(bounds)))
+    }
+}
+
+impl Shown {
+    /// What of it cannot be shown.
+    #[must_use]
+    pub fn fault(&self, bounds: Bounds) -> Option<String> {
+        let lost = |p: &Vector2<f64>| bounds.place("lost_points_m", p.as_slice());
+        let planned = |p: &Vector3<f64>| bounds.place("planned_m", p.as_slice());
+        (self.lost_points.iter().find_map(lost)).or_else(|| self.planned.iter().find_map(planned))
     }
 }
 
@@ -200,7 +208,6 @@ impl GantryDecision {
 mod tests {
     use super::super::{Behaviour, Evidence};
     use super::*;
-    use nalgebra::Vector2;
 
     fn goal(speed_m_s: f64) -> Goal {
         Goal::none_yet(Vertical::Depth(2.0), speed_m_s)

@@ -1,10 +1,9 @@
 //! What a strategy decides in a tick.
 
-use super::{Goal, Layer, Regions, Zone};
+use super::Goal;
 use bevy_ecs::prelude::Component;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 use serde::Serialize;
-use std::sync::Arc;
 use world::digest::Digest;
 use world::seeds;
 
@@ -256,7 +255,7 @@ pub enum Outcome {
 }
 
 /// What a strategy decides in a tick.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Decision {
     /// What it is doing.
     pub behaviour: Behaviour,
@@ -264,16 +263,6 @@ pub struct Decision {
     pub goal: Goal,
     /// Newly declared in this tick.
     pub declared: Option<Declaration>,
-    /// Points where the plume was lost (east, north), m; they change seldom.
-    pub lost_points: Vec<Vector2<f64>>,
-    /// What the declaration rule looked at last.
-    pub zone: Arc<Zone>,
-    /// The planned path (ENU), m, beginning with the vehicle's place at planning time; empty without a plan.
-    pub planned: Arc<Vec<Vector3<f64>>>,
-    /// The subregions of the mission; empty if it has none.
-    pub regions: Regions,
-    /// The layers of a subsumption planner, lowest first; empty for other strategies.
-    pub layers: Arc<[Layer]>,
     /// Ask the camera for a picture.
     pub picture: bool,
     /// Set when the mission is over.
@@ -284,18 +273,7 @@ impl Decision {
     /// Going for a goal, and nothing else.
     #[must_use]
     pub fn new(behaviour: Behaviour, goal: Goal) -> Self {
-        Self {
-            behaviour,
-            goal,
-            declared: None,
-            lost_points: Vec::new(),
-            zone: Arc::default(),
-            planned: Arc::default(),
-            regions: Regions::default(),
-            layers: Arc::default(),
-            picture: false,
-            outcome: None,
-        }
+        Self { behaviour, goal, declared: None, picture: false, outcome: None }
     }
 }
 

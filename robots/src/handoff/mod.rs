@@ -22,6 +22,7 @@ mod readings_fault;
 mod regions;
 mod reply;
 mod setting;
+mod shown;
 mod side;
 mod zone;
 
@@ -51,6 +52,7 @@ pub use readings::{
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};
 pub use setting::Setting;
+pub use shown::Shown;
 pub use side::Side;
 pub use zone::Zone;
 

@@ -1,7 +1,6 @@
 //! Parts of the area that a mission searches one after the other.
 
 use serde::Serialize;
-use std::sync::Arc;
 use world::area::Area;
 
 /// How the search of a subregion stands.
@@ -79,7 +78,7 @@ pub struct Region {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Regions {
     /// All of them.
-    pub all: Arc<[Region]>,
+    pub all: Vec<Region>,
     /// The one being searched, from 0; `None` in transit and after the last.
     pub now: Option<u32>,
 }

@@ -13,6 +13,7 @@ use super::catalogue::StrategySpec;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
     Reply, ReplyOutcome, Setting, Vertical,
@@ -92,7 +93,6 @@ impl StrategyParams for ExternalSpec {
             behaviour: Behaviour::Other("external"),
             outcome: None,
             standing_in: None,
-            nothing: None,
         }))
     }
 
@@ -139,8 +139,6 @@ struct External {
     outcome: Option<Outcome>,
     /// While the fallback decides: what its goals' numbers are counted from.
     standing_in: Option<u32>,
-    /// A decision that says nothing but a goal; its empty lists are shared.
-    nothing: Option<Decision>,
 }
 
 impl Strategy for External {
@@ -177,14 +175,13 @@ impl Strategy for External {
         }
         let goal = self.goal.unwrap_or(goal);
         let behaviour = self.behaviour;
-        let nothing = self.nothing.get_or_insert_with(|| Decision::new(behaviour, goal));
-        Decision {
-            behaviour,
-            goal,
-            declared: answer.declared,
-            picture: answer.picture,
-            outcome: self.outcome,
-            ..nothing.clone()
+        Decision { behaviour, goal, declared: answer.declared, picture: answer.picture, outcome: self.outcome }
+    }
+
+    fn shown(&self) -> Shown {
+        match (&self.late, self.standing_in) {
+            (Late::Fallback(strategy), Some(_)) => strategy.shown(),
+            _ => Shown::default(),
         }
     }
 }

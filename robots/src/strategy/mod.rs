@@ -11,6 +11,8 @@ mod spec;
 mod subregions;
 mod subsumption;
 mod survey;
+#[cfg(test)]
+mod testing;
 mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};

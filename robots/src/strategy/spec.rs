@@ -2,6 +2,7 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,6 +16,11 @@ use world::seeds::Stream;
 pub trait Strategy: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
+
+    /// What it shows of itself; asked only when somebody looks.
+    fn shown(&self) -> Shown {
+        Shown::default()
+    }
 }
 
 /// Parameters of a strategy, and what they tell before it is built.

@@ -90,7 +90,7 @@ impl Progress {
         if frame.step.is_multiple_of(50) || declared > self.declared || stopped {
             self.declared = declared;
             let mut doing: Vec<String> = (frame.robots.iter())
-                .map(|r| match r.regions.now {
+                .map(|r| match r.shown.regions.now {
                     Some(k) => format!("subregion {}: {}", region_name(k), r.behaviour.name()),
                     None => r.behaviour.name().to_string(),
                 })

@@ -10,12 +10,10 @@ use super::run_observer::RunObserver;
 use super::{cache, say, stop};
 use output::mcap::{ReadError, RecordedRun, read_recording};
 use rheotaxis::control::Replay;
-use rheotaxis::frame::Frame;
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::registry::Registry;
 

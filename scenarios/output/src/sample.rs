@@ -6,7 +6,7 @@ use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use rheotaxis::score::Score;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate, FlowEstimate, Layer, LayerState,
-    Regions, Setpoint, Vertical,
+    Setpoint, Shown, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::path::Path;
@@ -99,7 +99,7 @@ pub(crate) fn belief(t_s: f64) -> Belief {
 }
 
 /// States of a planner's layers for a behaviour.
-fn layers(b: Behaviour) -> Arc<[Layer]> {
+fn layers(b: Behaviour) -> Vec<Layer> {
     let names = ["find", "maintain", "reacquire", "go_home"];
     let holds = match b {
         Behaviour::TrackIn | Behaviour::TrackOut => 1,
@@ -180,15 +180,15 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 chemical: Some(ChemicalReading { volts: 5.0 * of_full_scale, of_full_scale, detected: in_plume }),
                 detected: in_plume,
                 behaviour,
-                layers: layers(behaviour),
-                lost_points: if away < 60.0 { lost } else { Vec::new() },
-                zone: Default::default(),
-                planned: std::sync::Arc::default(),
+                shown: Shown {
+                    layers: layers(behaviour),
+                    lost_points: if away < 60.0 { lost } else { Vec::new() },
+                    ..Shown::default()
+                },
                 belief: Some(Belief {
                     odour: (away < 60.0).then(|| std::sync::Arc::new(odour(t_s.floor()))),
                     ..belief(t_s.floor())
                 }),
-                regions: Regions::default(),
                 declarations: (k >= declare_at)
                     .then(|| {
                         Declaration::first(

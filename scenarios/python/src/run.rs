@@ -14,12 +14,9 @@ use output::report::is_result;
 use pyo3::Borrowed;
 use pyo3::prelude::*;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::control::Exchange;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial, Wants, consulted};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Follows a run: its results, its columns, and Ctrl-C.
 struct Watcher {

@@ -34,6 +34,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use world::clock::Clock;
 use world::digest::Digest;
+use world::fields::Flow;
 use world::seeds::Seed;
 
 /// What is known at the end of a run.

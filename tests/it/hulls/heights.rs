@@ -1,10 +1,8 @@
 //! A height is shown as commanded only for vehicles that keep one.
 
-use rheotaxis::frame::Frame;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::{Event, Observer, Trial};
-use std::sync::Arc;
 use world::ranges::{NonNegative, Positive};
 
 /// Frames, and how many of them have a commanded height.

@@ -11,7 +11,7 @@ use rheotaxis::scenario::load;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
     GantryBehaviour, GantryDecision, Goal, JointReadings, Layer, LayerState, MAX_PROBES, Manoeuvre, PictureEvidence,
-    ProbeScan, Region, RegionState, Regions, Setpoint, TrackerState, Vertical, Zone,
+    ProbeScan, Region, RegionState, Regions, Setpoint, Shown, TrackerState, Vertical, Zone,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -107,26 +107,28 @@ pub(super) fn frame(step: u64) -> Frame {
         keeps_height: true,
         actuators: Actuation::default(),
         heard: NewestReadings { ranging: Some(super::readings::ping_ahead()), ..NewestReadings::default() },
-        zone: Arc::new(Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0)),
+        shown: Shown {
+            zone: Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0),
+            layers: vec![
+                Layer { name: "find", state: LayerState::Suppressed },
+                Layer { name: "maintain", state: LayerState::Holds },
+            ],
+            lost_points: vec![Vector2::new(1.0, 2.0)],
+            planned: Vec::new(),
+            regions: Regions {
+                all: vec![Region {
+                    area: Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 50.0, axis: heading },
+                    state: RegionState::Searching,
+                    from_s: Some(0.0),
+                    until_s: None,
+                }],
+                now: Some(0),
+            },
+        },
         chemical: Some(ChemicalReading { volts: 1.0, of_full_scale: 0.2, detected: true }),
         detected: true,
         behaviour: Behaviour::TrackIn,
-        layers: Arc::new([
-            Layer { name: "find", state: LayerState::Suppressed },
-            Layer { name: "maintain", state: LayerState::Holds },
-        ]),
-        lost_points: vec![Vector2::new(1.0, 2.0)],
-        planned: Arc::default(),
         belief: Some(belief()),
-        regions: Regions {
-            all: Arc::new([Region {
-                area: Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 50.0, axis: heading },
-                state: RegionState::Searching,
-                from_s: Some(0.0),
-                until_s: None,
-            }]),
-            now: Some(0),
-        },
         declarations: vec![Declaration {
             region: Some(0),
             surveyed: Some(Vector2::new(5.5, 6.5)),

@@ -66,7 +66,7 @@ fn told(step: u64) -> Frame {
         max_m: 40.0,
         beams: [beam(Vector3::x(), Some(12.0)), beam(Vector3::y(), None)].into(),
     });
-    robot.planned = Arc::new(vec![Vector3::zeros(), Vector3::new(5.0, 6.0, -3.0)]);
+    robot.shown.planned = vec![Vector3::zeros(), Vector3::new(5.0, 6.0, -3.0)];
     frame
 }
 

@@ -4,13 +4,11 @@ use super::kit::broken;
 use crate::common::root;
 use output::live::topics;
 use rheotaxis::control::{Question, Response, read_answer};
-use rheotaxis::frame::Frame;
 use rheotaxis::registry::{Registry, messages};
 use rheotaxis::scenario::{Loaded, load, load_text, template};
 use rheotaxis::trial::{Event, Observer, Trial};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use std::sync::Arc;
 use world::ranges::{NonNegative, Positive};
 
 /// Holds each message of each state against its schema.

@@ -15,12 +15,12 @@ use crate::behave::{Behave, Stride};
 use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
-use nalgebra::{Vector2, Vector3};
-use std::sync::Arc;
+use nalgebra::Vector2;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -62,9 +62,7 @@ pub struct Amp {
     vertical: Vertical,
     rule: DeclareSpec,
     /// What the rule looked at last.
-    zone: Arc<Zone>,
-    /// The path of somebody who plans none.
-    unplanned: Arc<Vec<Vector3<f64>>>,
+    zone: Zone,
     /// The newest flow (east, north), m/s, and its up-flow direction: it is measured more seldom than asked.
     flow: Option<(Vector2<f64>, Heading)>,
     post: PostDeclaration,
@@ -87,8 +85,7 @@ impl Amp {
             speed_m_s,
             vertical,
             rule: spec.declare.clone(),
-            zone: Arc::default(),
-            unplanned: Arc::default(),
+            zone: Zone::default(),
             flow: None,
             post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
@@ -185,7 +182,7 @@ impl Amp {
     /// The declaration test at the end of Track-Out (section 5.6).
     fn test(&mut self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
-        self.zone = Arc::new(self.rule.zone(&self.memory, up_flow));
+        self.zone = self.rule.zone(&self.memory, up_flow);
         self.rule.declaration(seen.t_s, &self.memory, up_flow)
     }
 
@@ -263,13 +260,16 @@ impl Strategy for Amp {
             behaviour: self.now,
             goal: self.goal,
             declared,
-            lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
-            zone: self.zone.clone(),
-            planned: self.unplanned.clone(),
-            regions: Default::default(),
-            layers: Arc::default(),
             picture: self.now == Behaviour::Survey && self.post.picture(),
             outcome: self.outcome,
+        }
+    }
+
+    fn shown(&self) -> Shown {
+        Shown {
+            lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
+            zone: self.zone.clone(),
+            ..Shown::default()
         }
     }
 }

@@ -4,8 +4,8 @@ use super::super::survey::AfterDeclaration;
 use super::{Amp, AmpSpec, Detections, StartAt};
 use crate::declare::{AlongFlow, DeclareSpec};
 use crate::handoff::testing::{seen, smelling};
-use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Outcome};
-use crate::strategy::Strategy;
+use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome};
+use crate::strategy::testing::Ticked;
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::ranges::Finite;
@@ -29,7 +29,7 @@ impl Desk {
         }
     }
 
-    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Decision {
+    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Ticked {
         self.t_s += 0.1;
         let flow = Some(Vector2::new(0.0, -0.2));
         let mut o = smelling(seen(self.t_s, Vector2::new(0.0, north), 350.0, flow), smells);
@@ -38,31 +38,31 @@ impl Desk {
             o.guidance.done = arrived;
         }
         o.guidance.aborted = aborted;
-        let decision = self.amp.step(&o, &mut self.rng);
+        let decision = Ticked::step(&mut self.amp, &o, &mut self.rng);
         self.goal = Some(decision.goal);
         decision
     }
 
-    fn quiet(&mut self, north: f64) -> Decision {
+    fn quiet(&mut self, north: f64) -> Ticked {
         self.tick(north, false, false, false)
     }
 
-    fn smell(&mut self, north: f64) -> Decision {
+    fn smell(&mut self, north: f64) -> Ticked {
         self.tick(north, true, false, false)
     }
 
-    fn arrive(&mut self, north: f64) -> Decision {
+    fn arrive(&mut self, north: f64) -> Ticked {
         self.tick(north, false, true, false)
     }
 
     /// Nothing for more than lambda.
-    fn lose(&mut self, north: f64) -> Decision {
+    fn lose(&mut self, north: f64) -> Ticked {
         self.t_s += 5.0;
         self.quiet(north)
     }
 
     /// Detects at `north` and loses the plume there; ends in Track-Out.
-    fn point(&mut self, north: f64) -> Decision {
+    fn point(&mut self, north: f64) -> Ticked {
         self.smell(north);
         let d = self.lose(north + 10.0);
         assert_eq!(d.behaviour, Behaviour::TrackOut);
@@ -92,7 +92,7 @@ fn find_until_a_detection_then_track_in() {
 fn track_in_to_track_out_stores_the_point() {
     let mut d = plain();
     let out = d.point(4.0);
-    assert_eq!(out.lost_points, [Vector2::new(0.0, 4.0)]);
+    assert_eq!(out.shown.lost_points, [Vector2::new(0.0, 4.0)]);
     let Manoeuvre::GoToPoint { point, .. } = out.goal.manoeuvre else {
         panic!("track-out goes to a point");
     };
@@ -123,11 +123,11 @@ fn reacquire_to_find_when_the_list_is_empty() {
     for line in 1..8 {
         let now = d.arrive(60.0);
         assert_eq!(now.behaviour, Behaviour::Reacquire, "line {line}");
-        assert_eq!(now.lost_points.len(), if line < 4 { 2 } else { 1 });
+        assert_eq!(now.shown.lost_points.len(), if line < 4 { 2 } else { 1 });
     }
     let found = d.arrive(60.0);
     assert_eq!(found.behaviour, Behaviour::Find);
-    assert!(found.lost_points.is_empty());
+    assert!(found.shown.lost_points.is_empty());
 }
 
 #[test]
@@ -181,7 +181,7 @@ fn at_most_six_points_are_kept_the_most_up_flow_ones() {
     for k in 1..8 {
         last = d.point(10.0 * f64::from(k));
     }
-    let norths: Vec<f64> = last.lost_points.iter().map(|p| p.y).collect();
+    let norths: Vec<f64> = last.shown.lost_points.iter().map(|p| p.y).collect();
     assert_eq!(norths, [70.0, 60.0, 50.0, 40.0, 30.0, 20.0]);
 }
 

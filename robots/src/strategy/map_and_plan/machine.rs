@@ -17,13 +17,13 @@ use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
 use nalgebra::Vector3;
-use std::sync::Arc;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -328,17 +328,17 @@ impl Strategy for MapAndPlan {
             },
             goal: self.goal,
             declared,
-            lost_points: Vec::new(),
-            zone: Arc::default(),
-            planned: match self.now {
-                Behaviour::Done => Arc::default(),
-                _ => self.pilot.planned(),
-            },
-            regions: Default::default(),
-            layers: Arc::default(),
             picture: false,
             outcome: self.outcome,
         }
+    }
+
+    fn shown(&self) -> Shown {
+        let planned = match self.now {
+            Behaviour::Done => Vec::new(),
+            _ => self.pilot.planned(),
+        };
+        Shown { planned, ..Shown::default() }
     }
 }
 

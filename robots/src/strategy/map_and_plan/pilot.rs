@@ -15,7 +15,6 @@ use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Se
 use crate::plan::{Follow, FreeSpace, From, NoPath, Path, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};
-use std::sync::Arc;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -137,8 +136,8 @@ impl Pilot {
     }
 
     /// The path still ahead; empty without one.
-    pub(super) fn planned(&self) -> Arc<Vec<Vector3<f64>>> {
-        self.follow.as_ref().map(|f| f.points().clone()).unwrap_or_default()
+    pub(super) fn planned(&self) -> Vec<Vector3<f64>> {
+        self.follow.as_ref().map(|f| f.points().to_vec()).unwrap_or_default()
     }
 
     /// How far the newest path leads.

@@ -1,14 +1,15 @@
 //! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, with a map written by hand.
 
-use super::super::spec::{Strategy, VerticalSpec};
+use super::super::spec::{VerticalSpec};
 use super::super::survey::AfterDeclaration;
 use super::*;
 use crate::handoff::testing::seen;
 use crate::handoff::{
-    Beam, Behaviour, Belief, BeliefGrid, Decision, Manoeuvre, Observation, Outcome, RangeScan, Setting, Vertical,
+    Beam, Behaviour, Belief, BeliefGrid, Manoeuvre, Observation, Outcome, RangeScan, Setting, Vertical,
 };
 use crate::plan::testing::block;
 use crate::plan::{PlannerSpec, PotentialFieldParams, Reach};
+use crate::strategy::testing::Ticked;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 use world::area::Area;
@@ -106,14 +107,14 @@ impl Drive {
         RangeScan { p_BS: Vector3::zeros(), max_m: 40.0, beams: beams.collect() }
     }
 
-    fn step(&mut self) -> Decision {
+    fn step(&mut self) -> Ticked {
         let ping = ((self.t_s * 10.0).round() as u64).is_multiple_of(5);
         let mut o: Observation = seen(self.t_s, self.p, self.heading.deg(), Some(Vector2::new(0.5, 0.0)));
         o.estimate.depth_m = 4.0;
         o.area = area();
         o.belief = self.belief.clone();
         o.ranging = ping.then(|| self.ping());
-        let d = self.strategy.step(&o, &mut self.rng);
+        let d = Ticked::step(&mut self.strategy, &o, &mut self.rng);
         if let Manoeuvre::Course { course } = d.goal.manoeuvre {
             let most = 10f64.to_radians() * 0.1;
             let turn = self.heading.turn_to(course).clamp(-most, most);
@@ -131,7 +132,7 @@ impl Drive {
     }
 
     /// Runs until it is over, or for so long; returns the least distance to a place on the way.
-    fn run(&mut self, for_s: f64, to: [f64; 2]) -> (Decision, f64) {
+    fn run(&mut self, for_s: f64, to: [f64; 2]) -> (Ticked, f64) {
         let to = Vector2::new(to[0], to[1]);
         let mut closest = f64::INFINITY;
         let end = self.t_s + for_s;
@@ -157,7 +158,7 @@ fn searches_then_follows_a_path_to_the_likeliest_cell_and_declares_it() {
     d.belief = Some(belief(source, 1));
     let first = d.step();
     assert_eq!(first.behaviour, Behaviour::FollowPath);
-    assert!(first.planned.len() > 2 && first.goal.vertical == Vertical::Depth(4.0));
+    assert!(first.shown.planned.len() > 2 && first.goal.vertical == Vertical::Depth(4.0));
     let (end, closest) = d.run(300.0, [21.25, 50.0]);
     let declared = end.declared.expect("declared");
     assert!((declared.position - source.xy()).norm() < 1e-9 && declared.rule == "Unchanged");
@@ -181,7 +182,7 @@ fn what_no_chart_has_the_ranging_finds() {
     let mut d = Drive::new(&spec(), vec![], walls, [95.0, 50.0], 270.0);
     d.belief = Some(belief(Vector3::new(21.25, 50.0, -4.0), 1));
     let first = d.step();
-    assert!(first.planned.len() <= 3, "nothing known yet: {:?}", first.planned);
+    assert!(first.shown.planned.len() <= 3, "nothing known yet: {:?}", first.shown.planned);
     let (_, closest) = d.run(200.0, [21.25, 50.0]);
     assert!(closest < 6.0 && d.nearest_m > 0.3, "{closest} {}", d.nearest_m);
     assert!(d.strategy.sensed() > 20);
@@ -215,7 +216,7 @@ fn a_cell_that_is_solid_through_and_through_is_no_target() {
     let second = b.grid.cell(&Vector3::new(21.25, 50.0, -4.0)).expect("inside");
     Arc::make_mut(&mut b.p)[second] = 0.1;
     d.belief = Some(b);
-    let planned = d.step().planned;
+    let planned = d.step().shown.planned;
     let end = planned[planned.len() - 1];
     assert!((end.xy() - Vector2::new(21.25, 50.0)).norm() < 1e-9, "{end:?}");
 }
@@ -248,7 +249,7 @@ fn goes_up_and_down_in_a_room_of_space() {
     d.belief = Some(belief_of_space(Vector3::new(21.25, 50.0, -5.0)));
     let first = d.step();
     assert_eq!(first.behaviour, Behaviour::FollowPath);
-    let over = first.planned.iter().filter(|p| (p.x - 50.0).abs() < 3.0).map(|p| p.z);
+    let over = first.shown.planned.iter().filter(|p| (p.x - 50.0).abs() < 3.0).map(|p| p.z);
     assert!(over.clone().count() == 0 || over.fold(f64::INFINITY, f64::min) > -5.0);
     assert!(matches!(first.goal.vertical, Vertical::Depth(m) if (0.0..8.0).contains(&m)));
 }

@@ -16,13 +16,13 @@ use super::edge::{Plume, crossing};
 use super::rectangles::areas;
 use super::spec::{EdgeSpec, Entry, SubregionsSpec};
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Setting,
     UP_FLOW_EDGE, Verdict, Vertical, detects,
 };
 use crate::places::inside;
 use nalgebra::Vector2;
-use std::sync::Arc;
 use world::area::Area;
 use world::seeds::Stream;
 use world::units::Heading;
@@ -55,7 +55,7 @@ pub struct Subregions {
     speed_m_s: f64,
     vertical: Vertical,
     phase: Phase,
-    regions: Arc<[Region]>,
+    regions: Vec<Region>,
     up_flow: Option<Heading>,
     plume: Plume,
     /// The last goal, of the mission or of a search.
@@ -230,22 +230,12 @@ impl Subregions {
 
     /// The decision while no search is running.
     fn under_way(&self) -> Decision {
-        Decision {
-            behaviour: match self.phase {
-                Phase::Begin | Phase::Transit { .. } | Phase::Search(_) => Behaviour::GoTo,
-                Phase::Home => Behaviour::GoHome,
-                Phase::Over => Behaviour::Done,
-            },
-            goal: self.goal,
-            declared: None,
-            lost_points: Vec::new(),
-            zone: Arc::default(),
-            planned: Arc::default(),
-            regions: Regions::default(),
-            layers: Arc::default(),
-            picture: false,
-            outcome: None,
-        }
+        let behaviour = match self.phase {
+            Phase::Begin | Phase::Transit { .. } | Phase::Search(_) => Behaviour::GoTo,
+            Phase::Home => Behaviour::GoHome,
+            Phase::Over => Behaviour::Done,
+        };
+        Decision::new(behaviour, self.goal)
     }
 }
 
@@ -278,25 +268,24 @@ impl Strategy for Subregions {
                     searched
                 } else {
                     // The search is over: its last declaration remains, its last goal does not.
-                    Decision {
-                        declared: searched.declared,
-                        lost_points: searched.lost_points,
-                        zone: searched.zone,
-                        ..self.under_way()
-                    }
+                    Decision { declared: searched.declared, ..self.under_way() }
                 }
             }
             _ => self.under_way(),
         };
         decision.outcome = self.outcome;
-        decision.regions = Regions {
-            all: self.regions.clone(),
-            now: match self.phase {
-                Phase::Search(k) => Some(k as u32),
-                _ => None,
-            },
-        };
         decision
+    }
+
+    fn shown(&self) -> Shown {
+        let searching = match self.phase {
+            Phase::Search(k) => Some(k),
+            _ => None,
+        };
+        Shown {
+            regions: Regions { all: self.regions.clone(), now: searching.map(|k| k as u32) },
+            ..searching.map_or_else(Shown::default, |k| self.searches[k].shown())
+        }
     }
 }
 

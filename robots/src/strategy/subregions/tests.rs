@@ -2,8 +2,9 @@
 
 use super::{EdgeSpec, Entry, GridSpec, RegionsSpec, Subregions, SubregionsSpec};
 use crate::handoff::testing::{area, seen, smelling};
-use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Outcome, RegionState, Setting};
-use crate::strategy::{AmpSpec, OpenLoopSpec, Strategy, StrategySpec, VerticalSpec};
+use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome, RegionState, Setting};
+use crate::strategy::testing::Ticked;
+use crate::strategy::{AmpSpec, OpenLoopSpec, StrategySpec, VerticalSpec};
 use nalgebra::Vector2;
 use std::num::NonZeroU32;
 use world::obstacles::Obstacles;
@@ -59,11 +60,11 @@ impl Desk {
         let mut d = Self::new(&spec(Entry::Centre));
         d.quiet(-200.0);
         let begun = d.arrive(-150.0);
-        assert_eq!(begun.regions.now, Some(0));
+        assert_eq!(begun.shown.regions.now, Some(0));
         d
     }
 
-    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Decision {
+    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Ticked {
         self.t_s += 0.1;
         let at = Vector2::new(0.0, north);
         let mut o = smelling(seen(self.t_s, at, 350.0, self.flow), smells);
@@ -72,32 +73,32 @@ impl Desk {
             o.guidance.done = arrived;
         }
         o.guidance.aborted = aborted;
-        let decision = self.mission.step(&o, &mut self.rng);
+        let decision = Ticked::step(&mut self.mission, &o, &mut self.rng);
         self.goal = Some(decision.goal);
         decision
     }
 
-    fn quiet(&mut self, north: f64) -> Decision {
+    fn quiet(&mut self, north: f64) -> Ticked {
         self.tick(north, false, false, false)
     }
 
-    fn smell(&mut self, north: f64) -> Decision {
+    fn smell(&mut self, north: f64) -> Ticked {
         self.tick(north, true, false, false)
     }
 
-    fn arrive(&mut self, north: f64) -> Decision {
+    fn arrive(&mut self, north: f64) -> Ticked {
         self.tick(north, false, true, false)
     }
 
     /// Detects at `north` and loses the plume there.
-    fn point(&mut self, north: f64) -> Decision {
+    fn point(&mut self, north: f64) -> Ticked {
         self.smell(north);
         self.t_s += 5.0;
         self.quiet(north + 1.0)
     }
 
     /// Three points close together and the end of Track-Out: the inner strategy declares.
-    fn declare(&mut self, north: f64) -> Decision {
+    fn declare(&mut self, north: f64) -> Ticked {
         for k in 0..3 {
             let out = self.point(north + f64::from(k));
             assert_eq!(out.behaviour, Behaviour::TrackOut);
@@ -106,15 +107,15 @@ impl Desk {
     }
 }
 
-fn point_of(d: &Decision) -> Vector2<f64> {
+fn point_of(d: &Ticked) -> Vector2<f64> {
     match d.goal.manoeuvre {
         Manoeuvre::GoToPoint { point, .. } => point,
         other => panic!("wanted a point, got {other:?}"),
     }
 }
 
-fn states(d: &Decision) -> Vec<RegionState> {
-    d.regions.all.iter().map(|r| r.state).collect()
+fn states(d: &Ticked) -> Vec<RegionState> {
+    d.shown.regions.all.iter().map(|r| r.state).collect()
 }
 
 #[test]
@@ -127,7 +128,7 @@ fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
     let first = d.quiet(-250.0);
     // South-west corner (-200, -300), 20 m inside.
     assert!((point_of(&first) - Vector2::new(-180.0, -280.0)).norm() < 1e-9);
-    assert_eq!((first.behaviour, first.regions.now), (Behaviour::GoTo, None));
+    assert_eq!((first.behaviour, first.shown.regions.now), (Behaviour::GoTo, None));
     for _ in 0..20 {
         let on_the_way = d.smell(-250.0);
         assert_eq!(on_the_way.behaviour, Behaviour::GoTo);
@@ -145,7 +146,7 @@ fn arrival_of_the_transit_is_none_of_the_search() {
     // The guidance still reports the transit as done: the search's own goal remains.
     let mut o = seen(d.t_s + 0.1, Vector2::new(0.0, -150.0), 350.0, d.flow);
     (o.guidance.goal_id, o.guidance.done) = (find.id - 1, true);
-    let next = d.mission.step(&o, &mut d.rng);
+    let next = Ticked::step(&mut d.mission, &o, &mut d.rng);
     assert_eq!((next.behaviour, next.goal), (Behaviour::Find, find));
     assert_eq!(states(&next), [RegionState::Searching, RegionState::Waiting]);
 }
@@ -157,14 +158,14 @@ fn a_time_out_does_not_call_the_region_source_free() {
     let from = d.t_s;
     d.t_s += TIMEOUT_S - 1.0;
     let last = d.quiet(-100.0);
-    assert_eq!(last.regions.now, Some(0), "{:.1} s", d.t_s - from);
+    assert_eq!(last.shown.regions.now, Some(0), "{:.1} s", d.t_s - from);
     d.t_s += 1.0;
     let over = d.quiet(-100.0);
     assert_eq!((over.declared, over.behaviour), (None, Behaviour::GoTo));
     assert_eq!(states(&over), [RegionState::TimedOut, RegionState::Waiting]);
     assert_eq!(point_of(&over), Vector2::new(0.0, 150.0));
     assert_eq!(over.goal.id, last.goal.id + 1);
-    let [first, _] = over.regions.all[..] else { panic!("two regions") };
+    let [first, _] = over.shown.regions.all[..] else { panic!("two regions") };
     assert!((first.until_s.unwrap() - first.from_s.unwrap() - TIMEOUT_S).abs() < 0.5);
 }
 
@@ -175,15 +176,15 @@ fn a_declaration_inside_ends_the_search_of_its_region() {
     let first = end.declared.expect("three points within 2 m");
     assert_eq!((first.number, first.region), (0, Some(0)));
     assert_eq!((first.rule, first.position), ("AlongFlow", Vector2::new(0.0, -148.0)));
-    assert_eq!((end.behaviour, end.regions.now), (Behaviour::GoTo, None));
+    assert_eq!((end.behaviour, end.shown.regions.now), (Behaviour::GoTo, None));
     assert_eq!(states(&end), [RegionState::Declared, RegionState::Waiting]);
     // It is not declared twice, and no detection counts on the way.
     let transit = d.smell(-100.0);
     assert_eq!((transit.declared, transit.behaviour), (None, Behaviour::GoTo));
     // The next search starts afresh; its declarations continue the numbering.
     let begun = d.arrive(150.0);
-    assert_eq!((begun.behaviour, begun.regions.now), (Behaviour::Find, Some(1)));
-    assert!(begun.lost_points.is_empty());
+    assert_eq!((begun.behaviour, begun.shown.regions.now), (Behaviour::Find, Some(1)));
+    assert!(begun.shown.lost_points.is_empty());
     let second = d.declare(150.0).declared.expect("three points within 2 m");
     assert_eq!((second.number, second.region), (1, Some(1)));
 }
@@ -209,7 +210,7 @@ fn to_come_near_the_edge_without_a_detection_declares_nothing() {
     d.smell(-60.0);
     for north in [-30, -10, 5] {
         let now = d.quiet(f64::from(north));
-        assert_eq!((now.declared, now.regions.now), (None, Some(0)));
+        assert_eq!((now.declared, now.shown.regions.now), (None, Some(0)));
     }
 }
 

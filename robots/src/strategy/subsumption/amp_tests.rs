@@ -5,9 +5,10 @@ use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::testing::{area, fixed, seen, smelling};
-use crate::handoff::{Behaviour, Decision, Setting};
+use crate::handoff::{Behaviour, Setting};
 use crate::memory::FixMove;
-use crate::strategy::{Amp, AmpSpec, Strategy};
+use crate::strategy::testing::Ticked;
+use crate::strategy::{Amp, AmpSpec};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::strategy::Strategy as Drawn;
@@ -70,12 +71,12 @@ impl Both {
         }
     }
 
-    fn step(&mut self, o: &crate::handoff::Observation, arrived: bool) -> [Decision; 2] {
+    fn step(&mut self, o: &crate::handoff::Observation, arrived: bool) -> [Ticked; 2] {
         let [mut a, mut b] = [o.clone(), o.clone()];
         (a.guidance.goal_id, a.guidance.done) = (self.goals[0], arrived);
         (b.guidance.goal_id, b.guidance.done) = (self.goals[1], arrived);
         let [ra, rb] = &mut self.rngs;
-        let both = [self.amp.step(&a, ra), self.layers.step(&b, rb)];
+        let both = [Ticked::step(&mut self.amp, &a, ra), Ticked::step(&mut self.layers, &b, rb)];
         self.goals = both.each_ref().map(|d| d.goal.id);
         both
     }
@@ -110,8 +111,8 @@ proptest! {
             let [a, b] = both.step(&o, arrived);
             prop_assert_eq!(a.declared, b.declared);
             // Compared as sets: Reacquire sorts them again in the tick of the declaration.
-            let sorted = |d: &Decision| {
-                let mut points = d.lost_points.clone();
+            let sorted = |d: &Ticked| {
+                let mut points = d.shown.lost_points.clone();
                 points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
                 points
             };

@@ -32,12 +32,12 @@ use super::spec::SubsumptionSpec;
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
+use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Verdict,
     Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
-use std::sync::Arc;
 use world::seeds::Stream;
 
 /// State of the planner.
@@ -49,7 +49,7 @@ pub struct Subsumption {
     /// The rule's declaration, while Declare asks.
     declaring: Option<Declaration>,
     /// What its declaration rule looked at last.
-    zone: Arc<Zone>,
+    zone: Zone,
     /// What follows a declaration; whether the survey has begun, and what it asks for.
     post: PostDeclaration,
     surveying: bool,
@@ -62,7 +62,7 @@ pub struct Subsumption {
     holder: Option<Kind>,
     /// The layer whose command Avoid turns away.
     under_avoid: Option<Kind>,
-    states: Arc<[Layer]>,
+    states: Vec<Layer>,
     behaviour: Behaviour,
     goal: Goal,
     outcome: Option<Outcome>,
@@ -86,7 +86,7 @@ impl Subsumption {
             layers,
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             declaring: None,
-            zone: Arc::default(),
+            zone: Zone::default(),
             post: PostDeclaration::new(
                 &spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
             )?,
@@ -121,7 +121,7 @@ impl Subsumption {
     fn test(&mut self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
         let rule = self.layers.declare.as_ref()?;
-        self.zone = Arc::new(rule.zone(&self.memory, up_flow));
+        self.zone = rule.zone(&self.memory, up_flow);
         rule.declaration(seen.t_s, &self.memory, up_flow)
     }
 
@@ -313,19 +313,23 @@ impl Strategy for Subsumption {
                 declared = self.run(seen, rng);
             }
         }
-        let rule = self.layers.declare.as_ref();
-        let points = rule.map_or(Points::Lost, |r| r.points()).select(&self.memory);
         Decision {
             behaviour: self.behaviour,
             goal: self.goal,
             declared,
+            picture: self.outcome.is_none() && self.wants_picture(),
+            outcome: self.outcome,
+        }
+    }
+
+    fn shown(&self) -> Shown {
+        let rule = self.layers.declare.as_ref();
+        let points = rule.map_or(Points::Lost, |r| r.points()).select(&self.memory);
+        Shown {
             lost_points: points.iter().map(|l| l.position).collect(),
             zone: self.zone.clone(),
-            planned: Arc::default(),
             layers: self.states.clone(),
-            picture: self.outcome.is_none() && self.wants_picture(),
-            regions: Default::default(),
-            outcome: self.outcome,
+            ..Shown::default()
         }
     }
 }

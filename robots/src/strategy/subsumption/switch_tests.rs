@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 #[test]
 fn find_holds_until_a_detection_and_maintain_until_the_loss() {
     let mut d = Desk::new(all());
-    let names: Vec<_> = d.quiet(0.0).layers.iter().map(|l| l.name).collect();
+    let names: Vec<_> = d.quiet(0.0).shown.layers.iter().map(|l| l.name).collect();
     let want = ["find", "maintain", "reacquire", "declare", "avoid", "plume_map", "go_home"];
     assert_eq!(names, want);
     let first = d.quiet(0.0);
@@ -42,7 +42,7 @@ fn a_detection_interrupts_the_reacquisition_and_its_end_gives_the_search_back() 
     }
     let again = d.arrive(40.0);
     assert_eq!((said(&again).as_str(), again.behaviour), ("H......", Behaviour::Find));
-    assert!(again.lost_points.is_empty());
+    assert!(again.shown.lost_points.is_empty());
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn without_a_track_out_the_silence_is_it() {
     assert_eq!(d.smell(2.0).behaviour, Behaviour::TrackIn);
     d.t_s += 5.0;
     let lost = d.quiet(12.0);
-    assert_eq!((said(&lost).as_str(), lost.lost_points.len()), ("s.H.", 1));
+    assert_eq!((said(&lost).as_str(), lost.shown.lost_points.len()), ("s.H.", 1));
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn layers_under_avoid_go_on_watching_and_get_their_goal_back() {
     d.obstacle = true;
     assert_eq!(said(&d.smell(0.0)), "ss..H..");
     d.t_s += 5.0;
-    assert_eq!(d.quiet(10.0).lost_points, [Vector2::new(0.0, 0.0)]);
+    assert_eq!(d.quiet(10.0).shown.lost_points, [Vector2::new(0.0, 0.0)]);
 }
 
 #[test]
@@ -166,6 +166,6 @@ fn lost_points_move_with_a_fix_when_told() {
         let mut d = Desk::of(&spec);
         d.point(0.0);
         d.jump = Vector2::new(0.0, 7.0);
-        assert_eq!(d.quiet(20.0).lost_points, [Vector2::new(0.0, north)]);
+        assert_eq!(d.quiet(20.0).shown.lost_points, [Vector2::new(0.0, north)]);
     }
 }

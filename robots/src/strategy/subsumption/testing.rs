@@ -4,8 +4,8 @@ use super::{GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, Subs
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::testing::{area, seen, smelling};
-use crate::handoff::{Beam, Belief, BeliefGrid, Decision, Goal, LayerState, Observation, RangeScan, Setting};
-use crate::strategy::Strategy;
+use crate::handoff::{Beam, Belief, BeliefGrid, Goal, LayerState, Observation, RangeScan, Setting};
+use crate::strategy::testing::Ticked;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 use world::obstacles::Obstacles;
@@ -86,32 +86,32 @@ impl Desk {
         o
     }
 
-    pub(super) fn tick(&mut self, north: f64, smells: bool, arrived: bool) -> Decision {
+    pub(super) fn tick(&mut self, north: f64, smells: bool, arrived: bool) -> Ticked {
         self.t_s += 0.1;
         let mut o = self.seen(north, smells);
         if let Some(goal) = self.goal {
             o.guidance.goal_id = goal.id;
             o.guidance.done = arrived;
         }
-        let decision = self.planner.step(&o, &mut self.rng);
+        let decision = Ticked::step(&mut self.planner, &o, &mut self.rng);
         self.goal = Some(decision.goal);
         let holds = |l: &&crate::handoff::Layer| l.state == LayerState::Holds;
-        assert!(decision.layers.iter().filter(holds).count() <= 1);
+        assert!(decision.shown.layers.iter().filter(holds).count() <= 1);
         decision
     }
 
-    pub(super) fn quiet(&mut self, north: f64) -> Decision {
+    pub(super) fn quiet(&mut self, north: f64) -> Ticked {
         self.tick(north, false, false)
     }
-    pub(super) fn smell(&mut self, north: f64) -> Decision {
+    pub(super) fn smell(&mut self, north: f64) -> Ticked {
         self.tick(north, true, false)
     }
-    pub(super) fn arrive(&mut self, north: f64) -> Decision {
+    pub(super) fn arrive(&mut self, north: f64) -> Ticked {
         self.tick(north, false, true)
     }
 
     /// Detects at `north` and loses the plume there.
-    pub(super) fn point(&mut self, north: f64) -> Decision {
+    pub(super) fn point(&mut self, north: f64) -> Ticked {
         self.smell(north);
         self.t_s += 5.0;
         self.quiet(north + 10.0)
@@ -144,12 +144,12 @@ fn belief(at: Vector2<f64>) -> Belief {
     }
 }
 
-pub(super) fn said(d: &Decision) -> String {
+pub(super) fn said(d: &Ticked) -> String {
     let word = |s| match s {
         LayerState::Silent => '.',
         LayerState::Holds => 'H',
         LayerState::Suppressed => 's',
         LayerState::Inhibited => 'i',
     };
-    d.layers.iter().map(|l| word(l.state)).collect()
+    d.shown.layers.iter().map(|l| word(l.state)).collect()
 }

@@ -10,7 +10,7 @@ use crate::declare::DeclareSpec;
 use crate::guide::{Guidance, GuidanceSpec};
 use crate::handoff::testing::{area, seen, smelling, steered};
 use crate::handoff::{Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan, Setting};
-use crate::strategy::Strategy;
+use crate::strategy::testing::Ticked;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
 use world::math;
@@ -117,12 +117,12 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
         }
         o.ranging = (tick.is_multiple_of(5)).then(|| ping(p, o.estimate.attitude.heading));
         o.guidance = status;
-        let d = planner.step(&smelling(o.clone(), patch && in_width(p, o.t_s)), &mut rng);
+        let d = Ticked::step(&mut planner, &smelling(o.clone(), patch && in_width(p, o.t_s)), &mut rng);
         if report.seen.last() != Some(&d.behaviour) {
             report.seen.push(d.behaviour);
         }
         let avoiding = |l: &crate::handoff::Layer| l.name == "avoid" && l.state == LayerState::Holds;
-        report.avoided_s += f64::from(u8::from(d.layers.iter().any(avoiding))) * DT_S;
+        report.avoided_s += f64::from(u8::from(d.shown.layers.iter().any(avoiding))) * DT_S;
         report.declared = report.declared.or(d.declared.map(|d| d.position));
         report.nearest_m = report.nearest_m.min(wall_m(p));
         if d.outcome.is_some() {

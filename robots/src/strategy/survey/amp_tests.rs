@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::handoff::testing::{seen, smelling};
-use crate::handoff::{Behaviour, Decision, Manoeuvre, Outcome, SidescanPing, Verdict, Vertical};
-use crate::strategy::{Amp, AmpSpec, Strategy};
+use crate::handoff::{Behaviour, Manoeuvre, Outcome, SidescanPing, Verdict, Vertical};
+use crate::strategy::testing::Ticked;
+use crate::strategy::{Amp, AmpSpec};
 use nalgebra::{Vector2, Vector3};
 use world::seeds::Stream;
 use world::units::Heading;
@@ -22,7 +23,7 @@ impl Desk {
     }
 
     /// A tick at a place, on a heading; during a survey the sidescan hears a bare bed if `sonar`.
-    fn tick(&mut self, p: Vector2<f64>, heading: Heading, smells: bool, arrived: bool, sonar: bool) -> Decision {
+    fn tick(&mut self, p: Vector2<f64>, heading: Heading, smells: bool, arrived: bool, sonar: bool) -> Ticked {
         self.t_s += 0.1;
         let mut o = smelling(seen(self.t_s, p, heading.deg(), Some(Vector2::new(0.0, -0.2))), smells);
         o.guidance.goal_id = self.goal_id;
@@ -32,14 +33,14 @@ impl Desk {
             o.sidescan =
                 Some(SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level });
         }
-        let d = self.amp.step(&o, &mut self.rng);
+        let d = Ticked::step(&mut self.amp, &o, &mut self.rng);
         self.goal_id = d.goal.id;
         d
     }
 
     /// Three points within 4 m along the flow, lost one after the other; returns the decision at the end of the last
     /// Track-Out.
-    fn declare(&mut self) -> Decision {
+    fn declare(&mut self) -> Ticked {
         let north = Heading::from_deg(350.0);
         for k in 0..3 {
             let p = Vector2::new(0.0, f64::from(k));
@@ -52,7 +53,7 @@ impl Desk {
     }
 
     /// Flies the lines of the survey until it ends.
-    fn survey(&mut self, mut d: Decision, sonar: bool) -> Decision {
+    fn survey(&mut self, mut d: Ticked, sonar: bool) -> Ticked {
         for _ in 0..2 {
             let Manoeuvre::FollowLine { from, to } = d.goal.manoeuvre else {
                 panic!("a survey follows lines: {d:?}");
@@ -84,7 +85,7 @@ fn a_declaration_is_surveyed_and_rejected_where_there_is_nothing() {
     assert_eq!(again.position, declared.position);
     // The points are forgotten, and the search continues at the mission's own height.
     assert_eq!((end.behaviour, end.outcome), (Behaviour::Find, None));
-    assert!(end.lost_points.is_empty());
+    assert!(end.shown.lost_points.is_empty());
     assert_eq!(end.goal.vertical, Vertical::Altitude(2.0));
     // The next one is another.
     let second = desk.declare();

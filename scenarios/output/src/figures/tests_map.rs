@@ -17,7 +17,6 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
-use std::sync::Arc;
 use world::area::Area;
 use world::fields::Concentration;
 use world::math;
@@ -85,7 +84,7 @@ fn mission() -> Vec<Frame> {
         Area { centre: area().world(at), length_m: 547.0, width_m: 183.5, ..area() }
     };
     let states = [RegionState::UpFlowEdge, RegionState::TimedOut, RegionState::UpFlowEdge, RegionState::Declared];
-    let all: Arc<[Region]> = (0..4)
+    let all: Vec<Region> = (0..4)
         .map(|k| Region { area: part(k), state: states[k as usize], from_s: Some(0.0), until_s: Some(1.0) })
         .collect();
     let from = source().position.xy();
@@ -103,7 +102,7 @@ fn mission() -> Vec<Frame> {
     for f in &mut run {
         let r = &mut f.robots[0];
         r.declarations = said.to_vec();
-        r.regions = Regions { all: all.clone(), now: None };
+        r.shown.regions = Regions { all: all.clone(), now: None };
     }
     run
 }

@@ -136,12 +136,8 @@ pub(super) mod tests {
             chemical: None,
             detected: false,
             behaviour: Behaviour::Find,
-            layers: std::sync::Arc::default(),
-            lost_points: Vec::new(),
-            zone: Default::default(),
-            planned: std::sync::Arc::default(),
+            shown: Default::default(),
             belief: None,
-            regions: Default::default(),
             declarations: Vec::new(),
             fix_m: None,
         };

@@ -10,6 +10,7 @@ use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use crate::scene::ros_name;
+use rheotaxis::frame::Frame;
 use rheotaxis::topic::chunk;
 use rheotaxis::trial::Event;
 use std::path::PathBuf;
@@ -275,7 +276,7 @@ fn serve(tree: &mut Tree<'_>, ros: &mut Option<Door<'_>>, mailbox: &Mailbox, map
                 }
                 say_rest(tree, ros, &rest);
                 drop(tree.say_for_good(message::digest(&digest)));
-                drop(tree.say(message::clock(last.0, last.1, true, mailbox.counts())));
+                drop(tree.say_last(message::clock(last.0, last.1, true, mailbox.counts())));
             }
             Work::Close => return,
         }

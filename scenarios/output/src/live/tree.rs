@@ -53,13 +53,23 @@ impl<'a> Tree<'a> {
 
     /// Sends and keeps a message. If it does not fit into a subscriber's queue at once, that subscriber loses it.
     pub(super) fn say(&self, message: Message) -> Result<()> {
+        self.put(message, CongestionControl::Drop)
+    }
+
+    /// Sends and keeps the last message. It waits for room in the queues of subscribers, so that none that reads loses
+    /// it.
+    pub(super) fn say_last(&self, message: Message) -> Result<()> {
+        self.put(message, CongestionControl::Block)
+    }
+
+    fn put(&self, message: Message, congestion: CongestionControl) -> Result<()> {
         let key = self.key(&message)?;
         keep(&self.kept, key.clone(), message.clone());
         let put = self
             .session
             .put(&key, message.payload.clone())
             .encoding(encoding(&message))
-            .congestion_control(CongestionControl::Drop);
+            .congestion_control(congestion);
         put.attachment(message.attachment).wait()
     }
 

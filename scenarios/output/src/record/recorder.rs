@@ -33,7 +33,7 @@ pub struct Recorder {
     behaviours: Vec<&'static str>,
     declared: Vec<Vec<Declaration>>,
     regions: Vec<Option<u32>>,
-    layers: Vec<Arc<[Layer]>>,
+    layers: Vec<Vec<Layer>>,
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
     map_period_s: f64,
@@ -139,7 +139,7 @@ impl Recorder {
         self.behaviours.resize(frame.robots.len(), "");
         self.declared.resize(frame.robots.len(), Vec::new());
         self.regions.resize(frame.robots.len(), None);
-        self.layers.resize_with(frame.robots.len(), Arc::default);
+        self.layers.resize_with(frame.robots.len(), Vec::new);
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
             self.map(frame.t_s, robot)?;
@@ -239,9 +239,9 @@ impl Recorder {
             self.behaviours[k] = r.behaviour.name();
             put("behaviour", MessageKind::Text, &text(r.behaviour.name()))?;
         }
-        if self.layers[k] != r.layers {
-            self.layers[k] = r.layers.clone();
-            put("layers", MessageKind::Text, &text(&layers_line(&r.layers)))?;
+        if self.layers[k] != r.shown.layers {
+            self.layers[k] = r.shown.layers.clone();
+            put("layers", MessageKind::Text, &text(&layers_line(&r.shown.layers)))?;
             let holds = r.holding_layer().unwrap_or("");
             put("layer", MessageKind::Text, &text(holds))?;
         }
@@ -256,9 +256,9 @@ impl Recorder {
             let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
             put("declaration", MessageKind::PoseStamped, &pose)?;
         }
-        if self.regions[k] != r.regions.now {
-            self.regions[k] = r.regions.now;
-            let name = r.regions.now.map_or_else(String::new, region_name);
+        if self.regions[k] != r.shown.regions.now {
+            self.regions[k] = r.shown.regions.now;
+            let name = r.shown.regions.now.map_or_else(String::new, region_name);
             put("region", MessageKind::Text, &text(&name))?;
         }
         Ok(())

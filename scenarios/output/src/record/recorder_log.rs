@@ -64,16 +64,16 @@ impl LogState {
                 lines.push(format!("detects the plume: {volts:.2} V"));
             }
         }
-        if self.region != r.regions.now {
-            self.region = r.regions.now;
+        if self.region != r.shown.regions.now {
+            self.region = r.shown.regions.now;
             lines.extend(self.region.map(|k| format!("subregion {}", region_name(k))));
         }
-        if r.lost_points.len() > self.lost
-            && let Some(p) = r.lost_points.last()
+        if r.shown.lost_points.len() > self.lost
+            && let Some(p) = r.shown.lost_points.last()
         {
             lines.push(format!("lost the plume at {}", place(p)));
         }
-        self.lost = r.lost_points.len();
+        self.lost = r.shown.lost_points.len();
         lines.extend(self.behaves(r.behaviour.name()));
         if self.layer != r.holding_layer() {
             self.layer = r.holding_layer();

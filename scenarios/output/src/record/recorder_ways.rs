@@ -10,7 +10,6 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use robots::handoff::Zone;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// How far a recorded way may be off, as a share of the area's diagonal; and without an area, m.
 const TOLERANCE: f64 = 0.001;
@@ -33,8 +32,8 @@ pub(super) struct WayRecorder {
     ways: BTreeMap<String, GrowingPath>,
     /// Newest marks and plan, by topic: they are recorded when they change.
     marks: BTreeMap<String, [Vec<Vector3<f64>>; 3]>,
-    plans: BTreeMap<String, Arc<Vec<Vector3<f64>>>>,
-    zones: BTreeMap<String, Arc<Zone>>,
+    plans: BTreeMap<String, Vec<Vector3<f64>>>,
+    zones: BTreeMap<String, Zone>,
 }
 
 impl WayRecorder {
@@ -53,16 +52,16 @@ impl WayRecorder {
             let plan = ["/", &r.id, "/plan"].concat();
             let known = self.plans.get(&plan);
             // Without a plan there is no topic; one that is given up leaves an empty path.
-            if known.map_or(!r.planned.is_empty(), |k| *k != r.planned) {
-                let cdr = path(t_ns, WORLD, &r.planned);
+            if known.map_or(!r.shown.planned.is_empty(), |k| *k != r.shown.planned) {
+                let cdr = path(t_ns, WORLD, &r.shown.planned);
                 file.write(&plan, MessageKind::Path, t_ns, &cdr)?;
-                self.plans.insert(plan, Arc::clone(&r.planned));
+                self.plans.insert(plan, r.shown.planned.clone());
             }
             let places = r.declarations.iter().map(|d| d.position);
             let declared: Vec<_> = places.collect();
-            let flat = [&r.lost_points, &r.zone.points, &declared].map(Vec::as_slice);
+            let flat = [&r.shown.lost_points, &r.shown.zone.points, &declared].map(Vec::as_slice);
             self.mark(file, t_ns, &r.id, believed.z, flat)?;
-            self.zone(file, t_ns, &r.id, believed.z, &r.zone)?;
+            self.zone(file, t_ns, &r.id, believed.z, &r.shown.zone)?;
         }
         for g in &frame.gantries {
             self.pass(["/", &g.id, "/head/path"].concat(), g.head_W);
@@ -79,7 +78,7 @@ impl WayRecorder {
     }
 
     /// The outline of what the declaration rule looked at, closed, at the height of its machine.
-    fn zone(&mut self, file: &mut McapFile, t_ns: u64, id: &str, z: f64, zone: &Arc<Zone>) -> Result<(), RecordError> {
+    fn zone(&mut self, file: &mut McapFile, t_ns: u64, id: &str, z: f64, zone: &Zone) -> Result<(), RecordError> {
         let topic = ["/", id, "/zone"].concat();
         let known = self.zones.get(&topic);
         if known.map_or(zone.corners.is_empty(), |k| k == zone) {
@@ -89,7 +88,7 @@ impl WayRecorder {
         let outline: Vec<_> = corners.map(|p| on_plane(*p, z)).collect();
         let cdr = path(t_ns, WORLD, &outline);
         file.write(&topic, MessageKind::Path, t_ns, &cdr)?;
-        self.zones.insert(topic, Arc::clone(zone));
+        self.zones.insert(topic, zone.clone());
         Ok(())
     }
 

@@ -102,11 +102,11 @@ fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaratio
     let mut run = frames(20);
     let half = Area { length_m: 500.0, ..area() };
     let region = |state| Region { area: half, state, from_s: Some(1.0), until_s: None };
-    let all: Arc<[Region]> = Arc::new([region(RegionState::SourceFree), region(RegionState::Searching)]);
+    let all = vec![region(RegionState::SourceFree), region(RegionState::Searching)];
     let mut builder = SummaryBuilder::new(&info());
     for (k, f) in run.iter_mut().enumerate() {
         let r = &mut f.robots[0];
-        r.regions = Regions { all: all.clone(), now: (k > 50).then_some(1) };
+        r.shown.regions = Regions { all: all.clone(), now: (k > 50).then_some(1) };
         if let Some(first) = r.declarations.first().copied() {
             r.declarations.push(Declaration { number: 1, region: Some(1), verdict: Verdict::Verified, ..first });
         }

@@ -7,18 +7,17 @@ use nalgebra::Vector2;
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
-use std::sync::Arc;
 
 /// A mission over two subregions: the first ended at the plume's edge, the second timed out.
 fn over_subregions() -> Vec<Frame> {
     let mut run = frames(20);
     let region = |state| Region { area: area(), state, from_s: Some(1.0), until_s: Some(9.0) };
-    let all: Arc<[Region]> = Arc::new([region(RegionState::UpFlowEdge), region(RegionState::TimedOut)]);
+    let all = vec![region(RegionState::UpFlowEdge), region(RegionState::TimedOut)];
     let edge = Declaration { region: Some(0), ..Declaration::first(9.0, Vector2::new(150.0, 100.0), UP_FLOW_EDGE) };
     for f in &mut run {
         let r = &mut f.robots[0];
         r.declarations = vec![edge];
-        r.regions = Regions { all: all.clone(), now: None };
+        r.shown.regions = Regions { all: all.clone(), now: None };
     }
     run
 }

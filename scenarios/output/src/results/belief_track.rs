@@ -40,7 +40,7 @@ pub struct BeliefSnapshot {
     /// The map.
     pub belief: Belief,
     /// The planned path (ENU), m.
-    pub planned: Arc<Vec<Vector3<f64>>>,
+    pub planned: Vec<Vector3<f64>>,
     /// The plume.
     pub plume: Option<Arc<PlumeFrame>>,
 }
@@ -92,7 +92,7 @@ impl BeliefTrack {
     }
 
     fn snapshot(&self, r: &RobotFrame, belief: &Belief) -> BeliefSnapshot {
-        BeliefSnapshot { belief: belief.clone(), planned: r.planned.clone(), plume: self.plume.clone() }
+        BeliefSnapshot { belief: belief.clone(), planned: r.shown.planned.clone(), plume: self.plume.clone() }
     }
 }
 
@@ -260,7 +260,7 @@ mod tests {
     fn it_settles_when_the_best_cell_last_changed() {
         let at = |t: f64, best: usize| BeliefSnapshot {
             belief: Belief { t_s: t, updates: t as u64, informed: true, best, ..belief(50.0) },
-            planned: Arc::default(),
+            planned: Vec::new(),
             plume: None,
         };
         let mut robot = RobotBelief::new("auv0", at(1.0, 7));

@@ -102,13 +102,13 @@ impl Robot {
     fn declared(&mut self, t_s: f64, r: &RobotFrame) {
         self.fixes.extend(r.fix_m.map(|m| (t_s, m)));
         self.fixes.retain(|(then, _)| t_s - then <= FIX_S);
-        if r.regions.now.is_some() && r.regions.now != self.regions.now {
+        if r.shown.regions.now.is_some() && r.shown.regions.now != self.regions.now {
             self.in_region = None;
         }
-        if r.detected && (r.regions.all.is_empty() || r.regions.now.is_some()) {
+        if r.detected && (r.shown.regions.all.is_empty() || r.shown.regions.now.is_some()) {
             self.in_region.get_or_insert(r.truth.pose.p_WB.xy());
         }
-        self.regions = r.regions.clone();
+        self.regions = r.shown.regions.clone();
         for d in &r.declarations {
             self.made.entry(d.number).or_insert_with(|| {
                 let traced_m = self.in_region.map(|from| (d.position - from).norm());

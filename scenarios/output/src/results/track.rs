@@ -9,7 +9,6 @@ use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Behaviour, Declaration, Layer, Region, Vertical, region_name};
 use std::io::Write as _;
 use std::path::Path;
-use std::sync::Arc;
 use world::files::Output;
 
 /// What tables and figures need to know about a robot beforehand.
@@ -76,11 +75,11 @@ pub struct RobotTrack {
     /// Its declarations so far.
     pub declarations: Vec<Declaration>,
     /// The present state of the subregions of its mission.
-    pub regions: Arc<[Region]>,
+    pub regions: Vec<Region>,
     region: Option<u32>,
     lost_before: usize,
     /// States of its planner's layers, each from a time (s) until the next, up to a limit.
-    pub layers: Vec<(f64, Arc<[Layer]>)>,
+    pub layers: Vec<(f64, Vec<Layer>)>,
     stride: usize,
     skip: usize,
 }
@@ -109,7 +108,7 @@ impl RobotTrack {
             lost_over_time: Vec::new(),
             lost_now: Vec::new(),
             declarations: Vec::new(),
-            regions: Arc::default(),
+            regions: Vec::new(),
             region: None,
             lost_before: 0,
             layers: Vec::new(),
@@ -140,7 +139,7 @@ impl RobotTrack {
 
     /// Notes which lost points are new, and which have gone.
     fn lost(&mut self, t_s: f64, r: &RobotFrame) {
-        let new = r.lost_points.iter().map(|q| [q.x, q.y]);
+        let new = r.shown.lost_points.iter().map(|q| [q.x, q.y]);
         if self.lost_now.iter().copied().eq(new.clone()) {
             return;
         }
@@ -164,22 +163,22 @@ impl RobotTrack {
             self.detections.push([p.x, p.y]);
         }
         // Those of earlier subregions are kept.
-        if r.regions.now.is_some() && r.regions.now != self.region {
-            self.region = r.regions.now;
+        if r.shown.regions.now.is_some() && r.shown.regions.now != self.region {
+            self.region = r.shown.regions.now;
             self.lost_before = self.lost_points.len();
         }
-        if !r.lost_points.is_empty() {
+        if !r.shown.lost_points.is_empty() {
             self.lost_points.truncate(self.lost_before);
-            self.lost_points.extend(r.lost_points.iter().map(|q| [q.x, q.y]));
+            self.lost_points.extend(r.shown.lost_points.iter().map(|q| [q.x, q.y]));
         }
         self.lost(t_s, r);
         if self.declarations != r.declarations {
             self.declarations.clone_from(&r.declarations);
         }
-        self.regions = r.regions.all.clone();
-        let new = self.layers.last().is_none_or(|l| l.1 != r.layers);
-        if new && !r.layers.is_empty() && self.layers.len() < KEPT {
-            self.layers.push((t_s, r.layers.clone()));
+        self.regions = r.shown.regions.all.clone();
+        let new = self.layers.last().is_none_or(|l| l.1 != r.shown.layers);
+        if new && !r.shown.layers.is_empty() && self.layers.len() < KEPT {
+            self.layers.push((t_s, r.shown.layers.clone()));
         }
         if self.skip > 0 {
             self.skip -= 1;
@@ -275,7 +274,7 @@ impl TrackTable {
             if let Some(file) = &mut self.file {
                 let mut fields = row(frame.t_s, r, &robot.info);
                 if self.regions {
-                    fields.push_field(&r.regions.now.map_or_else(String::new, region_name));
+                    fields.push_field(&r.shown.regions.now.map_or_else(String::new, region_name));
                 }
                 if self.layered {
                     fields.push_field(r.holding_layer().unwrap_or(""));

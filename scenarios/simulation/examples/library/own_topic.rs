@@ -7,14 +7,12 @@
 
 use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use rheotaxis::extend::{Extend, Systems};
-use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::searchers::SearcherId;
 use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
 use rheotaxis::trial::{Event, Observer, Trial, Unwatched};
 use robots::handoff::Readings;
 use serde::Serialize;
-use std::sync::Arc;
 use world::clock::Clock;
 use world::registry::Registry;
 use world::stage::Stage;

@@ -85,15 +85,15 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Vec<(
             }),
         );
     }
-    let lost: Vec<[f64; 2]> = r.lost_points.iter().map(|p| [p.x, p.y]).collect();
+    let lost: Vec<[f64; 2]> = r.shown.lost_points.iter().map(|p| [p.x, p.y]).collect();
     let mut doing = json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost});
-    if !r.zone.points.is_empty() {
+    if !r.shown.zone.points.is_empty() {
         let [points, corners] =
-            [&r.zone.points, &r.zone.corners].map(|all| all.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
+            [&r.shown.zone.points, &r.shown.zone.corners].map(|all| all.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
         doing = merged(doing, json!({"zone_points_m": points, "zone_m": corners}));
     }
-    if let Some(k) = r.regions.now {
-        let corners = r.regions.all[k as usize].area.corners();
+    if let Some(k) = r.shown.regions.now {
+        let corners = r.shown.regions.all[k as usize].area.corners();
         let corners = corners.map(|p| [p.x, p.y]);
         doing = merged(doing, json!({"region": k, "region_name": region_name(k), "region_m": corners}));
     }
@@ -102,9 +102,9 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Vec<(
         doing = merged(doing, json!({ "abnormal": wrong }));
     }
     say("behaviour", doing);
-    if !r.layers.is_empty() {
-        let names: Vec<&str> = r.layers.iter().map(|l| l.name).collect();
-        let states: Vec<_> = r.layers.iter().map(|l| l.state).collect();
+    if !r.shown.layers.is_empty() {
+        let names: Vec<&str> = r.shown.layers.iter().map(|l| l.name).collect();
+        let states: Vec<_> = r.shown.layers.iter().map(|l| l.state).collect();
         let mut said = json!({"t_s": t_s, "layers": names, "states": states});
         if let Some(holds) = r.holding_layer() {
             said["holds"] = holds.into();

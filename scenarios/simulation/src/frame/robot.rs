@@ -1,12 +1,10 @@
 //! A robot at one instant, the pictures of its camera and the pings of its sidescan.
 
 use super::NewestReadings;
-use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer, LayerState, Picture,
-    Regions, SidescanPing, Vertical, Zone,
+    Shown, SidescanPing, Vertical,
 };
-use std::sync::Arc;
 use world::frames::{Pose, Truth};
 
 /// One robot at one instant.
@@ -36,18 +34,10 @@ pub struct RobotFrame {
     pub detected: bool,
     /// What it is doing.
     pub behaviour: Behaviour,
-    /// Layers of its planner, lowest first; empty for a strategy without layers.
-    pub layers: Arc<[Layer]>,
-    /// Points where it lost the plume, as it believes (east, north), m.
-    pub lost_points: Vec<Vector2<f64>>,
-    /// What its declaration rule looked at last.
-    pub zone: Arc<Zone>,
-    /// The path it plans to follow (ENU), m; empty without a path.
-    pub planned: Arc<Vec<Vector3<f64>>>,
+    /// What its strategy shows of itself.
+    pub shown: Shown,
     /// Its map of where the source may be, if it keeps one. It is new only if [`Belief::updates`] has grown.
     pub belief: Option<Belief>,
-    /// The subregions of its mission; none if the area is not divided.
-    pub regions: Regions,
     /// Its declarations so far, by number.
     pub declarations: Vec<Declaration>,
     /// The largest shift of its estimate by a position fix since the previous frame, m; `None` without a fix.
@@ -70,7 +60,7 @@ impl RobotFrame {
     #[must_use]
     pub fn holding_layer(&self) -> Option<&'static str> {
         let holds = |l: &&Layer| l.state == LayerState::Holds;
-        self.layers.iter().find(holds).map(|l| l.name)
+        self.shown.layers.iter().find(holds).map(|l| l.name)
     }
 }
 

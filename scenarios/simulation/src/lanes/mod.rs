@@ -76,11 +76,11 @@ pub struct Lanes<O> {
 
 struct Lane<O> {
     trial: Trial,
-    observer: W,
+    observer: O,
     failed: Option<String>,
 }
 
-impl<W> Default for Lanes<O> {
+impl<O> Default for Lanes<O> {
     fn default() -> Self {
         Self { course: None, ocean: None, lanes: Vec::new(), spun_up: false, threads: 1 }
     }

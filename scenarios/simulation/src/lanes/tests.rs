@@ -149,6 +149,7 @@ fn an_observer_ends_its_own_lane_alone() {
         stop_share: (n == 0).then_some(0.5),
         stop_s: (n == 1).then_some(3.0),
         panic_s: (n == 2).then_some(4.0),
+        stops: false,
     });
     let stopped = |n: usize| ends[n].as_ref().expect("it has an end");
     assert_eq!(stopped(0).outcome, RunOutcome::Interrupted);

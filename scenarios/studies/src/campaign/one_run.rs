@@ -7,11 +7,9 @@ use output::results::{
     DeclarationSummary, GantrySummary, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary, SummaryBuilder,
     SummaryEnd, Totals,
 };
-use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial};
-use std::sync::Arc;
 use std::time::Duration;
 use world::seeds::Seed;
 

@@ -216,7 +216,9 @@ impl Listener {
             known.silent = known.silent.map(|silent| silent + wait);
             if known.asked && !known.over && known.silent > Some(SILENCE) {
                 known.over = true;
-                self.ready.push_back(News::Gone(run.clone()));
+                // Its last answers may have been lost with its connection.
+                let end = if known.ended { News::Ended } else { News::Gone };
+                self.ready.push_back(end(run.clone()));
             }
         }
     }

@@ -111,11 +111,11 @@ impl LatchedTopics {
             of.add(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
         }
         self.behaviour(of, r.behaviour.name());
-        if !r.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
+        if !r.shown.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
             // The stamp is that of the start, so that the same path is the same message.
-            let same = path(0, MAP, &r.planned);
+            let same = path(0, MAP, &r.shown.planned);
             if self.is_new(plan_of(of), same) {
-                of.add(&topics::PLAN, path(t_ns, MAP, &r.planned));
+                of.add(&topics::PLAN, path(t_ns, MAP, &r.shown.planned));
             }
         }
         for d in &r.declarations {

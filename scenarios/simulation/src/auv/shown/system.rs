@@ -1,11 +1,11 @@
 //! The system that puts robots into frames.
 
-use crate::auv::{Briefing, Log, Robots};
+use crate::auv::{Briefing, Log, Robots, SearcherParts};
 use crate::frame::RobotFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::{SearcherId, whole};
+use crate::searchers::{SearcherId, must_be_sound, whole};
 use bevy_ecs::prelude::{Query, Res, ResMut};
 use robots::handoff::{Actuation, Belief, Command, Decision, Estimate};
 use world::frames::Truth;
@@ -15,6 +15,7 @@ type Pictured<'a> = (
     &'a Briefing,
     &'a Truth,
     &'a Estimate,
+    &'a SearcherParts,
     &'a Decision,
     &'a Command,
     &'a Actuation,
@@ -34,8 +35,11 @@ pub(crate) fn picture(
     };
     let mut each = robots.iter_many_mut(&roster.0);
     while let Some(parts) = each.fetch_next().map(whole) {
-        let (id, briefing, truth, estimate, decision, command, set, belief, mut log) = parts;
+        let (id, briefing, truth, estimate, searcher, decision, command, set, belief, mut log) = parts;
         let p = truth.pose.p_WB;
+        let shown = searcher.strategy.shown();
+        let fault = shown.fault(searcher.bounds);
+        must_be_sound(fault, ["robot", &id.name], ["strategy", searcher.name], frame.t_s);
         frame.robots.push(RobotFrame {
             id: id.name.clone(),
             truth: *truth,
@@ -49,12 +53,8 @@ pub(crate) fn picture(
             chemical: log.chemical,
             detected: std::mem::take(&mut log.detected),
             behaviour: decision.behaviour,
-            layers: decision.layers.clone(),
-            lost_points: decision.lost_points.clone(),
-            zone: decision.zone.clone(),
-            planned: decision.planned.clone(),
+            shown,
             belief: belief.cloned(),
-            regions: decision.regions.clone(),
             declarations: score.searchers[id.place].declarations.clone(),
             fix_m: log.fix_m.take(),
         });
