@@ -30,6 +30,23 @@ pub(super) fn count(b: CellBox) -> usize {
     b.iter().map(|(lo, hi)| hi - lo).product()
 }
 
+/// Squares of the distances of a row's cells, from its cell `first` on, to the nearest solid one (0 in `row`), m².
+fn sweep(row: &[f64], gaps2: &[f64], first: usize, out: &mut [f64]) {
+    fn one_way<'a>(cells: impl Iterator<Item = (&'a mut usize, &'a f64)>, most: usize) {
+        let mut steps = most;
+        for (near, d) in cells {
+            steps = if *d == 0.0 { 0 } else { steps.saturating_add(1) };
+            *near = steps.min(*near);
+        }
+    }
+    let mut near = vec![gaps2.len(); row.len()];
+    one_way(near.iter_mut().zip(row), gaps2.len());
+    one_way(near.iter_mut().zip(row).rev(), gaps2.len());
+    for (out, near) in out.iter_mut().zip(&near[first..]) {
+        *out = gaps2.get(*near).copied().unwrap_or(f64::INFINITY);
+    }
+}
+
 /// Calls `show` for each cell of box `b` with its distance (m) from the nearest solid cell, if that is less than
 /// `reach_m`. A solid cell itself gets −`inside_m`.
 pub(super) fn for_each(
@@ -59,6 +76,14 @@ pub(super) fn for_each(
         let (n, m) = (size(at), size(to));
         let inner: usize = n[..a].iter().product();
         let mut next = vec![f64::INFINITY; m.iter().product()];
+        if a == 0 {
+            // Along the first axis cells are solid or not: two sweeps find the nearest, however small cells are.
+            for (row, out) in d2.chunks_exact(n[0]).zip(next.chunks_exact_mut(m[0])) {
+                sweep(row, &gaps2, to[0].0 - at[0].0, out);
+            }
+            (d2, at) = (next, to);
+            continue;
+        }
         for outer in 0..n[a + 1..].iter().product::<usize>() {
             for i in 0..m[a] {
                 let out = &mut next[(outer * m[a] + i) * inner..][..inner];
@@ -86,6 +111,27 @@ pub(super) fn for_each(
                     show(cell, d);
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_sweeps_find_what_a_search_over_the_reach_finds() {
+        let gaps2: Vec<f64> = (0..4).map(|i| gap_m(0.5, i)).map(|x| x * x).collect();
+        // Every row of nine cells.
+        for solid in 0u32..1 << 9 {
+            let row: Vec<f64> = (0..9).map(|j| if solid >> j & 1 == 1 { 0.0 } else { f64::INFINITY }).collect();
+            let mut got = [f64::NAN; 5];
+            sweep(&row, &gaps2, 2, &mut got);
+            let search = |i: usize| {
+                let near = (0..9).filter(|j| i.abs_diff(*j) < gaps2.len());
+                near.map(|j| row[j] + gaps2[i.abs_diff(j)]).fold(f64::INFINITY, f64::min)
+            };
+            assert_eq!(got, [2, 3, 4, 5, 6].map(search), "{solid:09b}");
         }
     }
 }

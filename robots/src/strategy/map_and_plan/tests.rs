@@ -1,6 +1,6 @@
 //! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, with a map written by hand.
 
-use super::super::spec::{VerticalSpec};
+use super::super::spec::VerticalSpec;
 use super::super::survey::AfterDeclaration;
 use super::*;
 use crate::handoff::testing::seen;

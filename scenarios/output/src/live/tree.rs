@@ -65,11 +65,8 @@ impl<'a> Tree<'a> {
     fn put(&self, message: Message, congestion: CongestionControl) -> Result<()> {
         let key = self.key(&message)?;
         keep(&self.kept, key.clone(), message.clone());
-        let put = self
-            .session
-            .put(&key, message.payload.clone())
-            .encoding(encoding(&message))
-            .congestion_control(congestion);
+        let put =
+            self.session.put(&key, message.payload.clone()).encoding(encoding(&message)).congestion_control(congestion);
         put.attachment(message.attachment).wait()
     }
 
