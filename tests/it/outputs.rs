@@ -240,7 +240,7 @@ fn a_campaign_replaces_only_files() {
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
     fs::write(at("s.ron"), short()).unwrap();
-    let campaign = "(version: 1, title: \"t\", base: \"s.ron\", seeds: 2, seed: 1, arms: [(name: \"a\")])";
+    let campaign = "(version: 2, title: \"t\", base: \"s.ron\", seeds: 2, arms: [(name: \"a\")])";
     fs::write(at("c.ron"), campaign).unwrap();
     let (code, said) = ends(dir.path(), &["campaign", "run", "c.ron", "--out", "c", "--quiet"]);
     assert_eq!(code, Some(0), "{said}");

@@ -181,8 +181,7 @@ pub(super) const CAMPAIGN_ABOUT: &str = "A campaign runs variants of a scenario 
         `plan`, which checks the file and estimates the cost; then `run`, `status` and `report`.\n\n\
         Seeds: `seeds: 20` means seeds 1 to 20, and `seeds: Literal(first: 101, count: 20)` means 101 to 120. Each row \
         is then the run of `rheotaxis run --seed N` of the same scenario and has the same digest. \
-        `seeds: Hashed(seed: 1, count: 20)` gives every condition seeds of its own. In a file of version 1, a number \
-        means hashed seeds; it is still read so, with a warning.\n\n\
+        `seeds: Hashed(seed: 1, count: 20)` gives every condition seeds of its own.\n\n\
         `run` writes blocks of rows, each a Parquet file. A run that has a row is done, so a campaign can be \
         interrupted and continued at any time, and any number of machines can work in the same folder. A row does not \
         depend on how the work was divided.\n\n\

@@ -68,7 +68,6 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     };
     let mut campaign = load(&args.file)?;
     campaign.key = args.key.get();
-    say::warnings(&campaign.notes());
     let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(0) };
     bar.set_style(
         ProgressStyle::with_template("{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}")

@@ -8,7 +8,6 @@ use studies::campaign::{Campaign, CampaignError, LONGEST, RunName, block_of, loa
 /// Checks a campaign and counts its runs. Unless `--no-probe` is given, makes the first run to estimate the cost.
 pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     let campaign = load(&args.file)?;
-    say::warnings(&campaign.notes());
     campaign.check()?;
     let (runs, conditions) = (campaign.n_runs(), campaign.spec.n_conditions());
     let seeds = campaign.spec.seeds;

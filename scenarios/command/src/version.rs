@@ -1,7 +1,7 @@
 //! What `rheotaxis --version` prints: all that tells two builds apart, for reports of errors.
 
 use plumes::filaments;
-use rheotaxis::scenario::{OLDEST, VERSION};
+use rheotaxis::scenario::VERSION;
 use std::sync::LazyLock;
 
 /// Version, features, processor path, target and profile, on a line each. `-V` prints the version alone.
@@ -16,7 +16,7 @@ fn text() -> String {
         false => "none (without live: no state over zenoh)",
     };
     format!(
-        "{}\nscenarios: versions {OLDEST} to {VERSION}\nfeatures:  {features}\nprocessor: {} ({} for filaments)\n\
+        "{}\nscenarios: version {VERSION}\nfeatures:  {features}\nprocessor: {} ({} for filaments)\n\
          target:    {}\nprofile:   {}",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,

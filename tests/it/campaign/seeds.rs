@@ -6,7 +6,6 @@ use rheotaxis::scenario::set_value;
 use std::fs;
 use std::path::Path;
 use studies::campaign::RunRow;
-use world::seeds::key;
 
 fn with_seeds(dir: &Path, file: &str, seeds: &str) {
     let text = fs::read_to_string(dir.join("c.ron")).unwrap();
@@ -54,36 +53,4 @@ fn a_row_is_the_run_of_its_seed_digest_and_all() {
     assert!(page.contains("<td>slow</td><td>robots[0].strategy.speed_m_s=1.2</td>"));
     let manifest = fs::read_to_string(dir.join("other/campaign.json")).unwrap();
     assert!(manifest.contains("\"seeds\": \"seeds 101 to 102\""), "{manifest}");
-}
-
-#[test]
-fn a_file_of_version_1_means_what_it_meant_and_says_so() {
-    let folder = folder(2, "30", "1");
-    let dir = folder.path();
-    let text = fs::read_to_string(dir.join("c.ron")).unwrap();
-    let old = text.replace("version: 2", "version: 1").replace("seeds: 2", "seed: 7, seeds: 2");
-    fs::write(dir.join("old.ron"), old).unwrap();
-    with_seeds(dir, "new.ron", "seeds: Hashed(seed: 7, count: 2)");
-    let (rows, said) = ran(dir, "old.ron", "old");
-    for says in
-        ["a file of version 1: its seeds are hashed from 7", "`seeds: Hashed(seed: 7, count: 2)`", "old.ron:2:5"]
-    {
-        assert!(said.contains(says), "{says}: {said}");
-    }
-    for row in &rows {
-        let condition = format!("condition {}", row.run / 4);
-        let seed = key(7, &condition, &format!("seed {}", row.seed_index));
-        assert_eq!(row.seed, seed);
-    }
-    let (new, said) = ran(dir, "new.ron", "new");
-    assert_eq!((new, said.as_str()), (rows, ""));
-    // A folder that an older program began is gone on with.
-    let manifest = dir.join("old/campaign.json");
-    let mut json: serde_json::Value = serde_json::from_str(&fs::read_to_string(&manifest).unwrap()).unwrap();
-    for field in ["seeds", "sealed"] {
-        json.as_object_mut().unwrap().remove(field);
-    }
-    fs::write(&manifest, json.to_string()).unwrap();
-    ends(dir, 0, &["run", "old.ron", "--out", "old", "--quiet"]);
-    ends(dir, 0, &["status", "old"]);
 }

@@ -213,8 +213,8 @@ fn read_whole(
             help: Some("`rheotaxis init duck_st` writes a whole scenario to start from".to_string()),
         });
     }
-    let citation = version_first(name, text, &outline)?;
-    reader::read_renamed(name, text, Some(citation), meaning)
+    version_first(name, text, &outline)?;
+    reader::read(name, text, meaning)
 }
 
 enum Unread {

@@ -43,4 +43,4 @@ pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec, TimeSpec,
 };
 pub use success::{DeclaredSpec, ReachedSpec, SuccessSpec};
-pub use version::{OLDEST, VERSION, Version};
+pub use version::{VERSION, Version, version_first};

@@ -32,8 +32,7 @@ pub struct Scenario {
     pub version: Version,
     /// Title in lists and reports, one line.
     pub title: String,
-    /// The publication that the experiment comes from: paper, section, figure, table. Version 1 calls it `source`.
-    #[serde(alias = "source")]
+    /// The publication that the experiment comes from: paper, section, figure, table.
     pub citation: String,
     /// The operating area.
     pub area: AreaSpec,

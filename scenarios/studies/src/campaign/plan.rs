@@ -5,7 +5,7 @@ use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use super::threads::with_threads;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
-use rheotaxis::scenario::{Fault, Loaded, Outline, set_value};
+use rheotaxis::scenario::{Loaded, set_value};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
 use world::math;
@@ -60,13 +60,6 @@ impl Campaign {
             base,
             key: Key::public(),
         })
-    }
-
-    /// Remarks on how the file was read: that its seeds are those of version 1.
-    #[must_use]
-    pub fn notes(&self) -> Vec<Fault> {
-        let located = |found| Fault::located(&self.shown, &self.text, &Outline::scan(&self.text), found);
-        self.spec.note().map(located).into_iter().collect()
     }
 
     /// Number of runs.

@@ -2,6 +2,7 @@
 
 use ron::value::RawValue;
 use schemars::{JsonSchema, Schema};
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 use serde_json::{Value, json};
 use world::seeds::key;
@@ -82,19 +83,10 @@ impl Seeds {
     }
 }
 
-/// The form in the file. A number means seeds 1 to that number in version 2, and hashed seeds in version 1.
-#[derive(Clone, Debug)]
-pub(super) enum SeedsForm {
-    Number(u64),
-    Form(Seeds),
-    /// Neither of them: what is wrong with it.
-    Odd(String),
-}
-
-/// Puts the bare number that [`SeedsForm`] reads into the schema of the forms.
+/// Puts the bare number that [`number_or_form`] reads into the schema of the forms.
 fn or_number(forms: &mut Schema) {
     if let Some(Value::Array(forms)) = forms.get_mut("oneOf") {
-        let what = "`20` is seeds 1 to 20; in a file of version 1, 20 seeds hashed from its `seed`.";
+        let what = "`20` is seeds 1 to 20.";
         forms.insert(0, json!({ "type": "integer", "minimum": 1, "maximum": MOST, "description": what }));
     }
 }
@@ -102,20 +94,18 @@ fn or_number(forms: &mut Schema) {
 const FORMS: &str = "must be a number (`20`: seeds 1 to 20), `Literal(first: 101, count: 20)` (101 to 120) or \
     `Hashed(seed: 1, count: 20)`, all of whole numbers";
 
-impl<'de> Deserialize<'de> for SeedsForm {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let raw = Box::<RawValue>::deserialize(from)?;
-        let text = raw.trim().get_ron();
-        if let Ok(number) = ron::from_str::<u64>(text) {
-            return Ok(Self::Number(number));
-        }
-        let number = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        Ok(match ron::from_str::<Seeds>(text) {
-            Ok(seeds) => Self::Form(seeds),
-            Err(_) if number => Self::Odd(format!("{FORMS}, got {text}")),
-            Err(e) => Self::Odd(format!("{FORMS}: {}", e.code)),
-        })
+/// Reads seeds: a number, or one of the forms.
+pub(super) fn number_or_form<'de, D: Deserializer<'de>>(from: D) -> Result<Seeds, D::Error> {
+    let raw = Box::<RawValue>::deserialize(from)?;
+    let text = raw.trim().get_ron();
+    if let Ok(count) = ron::from_str::<u64>(text) {
+        return Ok(Seeds::Literal { first: 1, count });
     }
+    let number = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    ron::from_str::<Seeds>(text).map_err(|e| match number {
+        true => D::Error::custom(format!("{FORMS}, got {text}")),
+        false => D::Error::custom(format!("{FORMS}: {}", e.code)),
+    })
 }
 
 #[cfg(test)]
@@ -132,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn hashed_seeds_are_those_of_version_1() {
+    fn hashed_seeds_are_others_under_each_condition() {
         let seeds = Seeds::Hashed { seed: 1, count: 2 };
         assert_eq!(seeds.seed(3, 1), key(1, "condition 3", "seed 1"));
         assert_ne!(seeds.seed(3, 1), seeds.seed(2, 1));

@@ -1,63 +1,39 @@
 //! The content of a campaign file.
 
-use super::seeds::{MOST, Seeds, SeedsForm};
+use super::seeds::{MOST, Seeds, number_or_form};
 use rheotaxis::explain::FileKind;
-use rheotaxis::scenario::{Fault, Outline, ScenarioError, UnplacedFault, read};
+use rheotaxis::scenario::{Fault, Outline, ScenarioError, UnplacedFault, Version, read, version_first};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Version of the campaign files that this program writes. It also reads version 1.
-const VERSION: u32 = 2;
 /// The half width that an interval of a share must be narrower than to say anything.
 const WIDEST: f64 = 0.5;
 
 /// Campaign files, for `rheotaxis explain`.
-pub const FILE: FileKind = FileKind::new::<File>("campaign", "A campaign file, which `rheotaxis campaign plan` reads.");
+pub const FILE: FileKind =
+    FileKind::new::<CampaignSpec>("campaign", "A campaign file, which `rheotaxis campaign plan` reads.");
 
 /// A campaign: one scenario, several arms, many seeds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct CampaignSpec {
-    /// Version of the file.
-    pub version: u32,
+    /// Version of campaign files; the first field of every file.
+    pub version: Version,
     /// What is compared, in one line.
     pub title: String,
     /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
     pub base: String,
     /// How many seeds, or which.
+    #[serde(deserialize_with = "number_or_form")]
     pub seeds: Seeds,
     /// Stop earlier, once every success share is known precisely enough.
+    #[serde(default)]
     pub until: Option<Until>,
-    /// The things compared.
+    /// The things compared, at least one.
     pub arms: Vec<Arm>,
     /// The conditions under which they are compared.
+    #[serde(default)]
     pub conditions: Conditions,
-}
-
-/// A campaign: one scenario, several arms, many seeds.
-#[derive(Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, rename = "CampaignSpec")]
-struct File {
-    /// Version of the file; write 2.
-    #[schemars(extend("minimum" = 1, "maximum" = VERSION))]
-    version: u32,
-    /// What is compared, in one line.
-    title: String,
-    /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
-    base: String,
-    /// Only in version 1: what seeds and drawn conditions are derived from.
-    #[serde(default)]
-    seed: Option<u64>,
-    /// How many seeds, or which.
-    #[schemars(with = "Seeds")]
-    seeds: SeedsForm,
-    /// Stop earlier, once every success share is known precisely enough.
-    #[serde(default)]
-    until: Option<Until>,
-    /// The things compared, at least one.
-    arms: Vec<Arm>,
-    /// The conditions under which they are compared.
-    #[serde(default)]
-    conditions: Conditions,
 }
 
 /// When enough is known to stop.
@@ -108,7 +84,7 @@ pub struct RandomConditions {
     /// Number of conditions.
     #[schemars(extend("minimum" = 1, "maximum" = MOST))]
     pub n: u64,
-    /// Seed of the random values; 1 by default. In a file of version 1, the `seed` of the file.
+    /// Seed of the random values; 1 by default.
     #[serde(default)]
     pub seed: Option<u64>,
     /// Which values vary, and how: a path in the scenario and a distribution.
@@ -132,90 +108,12 @@ impl CampaignSpec {
     /// # Errors
     /// If it is not a campaign, with the place.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
-        let meaning = |file: &File| {
-            let (spec, mut found) = Self::from_file(file.clone());
-            found.extend(spec.check());
-            found
-        };
-        let file: File = read(name, text, &meaning)?;
         let outline = Outline::scan(text);
-        let (spec, found) = Self::from_file(file);
-        let faults: Vec<Fault> =
-            (found.into_iter().chain(spec.check())).map(|found| Fault::located(name, text, &outline, found)).collect();
+        version_first(name, text, &outline)?;
+        let spec: Self = read(name, text, &Self::check)?;
+        let located = |found| Fault::located(name, text, &outline, found);
+        let faults: Vec<Fault> = spec.check().into_iter().map(located).collect();
         if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::from_faults(name, faults)) }
-    }
-
-    /// What a file means, and which of its fields its version does not have.
-    fn from_file(file: File) -> (Self, Vec<UnplacedFault>) {
-        let mut found = Vec::new();
-        let mut conditions = file.conditions;
-        let odd = |found: &mut Vec<UnplacedFault>, problem| {
-            found.push(UnplacedFault::error("seeds", problem));
-            Seeds::Literal { first: 1, count: 1 }
-        };
-        let seeds = if file.version == 1 {
-            let seed = file.seed.unwrap_or(1);
-            if let Conditions::Random(random) = &mut conditions {
-                if random.seed.is_some() {
-                    let problem = "a file of version 1 has its seed as a field of its own";
-                    found.push(UnplacedFault::error("conditions.seed", problem).hint("write `version: 2`"));
-                }
-                random.seed = Some(seed);
-            }
-            match file.seeds {
-                SeedsForm::Number(count) => Seeds::Hashed { seed, count },
-                SeedsForm::Form(seeds) => {
-                    let problem = "a file of version 1 has a number here";
-                    found.push(UnplacedFault::error("seeds", problem).hint("write `version: 2`"));
-                    seeds
-                }
-                SeedsForm::Odd(problem) => odd(&mut found, problem),
-            }
-        } else {
-            if let Some(seed) = file.seed {
-                let problem = "a file of version 2 has no field `seed`";
-                let help = format!(
-                    "`seeds: 20` is seeds 1 to 20, `seeds: Hashed(seed: {seed}, count: 20)` what version 1 meant; \
-                     drawn conditions have their own: `Random(n: 20, seed: {seed}, draw: [...])`"
-                );
-                found.push(UnplacedFault::error("seed", problem).hint(help));
-            }
-            match file.seeds {
-                SeedsForm::Number(count) => Seeds::Literal { first: 1, count },
-                SeedsForm::Form(seeds) => seeds,
-                SeedsForm::Odd(problem) => odd(&mut found, problem),
-            }
-        };
-        let spec = Self {
-            version: file.version,
-            title: file.title,
-            base: file.base,
-            seeds,
-            until: file.until,
-            arms: file.arms,
-            conditions,
-        };
-        (spec, found)
-    }
-
-    /// What a file of version 1 means, and how to write it in version 2; `None` for version 2.
-    pub(super) fn note(&self) -> Option<UnplacedFault> {
-        let (1, Seeds::Hashed { seed, count }) = (self.version, self.seeds) else {
-            return None;
-        };
-        let problem = format!(
-            "a file of version 1: its seeds are hashed from {seed}, as was meant, and are not those of \
-             `rheotaxis run --seed N`"
-        );
-        let drawn = match &self.conditions {
-            Conditions::Random(_) => format!(" and `Random(seed: {seed}, ...)`"),
-            _ => String::new(),
-        };
-        let help = format!(
-            "in version 2 the same is `seeds: Hashed(seed: {seed}, count: {count})`{drawn}, without `seed`; \
-             `seeds: {count}` is seeds 1 to {count}, which pair with published runs"
-        );
-        Some(UnplacedFault::warning("version", problem).hint(help))
     }
 
     /// Number of conditions; at most 2^64 - 1.
@@ -233,10 +131,6 @@ impl CampaignSpec {
     fn check(&self) -> Vec<UnplacedFault> {
         let mut found = Vec::new();
         let mut wrong = |path: &str, problem: String| found.push(UnplacedFault::error(path, problem));
-        if !(1..=VERSION).contains(&self.version) {
-            let got = self.version;
-            wrong("version", format!("this program reads versions 1 and {VERSION}, got {got}"));
-        }
         if let Some((field, problem)) = self.seeds.fault() {
             wrong("seeds", format!("{field} {problem}"));
         }

@@ -35,17 +35,15 @@ impl Mender<'_> {
             let hint = if hint.contains('\n') || hint.len() > 2 * SHORT { choose("", legal, "fields") } else { hint };
             let found = UnplacedFault::error(&node.path, "the fields here have names").hint(hint);
             self.tell(at, found, Form::Whole);
-            let own: Vec<String> = legal.iter().map(|l| self.own(id, l).to_string()).collect();
             let items = &mut self.group(id).expect("it is one").items;
-            for (item, name) in items.iter_mut().zip(own) {
-                item.key = Some(name);
+            for (item, name) in items.iter_mut().zip(legal) {
+                item.key = Some((*name).to_string());
             }
             return true;
         }
-        let own = self.own(id, &written).to_string();
         let items = &mut self.group(id).expect("it is one").items;
         if let Some(name) = legal.iter().find(|l| **l == written) {
-            items[place].key = Some(own);
+            items[place].key = Some(written);
             let hole = items[place].node;
             self.dig(hole);
             let found = UnplacedFault::error(&node.path, format!("the field `{name}` has no value"));

@@ -2,7 +2,6 @@
 
 use super::fail::{Fail, Misfit, What};
 use super::hint::{Form, Told};
-use super::names::Renamed;
 use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
 use super::value::{Reading, Value};
 use crate::scenario::fault::UnplacedFault;
@@ -26,15 +25,13 @@ pub(super) const SHORT: usize = 40;
 pub(super) struct Mender<'a> {
     pub(super) reading: Reading<'a>,
     told: Vec<Told>,
-    /// The field that has another name in some texts.
-    pub(super) renamed: Option<Renamed>,
 }
 
 impl<'a> Mender<'a> {
-    pub(super) fn new(text: &'a str, tree: Tree, renamed: Option<Renamed>) -> Self {
+    pub(super) fn new(text: &'a str, tree: Tree) -> Self {
         let tree = RefCell::new(tree);
         let reading = Reading { text, tree, filling: 0, first: RefCell::default() };
-        Self { reading, told: Vec::new(), renamed }
+        Self { reading, told: Vec::new() }
     }
 
     /// Reads the whole text with one set of stand-ins. `None` if none of their values fits.
@@ -146,17 +143,15 @@ impl<'a> Mender<'a> {
             (Kind::Hole(_), what) => self.refill(id, what),
             (Kind::Group(_), What::Missing(field)) => self.missing(id, &node, field),
             (Kind::Group(group), What::Field(name, legal)) => {
-                let legal = self.legal(id, legal);
-                let known: Vec<&str> =
-                    (group.items.iter()).filter_map(|i| i.key.as_deref()).map(|key| self.shown(id, key)).collect();
+                let known: Vec<&str> = group.items.iter().filter_map(|i| i.key.as_deref()).collect();
                 let free: Vec<&str> = (legal.iter().copied()).filter(|l| !known.contains(l)).collect();
                 let Some(i) = group.items.iter().position(|i| i.key.as_ref() == Some(&name)) else {
                     return false;
                 };
                 let found = UnplacedFault::error(&node.path, format!("there is no field `{name}`"))
-                    .hint(choose(&name, &legal, "fields"));
+                    .hint(choose(&name, legal, "fields"));
                 let at = group.items[i].key_at.clone();
-                let meant = nearest(&name, &free).map(|meant| self.own(id, meant).to_string());
+                let meant = nearest(&name, &free).map(str::to_string);
                 let group = self.group(id).expect("it is one");
                 match meant {
                     Some(meant) => group.items[i].key = Some(meant),
@@ -169,8 +164,7 @@ impl<'a> Mender<'a> {
                 let Some(i) = group.items.iter().rposition(|i| i.key.as_deref() == Some(field)) else {
                     return false;
                 };
-                let shown = self.shown(id, field);
-                let found = UnplacedFault::error(&node.path, format!("the field `{shown}` is given twice"));
+                let found = UnplacedFault::error(&node.path, format!("the field `{field}` is given twice"));
                 self.group(id).expect("it is one").items.remove(i);
                 self.tell(group.items[i].key_at.clone(), found, Form::Whole);
                 true
@@ -216,9 +210,7 @@ impl<'a> Mender<'a> {
                 self.dig(id);
                 true
             }
-            (Kind::Group(_), What::Nameless { place, legal }) => {
-                self.nameless(id, &node, place, &self.legal(id, legal))
-            }
+            (Kind::Group(_), What::Nameless { place, legal }) => self.nameless(id, &node, place, legal),
             (_, What::Named(name)) => {
                 let groups = |n: &&mut Node| matches!(&n.kind, Kind::Group(g) if g.items.iter().any(|i| i.node == id));
                 let around = self.tree().nodes.iter_mut().find(groups);
@@ -281,8 +273,8 @@ impl<'a> Mender<'a> {
         if !node.silent {
             let (problem, at, form) = match key {
                 Some(_) => {
-                    let shown = self.shown(id, field).to_string();
-                    (format!("the field `{shown}` is missing"), node.whole.clone(), Form::Missing(shown, hole))
+                    let form = Form::Missing(field.to_string(), hole);
+                    (format!("the field `{field}` is missing"), node.whole.clone(), form)
                 }
                 None => ("expected a value in the parentheses".to_string(), node.value.clone(), Form::Kind(hole)),
             };

@@ -12,7 +12,6 @@ mod deserialize;
 mod fail;
 mod hint;
 mod mend;
-mod names;
 mod parse;
 mod scalar;
 mod token;
@@ -23,7 +22,6 @@ use super::fault::Severity;
 use super::fault::{Fault, ScenarioError, UnplacedFault};
 use super::unread::unread;
 use mend::Mender;
-pub(super) use names::Renamed;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
@@ -52,26 +50,14 @@ pub fn read<T: DeserializeOwned>(
     text: &str,
     meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
 ) -> Result<T, ScenarioError> {
-    read_renamed(name, text, None, meaning)
-}
-
-/// The same for a type of which one field has another name in some texts.
-pub(super) fn read_renamed<T: DeserializeOwned>(
-    name: &str,
-    text: &str,
-    renamed: Option<Renamed>,
-    meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
-) -> Result<T, ScenarioError> {
     let reader =
         ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
     let error = match reader.from_str(text).map(|Whole(value)| value) {
-        // The type reads both names, so ron does not notice the wrong one.
-        Ok(_) if renamed.as_ref().is_some_and(|r| r.misused(text)) => None,
         Ok(value) => return Ok(value),
-        Err(error) => Some(error),
+        Err(error) => error,
     };
-    let mut found = mistakes(text, renamed, meaning);
-    if let (true, Some(error)) = (found.is_empty(), error) {
+    let mut found = mistakes(text, meaning);
+    if found.is_empty() {
         found.push(unread(text, &error));
     }
     let faults = found.into_iter();
@@ -79,17 +65,12 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
     Err(ScenarioError::from_faults(name, faults.collect()))
 }
 
-fn mistakes<T: DeserializeOwned>(
-    text: &str,
-    renamed: Option<Renamed>,
-    meaning: &dyn Fn(&T) -> Vec<UnplacedFault>,
-) -> Vec<Placed> {
+fn mistakes<T: DeserializeOwned>(text: &str, meaning: &dyn Fn(&T) -> Vec<UnplacedFault>) -> Vec<Placed> {
     let Some(tree) = Tree::parse(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, UnplacedFault::error("", problem))];
     };
-    let mut mender = Mender::new(text, tree, renamed);
-    mender.rename();
+    let mut mender = Mender::new(text, tree);
     let first = mender.read(0);
     // Mistakes that only later readings find come from their stand-ins.
     let mut found = mender.mistakes();

@@ -52,27 +52,14 @@ fn a_number_of_seeds_is_seeds_1_to_it_and_other_forms_are_on_request() {
 }
 
 #[test]
-fn version_1_means_what_it_meant_and_says_so() {
-    let old = GOOD.replace("version: 2", "version: 1");
-    let old = CampaignSpec::parse("c.ron", &old).unwrap();
-    assert_eq!(old.seeds, Seeds::Hashed { seed: 1, count: 20 });
-    let said = old.note().unwrap();
-    assert!(said.message.contains("hashed from 1"), "{said}");
-    assert!(said.help.unwrap().contains("`seeds: Hashed(seed: 1, count: 20)`"));
-    let drawn = "conditions: Random(n: 2, draw: [(\"x\", Uniform(0, 1))])";
-    let other = GOOD.replace("version: 2", "version: 1, seed: 9").replace("arms:", &format!("{drawn}, arms:"));
-    let other = CampaignSpec::parse("c.ron", &other).unwrap();
-    assert_eq!(other.seeds, Seeds::Hashed { seed: 9, count: 20 });
-    assert!(matches!(other.conditions, Conditions::Random(r) if r.seed == Some(9)));
-    assert_eq!(CampaignSpec::parse("c.ron", GOOD).unwrap().note(), None);
-    // A field that belongs to the other version is refused by name.
-    let said = faults(&GOOD.replace("seeds: 20", "seed: 9, seeds: 20"));
-    assert!(said[0].contains("seed: a file of version 2 has no field `seed`"), "{said:?}");
-    let form = GOOD.replace("version: 2", "version: 1");
-    let said = faults(&form.replace("20", "Literal(first: 1, count: 2)"));
-    assert!(said[0].contains("seeds: a file of version 1 has a number here"), "{said:?}");
-    let said = faults(&GOOD.replace("version: 2", "version: 3"));
-    assert!(said[0].contains("versions 1 and 2, got 3"), "{said:?}");
+fn another_version_is_told_before_all_else() {
+    for (version, hint) in [("1", "`seeds: Hashed(seed: S, count: N)`"), ("3", "rheotaxis init")] {
+        let text = GOOD.replace("version: 2", &format!("version: {version}")).replace("title", "titel");
+        let error = CampaignSpec::parse("c.ron", &text).unwrap_err();
+        assert_eq!(error.lines(), [format!("c.ron:1:2: version: this program reads version 2, got {version}")]);
+        let ScenarioError::Text(fault) = error else { panic!("one mistake") };
+        assert!(fault.help.as_ref().is_some_and(|help| help.contains(hint)), "{fault:?}");
+    }
 }
 
 #[test]
@@ -95,7 +82,7 @@ fn more_conditions_than_can_be_counted_are_refused() {
 
 #[test]
 fn an_arm_cannot_set_what_the_conditions_vary() {
-    let text = "(version: 1, title: \"t\", base: \"b\", seeds: 1, arms: [(name: \"a\", set: [(\"x\", \"1\")])], \
+    let text = "(version: 2, title: \"t\", base: \"b\", seeds: 1, arms: [(name: \"a\", set: [(\"x\", \"1\")])], \
         conditions: Random(n: 2, draw: [(\"x\", Uniform(0, 1))]))";
     let said = faults(text);
     assert!(said[0].contains("`x` is set by the conditions too"), "{said:?}");
