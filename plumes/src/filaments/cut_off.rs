@@ -1,10 +1,4 @@
 //! Sources that blocked water does not reach: in a closed cell, or separated from their cell's centre by a thin wall.
-//!
-//! *Source*: none.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none.
 
 use super::domain::Domain;
 use super::lookup::Lookup;

@@ -1,10 +1,8 @@
 //! The filaments of a leaf on their way through a step: where they are at a moment, over which bed, and how large.
 //!
-//! *Source*: none; see `bands` for the way and `size` for the size.
+//! See `bands` for the way and `size` for the size.
 //!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none of its own. The way is straight, so where it would cut a bend of the bed, it follows the bed.
+//! The way is straight, so where it would cut a bend of the bed, it follows the bed.
 
 use super::bands::{Moment, Span};
 use super::lookup::Lookup;

@@ -1,10 +1,6 @@
 //! A list with so many entries for each filament, from which those of the oldest are mostly removed.
 //!
-//! *Source*: none.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none. What lies before a removed filament moves up, or what lies behind it down, whichever is less, so
+//! What lies before a removed filament moves up, or what lies behind it down, whichever is less, so
 //! that the list does not move as a whole whenever its oldest filament leaves.
 
 use std::fmt;

@@ -1,10 +1,6 @@
 //! Which columns of the flow grid are evaluated: only those around cells with filaments in them.
 //!
-//! *Source*: none.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none. A step reads only the four columns around the cell in which it starts, so the other columns
+//! A step reads only the four columns around the cell in which it starts, so the other columns
 //! change no filament. Steady water is evaluated once. In blocked water and in a flume, all columns are evaluated.
 
 use super::bands::Scales;

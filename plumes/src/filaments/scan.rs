@@ -1,11 +1,7 @@
 //! Finds the members of a group near a point by looking at every one of its runs that may be near.
 //!
-//! *Source*: none. Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
+//! Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
 //! after each of their steps, and its leaves at each time. So a tree pays only where many ask about one time.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none.
 
 use super::contribution::{GroupQuery, PresentMembers};
 use super::moving_packet::{MovingPacket, on_way};

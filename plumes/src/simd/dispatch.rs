@@ -1,10 +1,6 @@
 //! The versions of the vector code, of which a machine runs the fastest that it can. All give the same bits.
 //!
-//! *Source*: none.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none. The arithmetic is written once, without fused multiply-add, and compiled for each version.
+//! The arithmetic is written once, without fused multiply-add, and compiled for each version.
 
 /// Which version of the vector code runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,11 +1,7 @@
 //! Which of 32 places a loop of vector code has marked, as the bits of one word.
 //!
-//! *Source*: none. From a sum of shifted bits the compiler makes a chain of ten instructions; the processor has one for
+//! From a sum of shifted bits the compiler makes a chain of ten instructions; the processor has one for
 //! each four to sixteen places.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as x86;

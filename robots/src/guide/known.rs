@@ -1,11 +1,7 @@
 //! A course with what cage and flow compensation ask of it. A searcher that keeps its course asks for it again and
 //! again.
 //!
-//! *Source*: none.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: none. What is kept has the bits of what would be worked out.
+//! What is kept has the bits of what would be worked out.
 
 use nalgebra::Vector2;
 use world::units::Heading;
