@@ -46,15 +46,15 @@
 //! instead, for programs with a loop of their own. `examples/library/own_controller.rs` steers a robot; this moves a gantry:
 //!
 //! ```
-//! use rheotaxis::control::{Heard, Question, read_answer};
+//! use rheotaxis::control::{Question, Response, read_answer};
 //! use rheotaxis::{scenario::load, trial::Trial};
 //!
 //! let mut trial = Trial::assemble(&load("flume_external".as_ref())?, 1)?;
 //! trial.control("crab0", |asked: &Question| {
 //!     let ahead = r#"{"head": {"target_m": [1.0, 0.0], "behaviour": "step_up"}}"#;
-//!     read_answer(ahead.as_bytes(), asked.number, asked.t_s).map_or_else(Heard::Nonsense, Heard::Answer)
+//!     read_answer(ahead.as_bytes(), asked.number, asked.t_s).map_or_else(Response::Nonsense, Response::Answer)
 //! })?;
-//! println!("{}", trial.finish_quietly().outcome.words());
+//! println!("{}", trial.finish_quietly().outcome.label());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
