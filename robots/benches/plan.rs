@@ -4,7 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::BeliefGrid;
-use robots::plan::{AStar, AStarParams, Cost, FreeSpace, From, Planner};
+use robots::plan::{AStar, AStarParams, Cost, FreeSpace, PathStart, Planner};
 use std::path::Path;
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
@@ -56,7 +56,7 @@ fn plan(bencher: divan::Bencher, room: &FreeSpace, params: &AStarParams, to: [f6
         let at = [0, 1, 2].map(|a| part[a] * n[a] as f64 * c[a]);
         room.lattice().corner + Vector3::new(at[0], at[1], at[2])
     };
-    let start = From { p_W: place([0.02, 0.03, 0.5]), heading: Heading::from_deg(45.0), turning_radius_m: 12.0 };
+    let start = PathStart { p_W: place([0.02, 0.03, 0.5]), heading: Heading::from_deg(45.0), turning_radius_m: 12.0 };
     let goal = place(to);
     let mut planner = AStar::new(params).expect("legal");
     planner.plan(room, &start, &goal).expect("a path");

@@ -5,7 +5,7 @@ use parry3d::math::{Pose, Rotation, Vector};
 use parry3d::query::distance;
 use parry3d::shape::Capsule;
 use robots::handoff::BeliefGrid;
-use robots::plan::{AStar, AStarParams, FreeSpace, From, Planner, Reach};
+use robots::plan::{AStar, AStarParams, FreeSpace, PathStart, Planner, Reach};
 use std::path::Path;
 use world::obstacles::{Base, BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
@@ -85,7 +85,7 @@ fn paths_are_free_for_the_inflated_hull_in_ten_thousand_random_worlds() {
         };
         let (p_W, goal) = (place(), place());
         let heading = Heading::from_deg(360.0 * rng.uniform());
-        let start = From { p_W, heading, turning_radius_m: 0.0 };
+        let start = PathStart { p_W, heading, turning_radius_m: 0.0 };
         let Ok(path) = planner.plan(&room, &start, &goal) else {
             assert!((0..room.lattice().len()).all(|c| !room.free(c)), "world {world}");
             continue;

@@ -54,7 +54,10 @@ fn algorithm_files_say_where_they_come_from() {
             let head: String = text.lines().take_while(|l| l.starts_with("//!")).collect();
             // A file without an algorithm needs none of them.
             let said = ["*Source", "*Parameters", "*Deviations"].map(|word| head.contains(word));
-            assert!(said == [true; 3] || said == [false; 3], "{file}: its head has {said:?} of source, parameters, deviations");
+            assert!(
+                said == [true; 3] || said == [false; 3],
+                "{file}: its head has {said:?} of source, parameters, deviations"
+            );
         }
     }
 }

@@ -8,11 +8,11 @@ use xxhash_rust::xxh3::Xxh3;
 #[derive(Resource, Clone)]
 pub struct Digest(
     // Apart, because a world of entities sets aside the room of many for each of its resources.
-    Box<Hashed>,
+    Box<WordHash>,
 );
 
 #[derive(Clone)]
-struct Hashed {
+struct WordHash {
     hash: Xxh3,
     /// Bytes that are to be hashed together, because hashing few of them costs more than the drift.
     waiting: [u8; WAITING],
@@ -23,7 +23,7 @@ const WAITING: usize = 1024;
 
 impl Default for Digest {
     fn default() -> Self {
-        Self(Box::new(Hashed { hash: Xxh3::new(), waiting: [0; WAITING], used: 0 }))
+        Self(Box::new(WordHash { hash: Xxh3::new(), waiting: [0; WAITING], used: 0 }))
     }
 }
 
@@ -71,7 +71,7 @@ impl Digest {
     }
 }
 
-impl Hashed {
+impl WordHash {
     fn hash_waiting(&mut self) {
         self.hash.update(&self.waiting[..self.used]);
         self.used = 0;

@@ -16,7 +16,7 @@ use crate::ranges::{Finite, Fraction, NonNegative, Positive};
 use serde::{Deserialize, Deserializer, de::Error};
 
 /// What a field with a limit holds: a number, or several.
-pub trait Limited: Sized {
+pub trait LimitedValue: Sized {
     /// The form in which it is read.
     type Raw;
 
@@ -45,7 +45,7 @@ impl Range {
 
 macro_rules! one {
     ($($type:ty),*) => {$(
-        impl Limited for $type {
+        impl LimitedValue for $type {
             type Raw = f64;
             fn limited(raw: f64, range: &Range) -> Result<Self, String> {
                 let typed = Self::try_from(raw);
@@ -64,21 +64,21 @@ macro_rules! one {
 
 one!(Finite, Fraction, NonNegative, Positive);
 
-impl<T: Limited> Limited for Option<T> {
+impl<T: LimitedValue> LimitedValue for Option<T> {
     type Raw = Option<T::Raw>;
     fn limited(raw: Self::Raw, range: &Range) -> Result<Self, String> {
         raw.map(|raw| T::limited(raw, range)).transpose()
     }
 }
 
-impl<T: Limited> Limited for (T, T) {
+impl<T: LimitedValue> LimitedValue for (T, T) {
     type Raw = (T::Raw, T::Raw);
     fn limited((a, b): Self::Raw, range: &Range) -> Result<Self, String> {
         Ok((T::limited(a, range)?, T::limited(b, range)?))
     }
 }
 
-impl<T: Limited> Limited for (T, T, T) {
+impl<T: LimitedValue> LimitedValue for (T, T, T) {
     type Raw = (T::Raw, T::Raw, T::Raw);
     fn limited((a, b, c): Self::Raw, range: &Range) -> Result<Self, String> {
         Ok((T::limited(a, range)?, T::limited(b, range)?, T::limited(c, range)?))
@@ -102,7 +102,7 @@ macro_rules! limits {
         pub fn $name<'de, D, T>(from: D) -> Result<T, D::Error>
         where
             D: Deserializer<'de>,
-            T: Limited<Raw: Deserialize<'de>>,
+            T: LimitedValue<Raw: Deserialize<'de>>,
         {
             let raw = T::Raw::deserialize(from)?;
             T::limited(raw, &range::$name).map_err(D::Error::custom)

@@ -107,7 +107,7 @@ impl Levels {
 }
 
 /// u, v, ω and K_z of a block.
-pub(super) type Fetched = [[f32; BLOCK]; 4];
+pub(super) type BlockFlow = [[f32; BLOCK]; 4];
 
 /// Fills in the water at the first `N` places of a block; `N` is a multiple of four. Multiplies `slope`, the reciprocal
 /// distance of the levels, by the difference of K_z between them.
@@ -120,7 +120,7 @@ pub(super) unsafe fn fetch<P: Pair, const N: usize>(
     nodes: &[[f32; 4]],
     column: &Columns,
     level: &Levels,
-    water: &mut Fetched,
+    water: &mut BlockFlow,
     extra: Option<&[f32; BLOCK]>,
     mut slope: Option<&mut [f32; BLOCK]>,
 ) {

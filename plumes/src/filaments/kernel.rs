@@ -34,7 +34,7 @@
 //! All arithmetic is f32 and written once. The compiler makes a version for each of `path` from it (no fused
 //! multiply-add in any), which give the same bits.
 
-use super::fetch::{Columns, Fetched, Levels, fetch};
+use super::fetch::{BlockFlow, Columns, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::{level_normals, normals};
 use crate::simd::dispatch::InstructionSet;
@@ -73,8 +73,8 @@ pub(super) struct Work {
     slope: [f32; BLOCK],
     kick: [f32; BLOCK],
     extra: [f32; BLOCK],
-    here: Fetched,
-    there: Fetched,
+    here: BlockFlow,
+    there: BlockFlow,
 }
 
 impl Work {

@@ -36,8 +36,8 @@ pub struct Helm {
     /// Speed at the end of the last step, m/s.
     speed_m_s: f64,
     /// Heading (rad) and height (m, depth counts negative), between their readings.
-    heading: Counted,
-    height: Counted,
+    heading: CommandMean,
+    height: CommandMean,
 }
 
 impl Helm {
@@ -49,8 +49,8 @@ impl Helm {
             fin_limit_rad: spec.fin_limit_deg.get().to_radians(),
             rpm_limit: spec.rpm_limit.get(),
             speed_m_s: speed_m_s.clamp(0.0, limits.speed_m_s),
-            heading: Counted::default(),
-            height: Counted::default(),
+            heading: CommandMean::default(),
+            height: CommandMean::default(),
         }
     }
 
@@ -59,8 +59,8 @@ impl Helm {
         match command {
             Command::Direct(table) => self.by_table(table, dt_s),
             Command::Drives(set) => {
-                self.heading = Counted::default();
-                self.height = Counted::default();
+                self.heading = CommandMean::default();
+                self.height = CommandMean::default();
                 let of = |place: usize| set.all().get(place).copied().unwrap_or(0.0);
                 let speed_m_s = self.speed(of(2), dt_s);
                 self.limits.held(&RateCommand { turn_rad_s: of(0), climb_m_s: of(1), speed_m_s })
@@ -87,8 +87,8 @@ impl Helm {
     }
 
     fn by_table(&mut self, table: &ActuatorCommand, dt_s: f64) -> RateCommand {
-        self.heading = Counted::default();
-        self.height = Counted::default();
+        self.heading = CommandMean::default();
+        self.height = CommandMean::default();
         let share = |of: f64, limit: f64| (of / limit).clamp(-1.0, 1.0);
         let ahead = share(table.rpm, self.rpm_limit).max(0.0);
         let speed_m_s = self.speed(ahead * self.limits.speed_m_s, dt_s);
@@ -117,13 +117,13 @@ impl Helm {
 
 /// What has been commanded of a quantity since its last reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Counted {
+struct CommandMean {
     reading: Option<f64>,
     age_s: f64,
     commanded: f64,
 }
 
-impl Counted {
+impl CommandMean {
     /// How far it has been sent since the reading was taken, which may be a new one.
     fn since_reading(&mut self, reading: f64, dt_s: f64) -> f64 {
         self.age_s += dt_s;

@@ -10,7 +10,7 @@
 
 use super::drive_spec::DriveFault;
 use super::span::Span;
-use super::spec::{FaultSpec, Of};
+use super::spec::{FaultSpec, FaultSubject};
 use crate::handoff::{Actuation, DriveUnit, NamedDrive};
 use bevy_ecs::prelude::Component;
 use world::clock::Clock;
@@ -40,7 +40,7 @@ impl DriveFaults {
     #[must_use]
     pub fn new(faults: &[FaultSpec], dt_s: f64, drives: &[NamedDrive]) -> Self {
         let failing = |fault: &FaultSpec| match fault.what.subject() {
-            Of::Drive(name, how) => {
+            FaultSubject::Drive(name, how) => {
                 let place = drives.iter().position(|d| d.name == name).unwrap_or_else(|| {
                     panic!("a fault is of the drive {name}, which the vehicle has not; check the scenario")
                 });
@@ -53,7 +53,7 @@ impl DriveFaults {
                     last: None,
                 })
             }
-            Of::Instrument(..) => None,
+            FaultSubject::Instrument(..) => None,
         };
         Self(faults.iter().filter_map(failing).collect())
     }

@@ -11,7 +11,7 @@
 
 use super::reading_fault::{Instrument, ReadingFault};
 use super::span::Span;
-use super::spec::{FaultSpec, Of};
+use super::spec::{FaultSpec, FaultSubject};
 use crate::handoff::{Beam, ChemicalReading, RangeScan, Readings};
 use crate::sense::{FluorometerSpec, SensorsSpec};
 use bevy_ecs::prelude::Component;
@@ -42,8 +42,8 @@ impl SensorFaults {
         Self {
             faults: (faults.iter())
                 .filter_map(|fault| match fault.what.subject() {
-                    Of::Instrument(what, amiss) => Some((fault.span(dt_s), what, amiss)),
-                    Of::Drive(..) => None,
+                    FaultSubject::Instrument(what, amiss) => Some((fault.span(dt_s), what, amiss)),
+                    FaultSubject::Drive(..) => None,
                 })
                 .collect(),
             scale: fluorometer.map(|spec| Scale {

@@ -2,10 +2,10 @@
 
 use super::drive_spec::DriveFault;
 use super::reading_fault::Instrument;
-use super::spec::{FaultSpec, Faulty, Of};
+use super::spec::{FaultSpec, FaultSubject, Faulty};
 use crate::handoff::{DriveUnit, NamedDrive};
 use crate::sense::SensorsSpec;
-use world::limits::{Limited, range};
+use world::limits::{LimitedValue, range};
 use world::ranges::Finite;
 use world::spelling::choose;
 
@@ -38,7 +38,7 @@ pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[Na
             say("until_s", problem, Some(help.to_string()));
         }
         match fault.what.subject() {
-            Of::Instrument(what, _) if !sensors.has(what.field()) => {
+            FaultSubject::Instrument(what, _) if !sensors.has(what.field()) => {
                 let (field, problem) = (what.field(), lacks(what));
                 let help = format!(
                     "fit one, as in `sensors: ({field}: ())`, or leave the fault out; on board: {}",
@@ -46,8 +46,8 @@ pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[Na
                 );
                 say("what", problem, Some(help));
             }
-            Of::Instrument(..) => {}
-            Of::Drive(name, how) => {
+            FaultSubject::Instrument(..) => {}
+            FaultSubject::Drive(name, how) => {
                 if let Some((at, problem, help)) = drives.and_then(|all| misfit(all, name, &how)) {
                     let field = match (&fault.what, at) {
                         (Faulty::Drive(_), Some(at)) => format!("what.{at}"),
@@ -110,8 +110,8 @@ fn misfit(all: &[NamedDrive], name: &str, how: &DriveFault) -> Option<(Option<&'
 
 fn of_one_thing(a: &FaultSpec, b: &FaultSpec) -> bool {
     match (a.what.subject(), b.what.subject()) {
-        (Of::Instrument(a, _), Of::Instrument(b, _)) => a == b,
-        (Of::Drive(a, _), Of::Drive(b, _)) => a == b,
+        (FaultSubject::Instrument(a, _), FaultSubject::Instrument(b, _)) => a == b,
+        (FaultSubject::Drive(a, _), FaultSubject::Drive(b, _)) => a == b,
         _ => false,
     }
 }

@@ -63,7 +63,7 @@ const PROPELLER: &str = "propeller";
 
 /// What a fault is of.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Of<'a> {
+pub(super) enum FaultSubject<'a> {
     Instrument(Instrument, ReadingFault),
     /// A drive by its name.
     Drive(&'a str, DriveFault),
@@ -71,23 +71,23 @@ pub(super) enum Of<'a> {
 
 impl Faulty {
     /// What it is of.
-    pub(super) fn subject(&self) -> Of<'_> {
+    pub(super) fn subject(&self) -> FaultSubject<'_> {
         match self {
-            Self::Fluorometer(how) => Of::Instrument(Instrument::Fluorometer, how.into()),
-            Self::Compass(how) => Of::Instrument(Instrument::Compass, how.into()),
-            Self::Depth(how) => Of::Instrument(Instrument::Depth, how.into()),
-            Self::Altimeter(how) => Of::Instrument(Instrument::Altimeter, how.into()),
-            Self::Ranging(how) => Of::Instrument(Instrument::Ranging, how.into()),
-            Self::Dvl(how) => Of::Instrument(Instrument::Dvl, how.into()),
-            Self::Adcp(how) => Of::Instrument(Instrument::Adcp, how.into()),
-            Self::Ctd(how) => Of::Instrument(Instrument::Ctd, how.into()),
-            Self::Sidescan(how) => Of::Instrument(Instrument::Sidescan, how.into()),
-            Self::Camera(how) => Of::Instrument(Instrument::Camera, how.into()),
-            Self::Fixes(how) => Of::Instrument(Instrument::Lbl, how.into()),
-            Self::Rudder(how) => Of::Drive(RUDDER, how.into()),
-            Self::SternPlane(how) => Of::Drive(STERN_PLANE, how.into()),
-            Self::Propeller(how) => Of::Drive(PROPELLER, how.into()),
-            Self::Drive(drive) => Of::Drive(&drive.link, drive.how.clone()),
+            Self::Fluorometer(how) => FaultSubject::Instrument(Instrument::Fluorometer, how.into()),
+            Self::Compass(how) => FaultSubject::Instrument(Instrument::Compass, how.into()),
+            Self::Depth(how) => FaultSubject::Instrument(Instrument::Depth, how.into()),
+            Self::Altimeter(how) => FaultSubject::Instrument(Instrument::Altimeter, how.into()),
+            Self::Ranging(how) => FaultSubject::Instrument(Instrument::Ranging, how.into()),
+            Self::Dvl(how) => FaultSubject::Instrument(Instrument::Dvl, how.into()),
+            Self::Adcp(how) => FaultSubject::Instrument(Instrument::Adcp, how.into()),
+            Self::Ctd(how) => FaultSubject::Instrument(Instrument::Ctd, how.into()),
+            Self::Sidescan(how) => FaultSubject::Instrument(Instrument::Sidescan, how.into()),
+            Self::Camera(how) => FaultSubject::Instrument(Instrument::Camera, how.into()),
+            Self::Fixes(how) => FaultSubject::Instrument(Instrument::Lbl, how.into()),
+            Self::Rudder(how) => FaultSubject::Drive(RUDDER, how.into()),
+            Self::SternPlane(how) => FaultSubject::Drive(STERN_PLANE, how.into()),
+            Self::Propeller(how) => FaultSubject::Drive(PROPELLER, how.into()),
+            Self::Drive(drive) => FaultSubject::Drive(&drive.link, drive.how.clone()),
         }
     }
 
@@ -95,8 +95,8 @@ impl Faulty {
     #[must_use]
     pub fn describe(&self) -> String {
         match self.subject() {
-            Of::Instrument(what, how) => format!("{} {}", what.label(), how.describe()),
-            Of::Drive(name, how) => {
+            FaultSubject::Instrument(what, how) => format!("{} {}", what.label(), how.describe()),
+            FaultSubject::Drive(name, how) => {
                 let unit = match self {
                     Self::Rudder(_) | Self::SternPlane(_) => "degrees",
                     Self::Propeller(_) => "rpm",

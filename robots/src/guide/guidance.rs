@@ -13,7 +13,7 @@ use super::flow_compensation::compensate;
 use super::follow_line::{FollowLine, LineLimits};
 use super::go_to_point::GoToPoint;
 use super::hover::{HoverDemand, Hovering};
-use super::known::Known;
+use super::known::CachedCourse;
 use super::rate_filter::RateFilter;
 use super::spec::GuidanceSpec;
 use crate::handoff::{ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, MoveSetpoint, Setpoint};
@@ -45,7 +45,7 @@ pub struct Guidance {
     filter: RateFilter,
     mode: Mode,
     /// The newest course wanted.
-    known: Known,
+    known: CachedCourse,
     goal_id: Option<u32>,
     done: bool,
     aborted: bool,
@@ -65,7 +65,7 @@ impl Guidance {
             filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),
             spec: Box::new(spec.clone()),
             mode: Mode::Free,
-            known: Known::from_course(Heading::from_rad(0.0)),
+            known: CachedCourse::from_course(Heading::from_rad(0.0)),
             goal_id: None,
             done: false,
             aborted: false,

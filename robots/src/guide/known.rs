@@ -8,7 +8,7 @@ use world::units::Heading;
 
 /// A course and its directions.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
+pub(super) struct CachedCourse {
     course: Heading,
     /// As a unit vector (east, north).
     pub(super) unit: Vector2<f64>,
@@ -16,7 +16,7 @@ pub(super) struct Known {
     pub(super) again: (Heading, Vector2<f64>),
 }
 
-impl Known {
+impl CachedCourse {
     pub(super) fn from_course(course: Heading) -> Self {
         let unit = course.unit();
         let again = Heading::from_vector(unit);
@@ -37,7 +37,7 @@ mod tests {
 
     #[test]
     fn it_always_knows_the_newest_course() {
-        let mut known = Known::from_course(Heading::from_deg(0.0));
+        let mut known = CachedCourse::from_course(Heading::from_deg(0.0));
         for deg in [0.0, 10.0, 10.0, 10.000_000_000_001, 350.0, 0.0] {
             let course = Heading::from_deg(deg);
             known.exchange(course);

@@ -61,12 +61,12 @@ pub struct PlantDrive {
     /// Set-point at which it does nothing.
     pub idle: f64,
     /// What it is.
-    pub does: Does,
+    pub does: DriveEffect,
 }
 
 /// What a drive does.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Does {
+pub enum DriveEffect {
     /// Pushes: force and moment for each N of thrust, and its curve in still water.
     Pushes(Vector6<f64>, ThrustTable),
     /// Lifts: force and moment at 1 m/s ahead, 1 rad of deflection and a density of 1 kg/m³.

@@ -30,7 +30,8 @@ pub use belief::{Belief, BeliefGrid, Odour};
 pub use bounds::Bounds;
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{
-    Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant, PlantDrive, ThrustTable,
+    Capabilities, Control, DriveCommand, DriveEffect, DriveUnit, MOST_DRIVES, NamedDrive, Plant, PlantDrive,
+    ThrustTable,
 };
 pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation, detects};

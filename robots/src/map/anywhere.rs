@@ -35,14 +35,14 @@ struct Cloud {
 
 /// All sets of releases, for a vehicle at one place.
 #[derive(Clone, Debug)]
-pub(super) struct Anywhere {
+pub(super) struct ReleaseSets {
     mu: f64,
     /// The vehicle's height and its mirror images in the map's lower and upper edge, m; none in a map of the plane.
     heights: Option<[f64; 3]>,
     clouds: Vec<Cloud>,
 }
 
-impl Anywhere {
+impl ReleaseSets {
     /// For a vehicle at `at` (the grid's own axes, m) and a chance `mu` of detecting dye that is there.
     /// Dye is met within a cell of `meets_m`.
     pub(super) fn new(grid: &BeliefGrid, meets_m: [f64; 3], mu: f64, at: [f64; 3], sets: &[Set]) -> Self {
@@ -193,7 +193,7 @@ mod tests {
                 .collect();
             let places: Vec<_> = places.into_iter().map(scaled).collect();
             let mut gamma = vec![7.0; 3];
-            Anywhere::new(&grid, grid.cell_m, mu, scaled(at), &sets).not_detecting(&places, &mut gamma);
+            ReleaseSets::new(&grid, grid.cell_m, mu, scaled(at), &sets).not_detecting(&places, &mut gamma);
             prop_assert_eq!(gamma.len(), places.len());
             for (place, gamma) in places.iter().zip(&gamma) {
                 let exact = by_hand(&grid, mu, scaled(at), &sets, *place);

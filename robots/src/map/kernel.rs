@@ -10,7 +10,7 @@
 //! standard deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
 //! `terms` and `releases`. The vehicle's place is the middle of its cell, as in the paper.
 
-use super::anywhere::Anywhere;
+use super::anywhere::ReleaseSets;
 use super::flow_history::FlowHistory;
 use super::releases::Gatherer;
 use super::spec::TrajectorySpec;
@@ -115,8 +115,8 @@ impl Kernel {
     }
 
     /// The same for a source at any place, after [`Kernel::gather`] or [`Kernel::aim`].
-    pub(super) fn anywhere(&self) -> Anywhere {
-        Anywhere::new(&self.grid, self.meets_m, self.mu, self.at, &self.gatherer.sets)
+    pub(super) fn anywhere(&self) -> ReleaseSets {
+        ReleaseSets::new(&self.grid, self.meets_m, self.mu, self.at, &self.gatherer.sets)
     }
 
     /// The vehicle's place for which it was made, in the grid's own axes, m.

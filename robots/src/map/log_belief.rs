@@ -10,7 +10,7 @@
 //! cell. Errors of navigation: see `navigation`.
 
 use super::credible;
-use super::navigation::{Block, Stated};
+use super::navigation::{Block, NavigationError};
 use crate::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
 use world::math;
@@ -63,7 +63,7 @@ impl LogBelief {
 
     /// The same for a source at one of the `places`, which are those of the cells or several in each; readings between
     /// two fixes share an error if one is stated.
-    pub(super) fn over(cells: &Arc<BeliefGrid>, places: &Arc<BeliefGrid>, stated: Option<Stated>) -> Self {
+    pub(super) fn over(cells: &Arc<BeliefGrid>, places: &Arc<BeliefGrid>, stated: Option<NavigationError>) -> Self {
         let mut new = Self::uniform(cells);
         if places.n != cells.n {
             let n = places.len();

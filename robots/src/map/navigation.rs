@@ -27,14 +27,14 @@ const LEAST: f64 = 1e-290;
 
 /// The stated error, and how it grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stated {
+pub(super) struct NavigationError {
     fix_m: f64,
     drift_m_s: f64,
     /// Begin of the block, s; whether it began with a fix.
     since: Option<(f64, bool)>,
 }
 
-impl Stated {
+impl NavigationError {
     /// As the parameters say; `None` if navigation is taken to be true.
     pub(super) fn from_doubt(doubt: &DoubtSpec) -> Option<Self> {
         let (fix_m, drift_m_s) = (doubt.fix_m.get(), doubt.drift_m_s.get());
@@ -63,7 +63,7 @@ impl Stated {
 /// The block of readings since the last fix, and what was known before.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
-    stated: Stated,
+    stated: NavigationError,
     grid: Arc<BeliefGrid>,
     /// Logarithm of the probabilities before the block.
     before: Vec<f64>,
@@ -76,7 +76,7 @@ pub(super) struct Block {
 
 impl Block {
     /// Before the first reading, for places with these logarithms of probabilities.
-    pub(super) fn new(stated: Stated, grid: &Arc<BeliefGrid>, ln_p: &[f64]) -> Self {
+    pub(super) fn new(stated: NavigationError, grid: &Arc<BeliefGrid>, ln_p: &[f64]) -> Self {
         Self {
             stated,
             grid: grid.clone(),
@@ -185,7 +185,7 @@ mod tests {
     fn readings_of_a_block_share_their_error() {
         let grid = Arc::new(grid([41, 1, 1]));
         let even = vec![0.0; 41];
-        let stated = Stated::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error");
+        let stated = NavigationError::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error");
         let mut block = Block::new(stated, &grid, &even);
         block.fixed(0.0, &even);
         let near = |i: usize, c: f64| math::exp(-0.5 * (i as f64 - c) * (i as f64 - c)) + 1e-9;
@@ -216,18 +216,18 @@ mod tests {
 
     #[test]
     fn each_block_has_an_error_of_its_own_and_drift_grows_within_it() {
-        let mut stated = Stated::from_doubt(&doubt(3.0, 0.1)).expect("an error");
+        let mut stated = NavigationError::from_doubt(&doubt(3.0, 0.1)).expect("an error");
         assert_eq!(stated.sigma_m(5.0), 0.0);
         assert!((stated.sigma_m(15.0) - 1.0).abs() < 1e-12);
         stated.begin(20.0, true);
         assert_eq!(stated.sigma_m(20.0), 3.0);
         assert!((stated.sigma_m(60.0) - 5.0).abs() < 1e-12);
-        assert_eq!(Stated::from_doubt(&doubt(0.0, 0.0)), None);
+        assert_eq!(NavigationError::from_doubt(&doubt(0.0, 0.0)), None);
         // Two blocks with the same reading: the second narrows what the first has left.
         let grid = Arc::new(grid([41, 1, 1]));
         let even = vec![0.0; 41];
         let mut block =
-            Block::new(Stated::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error"), &grid, &even);
+            Block::new(NavigationError::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error"), &grid, &even);
         let one: Vec<f64> = (0..41).map(|i| if i == 20 { 1.0 } else { 1e-9 }).collect();
         let mut ln_p = even.clone();
         block.fixed(0.0, &even);

@@ -8,13 +8,13 @@
 //! *Deviations*: the drift's direction and rate are drawn with the error and held until the next fix.
 
 use super::evidence::DoubtSpec;
-use super::navigation::Stated;
+use super::navigation::NavigationError;
 use world::seeds::Stream;
 
 /// An error of so many particles.
 #[derive(Clone, Debug)]
 pub(super) struct Shifts {
-    stated: Stated,
+    stated: NavigationError,
     /// Error at the begin of the block, m, and rate of drift, m/s, in standard deviations, along the map's axes.
     drawn: Vec<[f64; 4]>,
 }
@@ -22,7 +22,7 @@ pub(super) struct Shifts {
 impl Shifts {
     /// Before the first fix; `None` if navigation is taken to be true.
     pub(super) fn from_doubt(doubt: &DoubtSpec, particles: usize, rng: &mut Stream) -> Option<Self> {
-        let mut new = Self { stated: Stated::from_doubt(doubt)?, drawn: vec![[0.0; 4]; particles] };
+        let mut new = Self { stated: NavigationError::from_doubt(doubt)?, drawn: vec![[0.0; 4]; particles] };
         new.draw(rng);
         Some(new)
     }

@@ -8,7 +8,7 @@
 
 use super::evidence::{DoubtSpec, Evidence};
 use super::log_belief::LogBelief;
-use super::navigation::Stated;
+use super::navigation::NavigationError;
 use super::spec::{GridSpec, TrajectorySpec};
 use super::watch::Watch;
 use crate::error::RobotError;
@@ -95,7 +95,7 @@ impl Workings {
         };
         Ok(Self {
             watch: Watch::new(&grid, trajectory.history(release_s), update_s),
-            belief: LogBelief::over(&cells, &grid, Stated::from_doubt(doubt)),
+            belief: LogBelief::over(&cells, &grid, NavigationError::from_doubt(doubt)),
             places,
             evidence: Evidence::new(false_detection, doubt, update_s)?,
             likelihood: vec![1.0; grid.len()],

@@ -16,7 +16,7 @@ use super::catalogue::PlannerParams;
 use super::ends::Ends;
 use super::paper_cost::FiveMoves;
 use super::search::{Costs, Search};
-use super::{FreeSpace, From, NoPath, Path, Planner, Reach, smooth};
+use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach, smooth};
 use crate::error::RobotError;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -128,7 +128,7 @@ impl AStar {
 }
 
 impl Planner for AStar {
-    fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+    fn plan(&mut self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>) -> Result<Path, NoPath> {
         if let Some(paper) = &mut self.paper {
             return paper.plan(room, start, goal);
         }

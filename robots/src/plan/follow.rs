@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use crate::handoff::testing::fixed;
     use crate::plan::testing::room;
-    use crate::plan::{AStar, AStarParams, From, Planner};
+    use crate::plan::{AStar, AStarParams, PathStart, Planner};
     use proptest::prelude::*;
 
     proptest! {
@@ -132,7 +132,7 @@ mod tests {
             x in 30.0..170.0, y in 30.0..170.0, gx in 30.0..170.0, gy in 30.0..170.0, deg in 0.0..360.0,
         ) {
             let r = room([200, 200, 1], [1.0; 3], vec![]);
-            let start = From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 };
+            let start = PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 };
             let goal = Vector3::new(gx, gy, -4.0);
             let path = AStar::new(&AStarParams::default()).unwrap().plan(&r, &start, &goal).unwrap();
             prop_assume!(path.tightest_m > 0.0);

@@ -23,6 +23,6 @@ pub use a_star::{AStar, Cost, Params as AStarParams};
 pub use catalogue::{PlannerParams, PlannerSpec, Planners};
 pub use follow::Follow;
 pub use free_space::FreeSpace;
-pub use planner::{From, NoPath, Path, Planner, Reach};
+pub use planner::{NoPath, Path, PathStart, Planner, Reach};
 pub use potential_field::{Params as PotentialFieldParams, PotentialField};
 pub use revision::Revision;

@@ -13,7 +13,7 @@
 //! it.
 
 use super::ends::Ends;
-use super::{FreeSpace, From, NoPath, Path, Reach};
+use super::{FreeSpace, NoPath, Path, PathStart, Reach};
 use nalgebra::{Vector2, Vector3};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -35,7 +35,7 @@ pub(super) struct FiveMoves {
 }
 
 impl FiveMoves {
-    pub(super) fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+    pub(super) fn plan(&mut self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>) -> Result<Path, NoPath> {
         let e = self.ends.resolve(room, |c| !room.solid(c), &start.p_W, goal)?;
         let grid = room.lattice();
         let [nx, ny, _] = grid.n.map(|n| n as isize);
@@ -87,7 +87,7 @@ impl FiveMoves {
         Ok(self.path(room, start, goal, e.leaves_solid, nearest.1))
     }
 
-    fn path(&self, room: &FreeSpace, start: &From, goal: &Vector3<f64>, leaves_solid: bool, end: usize) -> Path {
+    fn path(&self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>, leaves_solid: bool, end: usize) -> Path {
         let mut states = vec![end];
         while let Some(&before) = states.last().map(|s| &self.from[*s]) {
             if before == u32::MAX {
@@ -121,7 +121,7 @@ impl FiveMoves {
 }
 
 /// The start's direction in eighths of a turn, measured in cells rather than metres.
-fn facing(room: &FreeSpace, start: &From) -> usize {
+fn facing(room: &FreeSpace, start: &PathStart) -> usize {
     let grid = room.lattice();
     let u = start.heading.unit();
     let v = Vector2::new(u.dot(&grid.axes[0]), u.dot(&grid.axes[1])).normalize();
@@ -138,8 +138,8 @@ mod tests {
     use crate::plan::testing::{block, room};
     use world::units::Heading;
 
-    fn from(x: f64, y: f64, deg: f64) -> From {
-        From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 }
+    fn from(x: f64, y: f64, deg: f64) -> PathStart {
+        PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 }
     }
 
     /// The paper's room: 40 × 25 cells of 2.5 × 4 m, its block and its ends.

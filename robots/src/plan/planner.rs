@@ -14,7 +14,7 @@ use world::units::Heading;
 
 /// Where a path begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct From {
+pub struct PathStart {
     /// Place (ENU), m.
     pub p_W: Vector3<f64>,
     /// Direction of motion.
@@ -72,5 +72,5 @@ pub trait Planner: Debug + Send + Sync {
     ///
     /// # Errors
     /// If no cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
-    fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath>;
+    fn plan(&mut self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>) -> Result<Path, NoPath>;
 }

@@ -14,7 +14,7 @@
 //! says so.
 
 use super::catalogue::PlannerParams;
-use super::{FreeSpace, From, NoPath, Path, Planner, Reach};
+use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach};
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
@@ -193,7 +193,7 @@ fn field(room: &FreeSpace, p: &Vector3<f64>) -> (f64, Vector3<f64>) {
 }
 
 impl Planner for PotentialField {
-    fn plan(&mut self, room: &FreeSpace, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+    fn plan(&mut self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>) -> Result<Path, NoPath> {
         if !(0..room.lattice().len()).any(|c| room.free(c)) {
             return Err(NoPath::Full);
         }
@@ -265,11 +265,11 @@ mod tests {
     use crate::plan::testing::{block, room};
     use world::units::Heading;
 
-    fn from(x: f64, y: f64) -> From {
-        From { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
+    fn from(x: f64, y: f64) -> PathStart {
+        PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
     }
 
-    fn plan(room: &FreeSpace, start: From, goal: Vector3<f64>) -> Path {
+    fn plan(room: &FreeSpace, start: PathStart, goal: Vector3<f64>) -> Path {
         PotentialField::new(&Params::default()).unwrap().plan(room, &start, &goal).unwrap()
     }
 

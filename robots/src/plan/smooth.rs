@@ -11,7 +11,7 @@
 //! corner; the path reports its tightest turn. The turn from the vehicle's own direction to the first leg is part of
 //! the path if one of the two turning circles is free; otherwise the path begins with a corner.
 
-use super::{FreeSpace, From};
+use super::{FreeSpace, PathStart};
 use crate::plan::search::Costs;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -104,7 +104,7 @@ fn free(room: &FreeSpace, from: &Vector3<f64>, points: &[Vector3<f64>]) -> bool 
 }
 
 /// The turn from the start's own direction towards `to` on one of the two turning circles: the shorter free one.
-fn first_turn(room: &FreeSpace, start: &From, to: &Vector3<f64>, radius_m: f64) -> Option<Vec<Vector3<f64>>> {
+fn first_turn(room: &FreeSpace, start: &PathStart, to: &Vector3<f64>, radius_m: f64) -> Option<Vec<Vector3<f64>>> {
     let mut best: Option<(f64, Vec<Vector3<f64>>)> = None;
     for turn in [1.0, -1.0] {
         let centre = start.p_W.xy() + start.heading.turned(turn * FRAC_PI_2).unit() * radius_m;
@@ -132,7 +132,7 @@ fn first_turn(room: &FreeSpace, start: &From, to: &Vector3<f64>, radius_m: f64) 
 /// Rounds the corners; returns the path and the radius of its tightest turn, m.
 pub(super) fn round(
     room: &FreeSpace,
-    start: &From,
+    start: &PathStart,
     points: &[Vector3<f64>],
     radius_m: f64,
 ) -> (Vec<Vector3<f64>>, f64) {
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn corners_become_arcs_of_the_radius() {
         let open = room([80, 80, 1], [1.0; 3], vec![]);
-        let start = From { p_W: at(10.0, 10.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
+        let start = PathStart { p_W: at(10.0, 10.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
         let (path, tightest) = round(&open, &start, &[at(10.0, 10.0), at(10.0, 60.0), at(60.0, 60.0)], 12.0);
         assert_eq!(tightest, 12.0);
         // Round the corner every point of the arc lies 12 m from its centre.
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn the_first_turn_is_on_a_turning_circle_to_the_free_side() {
-        let start = From { p_W: at(40.0, 40.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
+        let start = PathStart { p_W: at(40.0, 40.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
         let legs = [at(40.0, 40.0), at(40.0, 5.0)];
         let open = room([80, 80, 1], [1.0; 3], vec![]);
         let (path, tightest) = round(&open, &start, &legs, 10.0);

@@ -9,8 +9,8 @@ fn a_star() -> AStar {
     AStar::new(&Params::default()).unwrap()
 }
 
-fn from(x: f64, y: f64, z: f64) -> From {
-    From { p_W: Vector3::new(x, y, z), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
+fn from(x: f64, y: f64, z: f64) -> PathStart {
+    PathStart { p_W: Vector3::new(x, y, z), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
 }
 
 fn free(room: &FreeSpace, path: &Path) -> bool {
@@ -49,7 +49,7 @@ fn turns_are_as_wide_as_the_hull_needs() {
     let r = room([200, 200, 1], [1.0; 3], vec![]);
     let goal = Vector3::new(100.0, 20.0, -4.0);
     let tightest = |radius_m: f64| {
-        let start = From { turning_radius_m: radius_m, ..from(150.0, 150.0, -4.0) };
+        let start = PathStart { turning_radius_m: radius_m, ..from(150.0, 150.0, -4.0) };
         let path = a_star().plan(&r, &start, &goal).unwrap();
         assert_eq!(path.reach, Reach::Goal);
         path.tightest_m
@@ -80,7 +80,7 @@ fn what_cannot_be_reached_has_a_defined_answer() {
     assert!(matches!(path.reach, Reach::Nearest(m) if (3.0..5.0).contains(&m)), "{path:?}");
     assert!(free(&r, &path));
     let out =
-        a_star().plan(&r, &From { p_W: in_wall, ..from(0.0, 0.0, 0.0) }, &Vector3::new(90.0, 50.0, -4.0)).unwrap();
+        a_star().plan(&r, &PathStart { p_W: in_wall, ..from(0.0, 0.0, 0.0) }, &Vector3::new(90.0, 50.0, -4.0)).unwrap();
     assert!(out.leaves_solid && out.reach == Reach::Goal && free(&r, &out));
     let outside = a_star().plan(&r, &from(60.0, 50.0, -4.0), &Vector3::new(60.0, 300.0, -4.0)).unwrap();
     assert!(matches!(outside.reach, Reach::Nearest(m) if (m - 200.5).abs() < 1.0), "{outside:?}");

@@ -176,12 +176,12 @@ impl From<&Decision> for SensorRequests {
 }
 
 /// An instrument of a robot; of one from another crate its name, too.
-type Fitted = (Box<dyn Sensor>, Option<&'static str>);
+type InstrumentEntry = (Box<dyn Sensor>, Option<&'static str>);
 
 /// The instruments of a robot.
 #[derive(Component, Debug)]
 pub struct SensorSuite {
-    all: Vec<Fitted>,
+    all: Vec<InstrumentEntry>,
     robot: String,
 }
 

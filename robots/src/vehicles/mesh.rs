@@ -10,7 +10,7 @@
 use super::files::Files;
 use nalgebra::Vector3;
 use std::path::Path;
-use world::obstacles::{LONGEST_MESH_BYTES, Wrong, mesh_corners, mesh_triangles};
+use world::obstacles::{LONGEST_MESH_BYTES, MeshProblem, mesh_corners, mesh_triangles};
 
 /// All corners in a file; the error says what is wrong with it and where, but not its path.
 pub(super) fn points(name: &Path, files: &dyn Files) -> Result<Vec<Vector3<f64>>, String> {
@@ -29,6 +29,6 @@ pub(super) fn triangles(name: &Path, files: &dyn Files) -> Result<Vec<[Vector3<f
     Ok(all.into_iter().map(|t| t.map(Vector3::from)).collect())
 }
 
-fn locate((place, problem): Wrong) -> String {
+fn locate((place, problem): MeshProblem) -> String {
     if place.is_empty() { problem } else { format!("at {}: {problem}", place.trim_start_matches([':', ' '])) }
 }

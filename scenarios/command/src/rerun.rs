@@ -96,7 +96,7 @@ fn made(
         }
         None => {
             let watch = || {
-                Ok::<_, RunError>(Again {
+                Ok::<_, RunError>(RerunObserver {
                     progress: Progress::new(loaded, &run, &company.bars),
                     left: steps,
                     over: false,
@@ -167,7 +167,7 @@ fn compared(recorded: &RecordedRun, ended: &RunEnd) -> Exit {
 }
 
 /// Follows a run of which nothing is written.
-struct Again {
+struct RerunObserver {
     progress: Progress,
     /// Steps left.
     left: Option<u64>,
@@ -175,7 +175,7 @@ struct Again {
     stop: &'static AtomicBool,
 }
 
-impl Observer for Again {
+impl Observer for RerunObserver {
     fn see(&mut self, event: &Event) {
         self.progress.see(event);
         if let (Event::Tick(_), Some(left)) = (event, &mut self.left) {

@@ -8,7 +8,7 @@ use output::charts::png;
 use output::files::{beside_no_run, write_whole};
 use rheotaxis::scenario::FolderFiles;
 use robots::guide::GuidanceSpec;
-use robots::handoff::{Capabilities, Does};
+use robots::handoff::{Capabilities, DriveEffect};
 use robots::vehicles::{
     CATALOGUE, FolderVehicle, KinematicSpec, RemusSpec, SHIPPED, ShippedVehicle, Vehicle, VehicleSpec,
 };
@@ -35,14 +35,14 @@ pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
 }
 
 /// What is wrong, and what would help.
-pub(super) type Wrong = (String, Option<String>);
+pub(super) type Problem = (String, Option<String>);
 
-pub(super) fn plainly(problem: impl ToString) -> Wrong {
+pub(super) fn plainly(problem: impl ToString) -> Problem {
     (problem.to_string(), None)
 }
 
 /// A folder of the user's own, or a vehicle that `rheotaxis list vehicles` names; letters count as small ones.
-fn spec(folder: &Path) -> Result<VehicleSpec, Wrong> {
+fn spec(folder: &Path) -> Result<VehicleSpec, Problem> {
     let name = folder.to_string_lossy().trim_end_matches('/').to_string();
     if folder.is_dir() {
         return Ok(VehicleSpec::File(name));
@@ -80,7 +80,7 @@ fn title(craft: &Vehicle) -> &str {
     }
 }
 
-pub(super) fn loaded(folder: &Path) -> Result<Vehicle, Wrong> {
+pub(super) fn loaded(folder: &Path) -> Result<Vehicle, Problem> {
     Vehicle::load(&spec(folder)?, &FolderFiles(Path::new(""))).map_err(plainly)
 }
 
@@ -89,7 +89,7 @@ fn stem(folder: &Path) -> String {
     folder.file_name().map_or("vehicle".into(), |n| n.to_string_lossy().into_owned())
 }
 
-fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
+fn check(args: &VehicleCheckArgs) -> Result<(), Problem> {
     let craft = loaded(&args.folder)?;
     for doubt in craft.doubts() {
         say::line(format_args!("doubt: {doubt}"));
@@ -144,16 +144,18 @@ fn print(vehicle: &FolderVehicle) {
     for (k, ((drive, link), (_, way))) in drives.zip(vehicle.acting()).enumerate() {
         let [least, most] = drive.limits;
         let (does, acts) = match &drive.does {
-            Does::Pushes(_, table) => {
+            DriveEffect::Pushes(_, table) => {
                 let [astern, ahead] = table.thrusts_n();
                 (format!("thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}"), "pushes along")
             }
-            Does::Lifts(_) => (
+            DriveEffect::Lifts(_) => (
                 format!("fin, {:.1} to {:.1} degrees", least.to_degrees(), most.to_degrees()),
                 "a positive angle pushes along",
             ),
-            Does::Swells(_) => (format!("buoyancy engine, {least} to {most} m3"), "a positive volume lifts along"),
-            Does::Shifts(_, kg) => (format!("moving mass of {kg} kg, {least} to {most} m"), "slides along"),
+            DriveEffect::Swells(_) => {
+                (format!("buoyancy engine, {least} to {most} m3"), "a positive volume lifts along")
+            }
+            DriveEffect::Shifts(_, kg) => (format!("moving mass of {kg} kg, {least} to {most} m"), "slides along"),
         };
         say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
         let place = vehicle.mount(link).map_or(way, |pose| pose.p_WB);
@@ -204,7 +206,7 @@ fn looks(vehicle: &FolderVehicle) -> Looks {
     }
 }
 
-fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
+fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Problem> {
     beside_no_run(&args.out.join("trials.csv")).map_err(plainly)?;
     let craft = loaded(&args.folder)?;
     let name = title(&craft);
@@ -272,7 +274,7 @@ fn steering(trials: &[Trial]) -> String {
     text
 }
 
-fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
+fn init(args: &VehicleInitArgs) -> Result<(), Problem> {
     let Some(shipped) = ShippedVehicle::named(&args.name) else {
         return Err((
             format!("no vehicle \"{}\" comes with the program", args.name),

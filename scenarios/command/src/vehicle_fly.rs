@@ -2,7 +2,7 @@
 
 use super::args_vehicle::VehicleFlyArgs;
 use super::say;
-use super::vehicle::{Wrong, loaded, plainly};
+use super::vehicle::{Problem, loaded, plainly};
 use nalgebra::Vector3;
 use output::files::write_whole;
 use robots::vehicles::Vehicle;
@@ -14,7 +14,7 @@ use world::files::read_text;
 const LONGEST: u64 = 64 << 20;
 
 /// Flies it and writes its states.
-pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
+pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Problem> {
     let Vehicle::Described(vehicle) = loaded(&args.folder)? else {
         return Err((
             "only a vehicle of a folder has drives with names to fly it by".into(),

@@ -43,7 +43,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 use world::digest::Fingerprint;
-use world::files::{self, Found, Shelf, ShelfError};
+use world::files::{self, Shelf, ShelfEntry, ShelfError};
 
 /// The most bytes that kept spin-ups take, unless another bound is given.
 pub const MOST: u64 = 2_000_000_000;
@@ -173,12 +173,12 @@ impl SpinUps {
     fn get(&self, key: &[u8; 32], origin: &Origin, ocean: &Ocean) -> Option<SpunUp> {
         let broken = || CacheFault::Broken(self.shelf.dir().to_owned());
         match self.shelf.get(key) {
-            Ok(Found::Nothing) => None,
-            Ok(Found::Broken) => {
+            Ok(ShelfEntry::Nothing) => None,
+            Ok(ShelfEntry::Broken) => {
                 self.note(broken());
                 None
             }
-            Ok(Found::Whole(bytes)) => {
+            Ok(ShelfEntry::Whole(bytes)) => {
                 let read = SpunUp::read(ocean, origin, &bytes);
                 // What another program of the same bytes wrote can be read; so this is a mistake of ours, or malice.
                 read.inspect_err(|_| self.note(broken())).ok()

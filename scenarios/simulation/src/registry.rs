@@ -33,7 +33,7 @@ pub enum Group {
 
 /// How a scenario names the entries of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Named {
+pub enum EntryNames {
     /// As a choice: `Name(...)`.
     Choice,
     /// As a field: `name: (...)`.
@@ -50,7 +50,7 @@ pub struct Section {
     /// Its heading.
     pub heading: &'static str,
     /// How a scenario names its entries.
-    pub named: Named,
+    pub named: EntryNames,
     /// Its entries.
     pub entries: Vec<Entry>,
 }
@@ -59,7 +59,7 @@ pub struct Section {
 #[must_use]
 pub fn sections(registry: &Registry) -> Vec<Section> {
     use Group::{Algorithms, Flows, Sensors, Vehicles};
-    let chosen = Of(registry);
+    let chosen = RegistrySections(registry);
     let all = [
         chosen.kind::<robots::strategy::Strategies>(Algorithms),
         chosen.kind::<robots::behave::Finds>(Algorithms),
@@ -73,7 +73,7 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
         chosen.kind::<robots::declare::BeliefRules>(Algorithms),
         within(Algorithms, "Eyes (rheotaxis segment, and a verifier's fields)", robots::vision::CATALOGUE),
         within(Algorithms, "Guidance", robots::guide::CATALOGUE),
-        fixed(Algorithms, "Estimators", Named::Choice, robots::estimate::CATALOGUE),
+        fixed(Algorithms, "Estimators", EntryNames::Choice, robots::estimate::CATALOGUE),
         within(Algorithms, "Autopilots", robots::actuate::CATALOGUE),
         chosen.kind::<robots::track::GantryStrategies>(Algorithms),
         within(Algorithms, "Units of the Crab tracker, by their fields", robots::track::UNITS),
@@ -81,9 +81,9 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
         within(Algorithms, "Objects in a sidescan's picture", robots::survey::CATALOGUE),
         chosen.kind::<plumes::flow::Currents>(Flows),
         within(Flows, "What turns the flows (water: …)", plumes::flow::OPTIONS),
-        Section { named: Named::Field, ..chosen.kind::<robots::sense::Sensors>(Sensors) },
-        fixed(Sensors, "Sensors of a gantry", Named::Field, robots::sense::PARTS),
-        fixed(Vehicles, "Vehicles and gantries", Named::Choice, robots::vehicles::CATALOGUE),
+        Section { named: EntryNames::Field, ..chosen.kind::<robots::sense::Sensors>(Sensors) },
+        fixed(Sensors, "Sensors of a gantry", EntryNames::Field, robots::sense::PARTS),
+        fixed(Vehicles, "Vehicles and gantries", EntryNames::Choice, robots::vehicles::CATALOGUE),
         chosen.kind::<Apparatuses>(Vehicles),
     ];
     let mut sections: Vec<Section> = Vec::new();
@@ -120,20 +120,20 @@ pub fn messages(frame: &Frame) -> Vec<(String, Value)> {
 }
 
 /// Sections under a registry.
-struct Of<'r>(&'r Registry);
+struct RegistrySections<'r>(&'r Registry);
 
-impl Of<'_> {
+impl RegistrySections<'_> {
     fn kind<K: Kind>(&self, group: Group) -> Section {
-        Section { group, heading: K::HEADING, named: Named::Choice, entries: self.0.entries::<K>() }
+        Section { group, heading: K::HEADING, named: EntryNames::Choice, entries: self.0.entries::<K>() }
     }
 }
 
-fn fixed(group: Group, heading: &'static str, named: Named, entries: &[Entry]) -> Section {
+fn fixed(group: Group, heading: &'static str, named: EntryNames, entries: &[Entry]) -> Section {
     Section { group, heading, named, entries: entries.to_vec() }
 }
 
 fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
-    fixed(group, heading, Named::Within, entries)
+    fixed(group, heading, EntryNames::Within, entries)
 }
 
 #[cfg(test)]
@@ -186,9 +186,9 @@ mod tests {
         for section in sections(&Registry::default()) {
             for e in &section.entries {
                 let use_of = match section.named {
-                    Named::Choice => format!("{}(", e.name),
-                    Named::Field => format!("{}: (", e.name),
-                    Named::Within => continue,
+                    EntryNames::Choice => format!("{}(", e.name),
+                    EntryNames::Field => format!("{}: (", e.name),
+                    EntryNames::Within => continue,
                 };
                 // A folder of one's own is no part of the program; `docs/vehicles.md` makes one.
                 let elsewhere = e.name == "File";

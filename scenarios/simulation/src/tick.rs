@@ -12,7 +12,7 @@
 
 mod in_order;
 
-use crate::machines::{BodiesMove, Turn};
+use crate::machines::{BodiesMove, SystemTurn};
 use crate::ocean::system as ocean;
 use crate::outbox::{Frames, close_frame, open_frame};
 use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule, World};
@@ -62,10 +62,12 @@ impl Tick {
             frames,
             waits: false,
         };
-        tick.act.add_systems(move_bodies.in_set(Stage::Physics).in_set(BodiesMove).before(Turn::Added(Stage::Physics)));
-        tick.report.add_systems(ocean::digest_plume.in_set(report).before(Turn::Added(report)));
+        tick.act.add_systems(
+            move_bodies.in_set(Stage::Physics).in_set(BodiesMove).before(SystemTurn::Added(Stage::Physics)),
+        );
+        tick.report.add_systems(ocean::digest_plume.in_set(report).before(SystemTurn::Added(report)));
         for n in 1..turns {
-            let after = Turn::Frame(n).after(Turn::Frame(n - 1));
+            let after = SystemTurn::Frame(n).after(SystemTurn::Frame(n - 1));
             tick.frame.configure_sets(after);
         }
         tick
@@ -132,16 +134,16 @@ fn part(label: Part, stages: &[Stage], turns: usize, own: usize) -> Schedule {
         part.configure_sets(pair[0].before(pair[1]));
     }
     for &stage in stages {
-        part.configure_sets(Turn::Added(stage).in_set(stage));
+        part.configure_sets(SystemTurn::Added(stage).in_set(stage));
         for n in 0..turns {
-            let turn = Turn::Of(stage, n);
+            let turn = SystemTurn::Of(stage, n);
             if n < own {
-                part.configure_sets(turn.in_set(stage).before(Turn::Added(stage)));
+                part.configure_sets(turn.in_set(stage).before(SystemTurn::Added(stage)));
             } else {
-                part.configure_sets(turn.in_set(Turn::Added(stage)));
+                part.configure_sets(turn.in_set(SystemTurn::Added(stage)));
             }
             if n > 0 {
-                part.configure_sets(turn.after(Turn::Of(stage, n - 1)));
+                part.configure_sets(turn.after(SystemTurn::Of(stage, n - 1)));
             }
         }
     }

@@ -88,7 +88,7 @@ impl Trial {
     /// # Panics
     /// If the run has been spun up before.
     pub fn spin_up(&mut self, observer: &mut dyn Observer) -> Option<SpunUp> {
-        self.develop(observer);
+        self.run_spin_up(observer);
         (self.progress.phase == RunPhase::SpunUp).then(|| {
             let state = self.simulation.ocean().state();
             SpunUp::new(self.simulation.origin.clone(), state)
@@ -108,11 +108,11 @@ impl Trial {
         let state = spun_up.copy_for(&self.simulation.origin)?;
         self.start_afresh();
         self.simulation.ocean_mut().put_state(state);
-        self.set_out(false);
+        self.begin_mission(false);
         Ok(())
     }
 
-    fn develop(&mut self, observer: &mut dyn Observer) {
+    fn run_spin_up(&mut self, observer: &mut dyn Observer) {
         self.start_afresh();
         let mut stopped = false;
         self.simulation.ocean_mut().spin_up(|share| {
@@ -120,7 +120,7 @@ impl Trial {
             stopped = !observer.goes_on();
             !stopped
         });
-        self.set_out(stopped);
+        self.begin_mission(stopped);
     }
 
     fn start_afresh(&self) {
@@ -131,7 +131,7 @@ impl Trial {
     }
 
     /// Begins the mission in the ocean as it is, unless an observer has stopped the spin-up.
-    pub(crate) fn set_out(&mut self, stopped: bool) {
+    pub(crate) fn begin_mission(&mut self, stopped: bool) {
         self.progress.phase = if stopped { RunPhase::Stopped } else { RunPhase::SpunUp };
         self.simulation.ocean_mut().set_out();
         self.digest_plume();
@@ -177,7 +177,7 @@ impl Trial {
     /// One tick with an observer; `false` once the run is over or `observer` stopped it.
     fn advance(&mut self, observer: &mut dyn Observer) -> bool {
         if self.progress.phase == RunPhase::Assembled {
-            self.develop(observer);
+            self.run_spin_up(observer);
         }
         if !self.going() {
             return false;
@@ -185,7 +185,7 @@ impl Trial {
         self.search(observer);
         self.simulation.drift();
         self.simulation.report();
-        self.heed(observer)
+        self.close_tick(observer)
     }
 
     /// Whether the mission has begun and lasts.
@@ -194,7 +194,7 @@ impl Trial {
     }
 
     /// Shows an observer what a tick has made; `false` once the run is over or the observer stopped it.
-    pub(crate) fn heed(&mut self, observer: &mut dyn Observer) -> bool {
+    pub(crate) fn close_tick(&mut self, observer: &mut dyn Observer) -> bool {
         self.show(observer);
         let t_s = self.simulation.t_s();
         observer.see(&Event::Tick(t_s));

@@ -5,7 +5,7 @@ use rheotaxis::cache::CacheFault;
 use rheotaxis::scenario::Loaded;
 use std::fs;
 use std::path::Path;
-use world::files::{Found, Shelf};
+use world::files::{Shelf, ShelfEntry};
 
 fn small() -> Loaded {
     short("uniform_channel", 20.0, 5.0)
@@ -47,7 +47,7 @@ fn a_whole_file_with_another_content_is_an_error_and_no_panic() {
         let (first, _) = developed(&loaded, 1, &all(&place));
         let key = key(&place);
         let shelf = || Shelf::new(place.clone(), 1 << 30);
-        let Found::Whole(content) = shelf().get(&key).unwrap() else {
+        let ShelfEntry::Whole(content) = shelf().get(&key).unwrap() else {
             panic!("it was kept");
         };
         let n = content.len();
@@ -62,7 +62,7 @@ fn a_whole_file_with_another_content_is_an_error_and_no_panic() {
             assert!(matches!(kept.fault(), Some(CacheFault::Broken(_))));
             assert_eq!(plume(&trial), plume(&first));
         }
-        assert_eq!(shelf().get(&key).unwrap(), Found::Whole(content));
+        assert_eq!(shelf().get(&key).unwrap(), ShelfEntry::Whole(content));
     }
 }
 

@@ -106,10 +106,10 @@ fn a_wall_stops_it_at_any_step() {
             let id = physics.add_body(hull.body_spec("auv", truth));
             let ahead: Vec<f64> = (hull.plant().drives.iter())
                 .map(|d| match &d.does {
-                    robots::handoff::Does::Pushes(arm, table) if arm[0] > 0.5 => {
+                    robots::handoff::DriveEffect::Pushes(arm, table) if arm[0] > 0.5 => {
                         table.input(share * table.thrusts_n()[1])
                     }
-                    robots::handoff::Does::Pushes(arm, table) if arm[0] < -0.5 => {
+                    robots::handoff::DriveEffect::Pushes(arm, table) if arm[0] < -0.5 => {
                         table.input(share * table.thrusts_n()[0])
                     }
                     _ => d.idle,

@@ -18,4 +18,4 @@ pub use lock::is_in_use;
 pub use output::{
     Output, OutputError, clear_abandoned, drop_unfinished, folder_of, make_folder, write, write_new, write_on_disk,
 };
-pub use shelf::{Found, Shelf, ShelfError, Stock};
+pub use shelf::{Shelf, ShelfEntry, ShelfError, Stock};

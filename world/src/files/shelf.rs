@@ -37,7 +37,7 @@ pub struct Shelf {
 
 /// What stands under a key.
 #[derive(Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum ShelfEntry {
     /// Nothing.
     Nothing,
     /// Something that was not written there, or not whole. It has been removed.
@@ -103,20 +103,20 @@ impl Shelf {
     ///
     /// # Errors
     /// If something is there that cannot be read, such as a folder or another user's file.
-    pub fn get(&self, key: &[u8; 32]) -> Result<Found, ShelfError> {
+    pub fn get(&self, key: &[u8; 32]) -> Result<ShelfEntry, ShelfError> {
         let path = self.path(key);
         match read(&path, key) {
             Ok(Some(content)) => {
                 // In a folder without rights the order of use is not kept.
                 let file = File::options().write(true).open(&path);
                 let _ = file.and_then(|f| f.set_modified(SystemTime::now()));
-                Ok(Found::Whole(content))
+                Ok(ShelfEntry::Whole(content))
             }
             Ok(None) => {
                 let _ = fs::remove_file(&path);
-                Ok(Found::Broken)
+                Ok(ShelfEntry::Broken)
             }
-            Err(e) if e.kind() == ErrorKind::NotFound => Ok(Found::Nothing),
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(ShelfEntry::Nothing),
             Err(source) => Err(ShelfError { path, source }),
         }
     }

@@ -11,8 +11,8 @@ fn shelf(dir: &Path, most: u64) -> Shelf {
     Shelf::new(dir.join("kept"), most)
 }
 
-fn whole(content: &[u8]) -> Found {
-    Found::Whole(content.to_vec())
+fn whole(content: &[u8]) -> ShelfEntry {
+    ShelfEntry::Whole(content.to_vec())
 }
 
 /// The files of a shelf, by name.
@@ -33,13 +33,13 @@ fn age(path: &Path, seconds: u64) {
 fn what_was_put_is_found_and_may_be_put_again() {
     let dir = tempfile::tempdir().unwrap();
     let shelf = shelf(dir.path(), 1 << 20);
-    assert_eq!(shelf.get(&KEY).unwrap(), Found::Nothing);
+    assert_eq!(shelf.get(&KEY).unwrap(), ShelfEntry::Nothing);
     assert_eq!(shelf.stock().unwrap(), Stock::default());
     for content in [&b"one"[..], b"", b"another"] {
         assert!(shelf.store(&KEY, content).unwrap());
         assert_eq!(shelf.get(&KEY).unwrap(), whole(content));
     }
-    assert_eq!(shelf.get(&[8; 32]).unwrap(), Found::Nothing);
+    assert_eq!(shelf.get(&[8; 32]).unwrap(), ShelfEntry::Nothing);
     assert_eq!(files(&shelf).len(), 1);
 }
 
@@ -53,9 +53,9 @@ fn a_file_that_is_not_whole_is_never_taken_for_one() {
     let good = fs::read(&path).unwrap();
     let broken = |bytes: &[u8], what: &str| {
         fs::write(&path, bytes).unwrap();
-        assert_eq!(shelf.get(&KEY).unwrap(), Found::Broken, "{what}");
+        assert_eq!(shelf.get(&KEY).unwrap(), ShelfEntry::Broken, "{what}");
         assert!(!path.exists(), "{what}: it is removed");
-        assert_eq!(shelf.get(&KEY).unwrap(), Found::Nothing);
+        assert_eq!(shelf.get(&KEY).unwrap(), ShelfEntry::Nothing);
     };
     for n in 0..good.len() {
         broken(&good[..n], "cut short");
@@ -93,7 +93,7 @@ fn the_least_recently_used_go_first_and_what_is_not_ours_stays() {
     // The first is read again; so the second goes.
     assert_eq!(one(3500).get(&keys[0]).unwrap(), whole(&content));
     assert!(one(3500).store(&keys[3], &content).unwrap());
-    let there = keys.map(|key| one(0).get(&key).unwrap() != Found::Nothing);
+    let there = keys.map(|key| one(0).get(&key).unwrap() != ShelfEntry::Nothing);
     assert_eq!(there, [true, false, true, true]);
     assert!(notes.exists() && similar.exists());
     let stock = one(0).stock().unwrap();
@@ -148,9 +148,9 @@ fn many_at_once_leave_whole_files_below_the_bound() {
                     // A process of its own each time.
                     let shelf = shelf(dir, 60_000);
                     match shelf.get(&[n; 32]).unwrap() {
-                        Found::Whole(found) => assert_eq!(found, content(n)),
-                        Found::Nothing => assert!(shelf.store(&[n; 32], &content(n)).unwrap()),
-                        Found::Broken => panic!("half a file was seen"),
+                        ShelfEntry::Whole(found) => assert_eq!(found, content(n)),
+                        ShelfEntry::Nothing => assert!(shelf.store(&[n; 32], &content(n)).unwrap()),
+                        ShelfEntry::Broken => panic!("half a file was seen"),
                     }
                 }
             });

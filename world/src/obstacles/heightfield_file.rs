@@ -9,7 +9,7 @@
 //! cell smaller than the raster. The position in the file is ignored: the scenario places the surface by its centre. A
 //! missing height is an error, not a hole; without the line `NODATA_value` it is the format's own, -9999.
 
-use super::mesh_file::{Triangle, Wrong};
+use super::mesh_file::{MeshProblem, Triangle};
 use crate::error::WorldError;
 use crate::files;
 use std::path::Path;
@@ -46,7 +46,7 @@ pub(super) fn read(path: &Path) -> Result<Heights, WorldError> {
     parse(&text).map_err(fail)
 }
 
-fn parse(text: &str) -> Result<Heights, Wrong> {
+fn parse(text: &str) -> Result<Heights, MeshProblem> {
     let mut header = Header::default();
     let mut z = Vec::new();
     for (n, line) in text.lines().enumerate() {
@@ -111,7 +111,7 @@ impl Header {
         Ok(())
     }
 
-    fn grid(self, z: Vec<f64>) -> Result<Heights, Wrong> {
+    fn grid(self, z: Vec<f64>) -> Result<Heights, MeshProblem> {
         let whole = |problem: String| Err((String::new(), problem));
         let Self { columns, rows, cell, .. } = self;
         if columns == 0 || rows == 0 || cell <= 0.0 {

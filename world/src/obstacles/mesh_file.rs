@@ -38,7 +38,7 @@ fn ending(name: &Path) -> String {
 ///
 /// # Errors
 /// If the content is broken or empty: the place in the file and the problem.
-pub fn mesh_corners(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Wrong> {
+pub fn mesh_corners(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, MeshProblem> {
     corners(bytes, &ending(name))
 }
 
@@ -47,11 +47,11 @@ pub fn mesh_corners(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Wrong> {
 ///
 /// # Errors
 /// If the content is broken, empty or too large: the place in the file and the problem.
-pub fn mesh_triangles(bytes: &[u8], name: &Path) -> Result<Vec<[[f64; 3]; 3]>, Wrong> {
+pub fn mesh_triangles(bytes: &[u8], name: &Path) -> Result<Vec<[[f64; 3]; 3]>, MeshProblem> {
     parse(bytes, &ending(name))
 }
 
-fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
+fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, MeshProblem> {
     let bytes = unmarked(bytes);
     if ending != "obj" {
         return Ok(parse(bytes, ending)?.into_iter().flatten().collect());
@@ -70,7 +70,7 @@ fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
     Ok(points)
 }
 
-fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
+fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, MeshProblem> {
     let bytes = unmarked(bytes);
     let triangles = match ending {
         "stl" if is_ascii_stl(bytes) => ascii_stl(bytes)?,
@@ -93,7 +93,7 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
 
 /// The place in a file, beginning with a colon (":12", ": triangle 3") or empty for the file as a whole, and what is
 /// wrong there.
-pub type Wrong = (String, String);
+pub type MeshProblem = (String, String);
 
 /// Most triangles of a surface: with all that is built from them, they take half a gigabyte.
 const MOST: usize = 2_000_000;
@@ -112,7 +112,7 @@ fn binary_length(bytes: &[u8]) -> Option<usize> {
     Some(HEADER + RECORD * u32::from_le_bytes(count) as usize)
 }
 
-fn binary_stl(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
+fn binary_stl(bytes: &[u8]) -> Result<Vec<Triangle>, MeshProblem> {
     let whole = binary_length(bytes)
         .ok_or((String::new(), format!("cut short: {} bytes, an STL header has {HEADER}", bytes.len())))?;
     if bytes.len() < whole {
@@ -131,7 +131,7 @@ fn binary_stl(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
     Ok(triangles)
 }
 
-fn ascii_stl(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
+fn ascii_stl(bytes: &[u8]) -> Result<Vec<Triangle>, MeshProblem> {
     let text = String::from_utf8_lossy(bytes);
     let (mut triangles, mut corners, mut ended) = (Vec::new(), Vec::new(), false);
     for (n, line) in text.lines().enumerate() {
@@ -158,7 +158,7 @@ fn ascii_stl(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
     Err((place, "cut short: no \"endsolid\" at the end".into()))
 }
 
-fn obj(bytes: &[u8]) -> Result<Vec<Triangle>, Wrong> {
+fn obj(bytes: &[u8]) -> Result<Vec<Triangle>, MeshProblem> {
     let text = String::from_utf8_lossy(bytes);
     let (mut points, mut triangles) = (Vec::new(), Vec::new());
     for (n, line) in text.lines().enumerate() {
@@ -194,7 +194,7 @@ fn corner_of(word: &str, points: &[[f64; 3]]) -> Result<[f64; 3], String> {
         .ok_or(format!("vertex {index} of {count} does not exist (yet)"))
 }
 
-fn numbers<'a>(words: impl Iterator<Item = &'a str>, here: &str) -> Result<[f64; 3], Wrong> {
+fn numbers<'a>(words: impl Iterator<Item = &'a str>, here: &str) -> Result<[f64; 3], MeshProblem> {
     let mut v = [0.0; 3];
     let mut words = words;
     for slot in &mut v {

@@ -17,7 +17,7 @@ mod triangles;
 mod way_out;
 
 pub use cast::Hit;
-pub use mesh_file::{LONGEST_MESH_BYTES, Wrong, mesh_corners, mesh_triangles};
+pub use mesh_file::{LONGEST_MESH_BYTES, MeshProblem, mesh_corners, mesh_triangles};
 pub use placing::Remark;
 pub use solid::{Obstacle, Obstacles};
 pub use spec::{Base, BoxShape, CylinderShape, HeightfieldShape, MeshShape, ObstacleSpec, ShapeSpec};

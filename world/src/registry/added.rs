@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// A row of any kind.
 #[derive(Clone, Debug)]
-struct Added {
+struct RegistryRow {
     kind: TypeId,
     row: Arc<dyn Any + Send + Sync>,
 }
@@ -20,7 +20,7 @@ struct Added {
 /// the tick). By default nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Registry {
-    added: Vec<Added>,
+    added: Vec<RegistryRow>,
     carried: Vec<Arc<dyn Any + Send + Sync>>,
 }
 
@@ -57,7 +57,7 @@ impl Registry {
                 problem: format!("there is a `{name}` already; give yours another name"),
             });
         }
-        self.added.push(Added { kind: TypeId::of::<K>(), row: Arc::new(Row::<K>::new::<S>()) });
+        self.added.push(RegistryRow { kind: TypeId::of::<K>(), row: Arc::new(Row::<K>::new::<S>()) });
         Ok(self)
     }
 
@@ -90,13 +90,13 @@ impl Registry {
     /// Does something on this thread, such as reading a file, with these rows known.
     pub fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
         /// Puts back what was known before, also if the work panics.
-        struct Before(Registry);
-        impl Drop for Before {
+        struct RestoreOnDrop(Registry);
+        impl Drop for RestoreOnDrop {
             fn drop(&mut self) {
                 NOW.set(std::mem::take(&mut self.0));
             }
         }
-        let _before = Before(NOW.replace(self.clone()));
+        let _before = RestoreOnDrop(NOW.replace(self.clone()));
         work()
     }
 

@@ -1,6 +1,6 @@
 //! What stands in a scenario where something is chosen by name.
 
-use super::names::{Known, Where};
+use super::names::{NamePlace, NamedRows};
 use super::source::Source;
 use super::source_error::SourceError;
 use super::{Kind, Row, Spec, Standard, Takes};
@@ -107,13 +107,13 @@ impl<K: Kind> Serialize for Choice<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Choice<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = Known::now();
+        let known = NamedRows::now();
         from.deserialize_enum(K::NAME, known.legal, OneOf(known))
     }
 }
 
 /// Reads one of a kind's things.
-struct OneOf<K: Kind>(Known<K>);
+struct OneOf<K: Kind>(NamedRows<K>);
 
 impl<'de, K: Kind> Visitor<'de> for OneOf<K> {
     type Value = Choice<K>;
@@ -123,7 +123,7 @@ impl<'de, K: Kind> Visitor<'de> for OneOf<K> {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Choice<K>, A::Error> {
-        let (row, parameters) = data.variant_seed(self.0.name(Where::Variant))?;
+        let (row, parameters) = data.variant_seed(self.0.name(NamePlace::Variant))?;
         parameters.newtype_variant_seed(row)
     }
 }

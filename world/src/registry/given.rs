@@ -10,7 +10,7 @@ pub(super) type Format<'f, 'de> = dyn erased_serde::Deserializer<'de> + 'f;
 pub(super) type Result<T> = std::result::Result<T, SourceError>;
 
 /// What a format gives, to be taken by the visitor of a type.
-pub(super) enum Given<'g, 'de> {
+pub(super) enum InputValue<'g, 'de> {
     Nothing,
     /// The text of a value as it stands in the file: `ron::value::RawValue` asks for it.
     Text(&'g str),
@@ -20,7 +20,7 @@ pub(super) enum Given<'g, 'de> {
     Choice(&'g mut dyn Variants<'de>),
 }
 
-impl Given<'_, '_> {
+impl InputValue<'_, '_> {
     /// It is not what the type asked for.
     pub(super) fn unfit(&self, expected: &dyn serde::de::Expected) -> SourceError {
         SourceError::invalid_type(
@@ -37,7 +37,7 @@ impl Given<'_, '_> {
     }
 }
 
-pub(super) type Take<'t, 'de> = &'t mut dyn FnMut(Given<'_, 'de>) -> Result<()>;
+pub(super) type Take<'t, 'de> = &'t mut dyn FnMut(InputValue<'_, 'de>) -> Result<()>;
 
 /// A map, one step after the other.
 pub(super) trait Pairs<'de> {
@@ -70,7 +70,7 @@ impl<'de> DeserializeSeed<'de> for Pass<'_, 'de> {
 
     fn deserialize<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
         let mut from = <dyn erased_serde::Deserializer>::erase(from);
-        (self.0)(Given::Inner(&mut from)).map_err(SourceError::into_other)
+        (self.0)(InputValue::Inner(&mut from)).map_err(SourceError::into_other)
     }
 }
 
@@ -82,7 +82,7 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
     }
 
     fn visit_none<E: serde::de::Error>(self) -> std::result::Result<(), E> {
-        (self.0)(Given::Nothing).map_err(SourceError::into_other)
+        (self.0)(InputValue::Nothing).map_err(SourceError::into_other)
     }
 
     fn visit_unit<E: serde::de::Error>(self) -> std::result::Result<(), E> {
@@ -90,7 +90,7 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
     }
 
     fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<(), E> {
-        (self.0)(Given::Text(text)).map_err(SourceError::into_other)
+        (self.0)(InputValue::Text(text)).map_err(SourceError::into_other)
     }
 
     fn visit_some<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
@@ -102,16 +102,16 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<(), A::Error> {
-        (self.0)(Given::Map(&mut map)).map_err(SourceError::into_other)
+        (self.0)(InputValue::Map(&mut map)).map_err(SourceError::into_other)
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> std::result::Result<(), A::Error> {
-        (self.0)(Given::Seq(&mut seq)).map_err(SourceError::into_other)
+        (self.0)(InputValue::Seq(&mut seq)).map_err(SourceError::into_other)
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, choice: A) -> std::result::Result<(), A::Error> {
         let mut choice = OneOf { choice: Some(choice), variant: None };
-        (self.0)(Given::Choice(&mut choice)).map_err(SourceError::into_other)
+        (self.0)(InputValue::Choice(&mut choice)).map_err(SourceError::into_other)
     }
 }
 
@@ -189,7 +189,7 @@ pub(super) fn word(from: &mut Format<'_, '_>) -> Result<String> {
 }
 
 pub(super) fn unit(from: &mut Format<'_, '_>, name: &'static str) -> Result<()> {
-    let nothing = &mut |_: Given<'_, '_>| Ok(());
+    let nothing = &mut |_: InputValue<'_, '_>| Ok(());
     from.deserialize_unit_struct(name, Pass(nothing)).map_err(SourceError::custom)
 }
 

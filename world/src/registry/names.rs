@@ -21,12 +21,12 @@ fn kept(names: &[&'static str]) -> &'static [&'static str] {
 }
 
 /// The rows of a kind with their names.
-pub(super) struct Known<K: Kind> {
+pub(super) struct NamedRows<K: Kind> {
     pub(super) rows: Vec<Row<K>>,
     pub(super) legal: &'static [&'static str],
 }
 
-impl<K: Kind> Known<K> {
+impl<K: Kind> NamedRows<K> {
     /// Those of the registry in use.
     pub(super) fn now() -> Self {
         let rows = Registry::now().rows::<K>();
@@ -35,14 +35,14 @@ impl<K: Kind> Known<K> {
     }
 
     /// The reader of a name that stands there.
-    pub(super) fn name(&self, place: Where) -> Name<'_, K> {
+    pub(super) fn name(&self, place: NamePlace) -> Name<'_, K> {
         Name { known: self, place }
     }
 }
 
 /// Where a name stands.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Where {
+pub(super) enum NamePlace {
     /// It is chosen among others.
     Variant,
     /// It names the field of a struct.
@@ -51,8 +51,8 @@ pub(super) enum Where {
 
 /// Reads a name, and finds its row.
 pub(super) struct Name<'r, K: Kind> {
-    known: &'r Known<K>,
-    place: Where,
+    known: &'r NamedRows<K>,
+    place: NamePlace,
 }
 
 impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
@@ -68,16 +68,16 @@ impl<K: Kind> Visitor<'_> for Name<'_, K> {
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(match self.place {
-            Where::Variant => "a name",
-            Where::Field => "field identifier",
+            NamePlace::Variant => "a name",
+            NamePlace::Field => "field identifier",
         })
     }
 
     fn visit_str<E: Error>(self, name: &str) -> Result<Row<K>, E> {
         let row = self.known.rows.iter().find(|r| r.entry.name == name);
         row.copied().ok_or_else(|| match self.place {
-            Where::Variant => E::unknown_variant(name, self.known.legal),
-            Where::Field => E::unknown_field(name, self.known.legal),
+            NamePlace::Variant => E::unknown_variant(name, self.known.legal),
+            NamePlace::Field => E::unknown_field(name, self.known.legal),
         })
     }
 

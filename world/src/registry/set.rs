@@ -1,6 +1,6 @@
 //! What stands in a scenario where several things of a kind are named, each once: a struct with a field for each.
 
-use super::names::{Known, Where};
+use super::names::{NamePlace, NamedRows};
 use super::{Choice, Kind, Registry, Row, Takes};
 use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
 use serde::ser::SerializeStruct;
@@ -91,13 +91,13 @@ impl<K: Kind> Serialize for Set<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Set<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = Known::now();
+        let known = NamedRows::now();
         from.deserialize_struct(K::NAME, known.legal, Fields(known))
     }
 }
 
 /// Reads the fields.
-struct Fields<K: Kind>(Known<K>);
+struct Fields<K: Kind>(NamedRows<K>);
 
 impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     type Value = Set<K>;
@@ -109,22 +109,22 @@ impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Set<K>, A::Error> {
         let mut seen: Vec<&'static str> = Vec::new();
         let mut set = Set::default();
-        while let Some(row) = map.next_key_seed(self.0.name(Where::Field))? {
+        while let Some(row) = map.next_key_seed(self.0.name(NamePlace::Field))? {
             let name = row.entry.name;
             if seen.contains(&name) {
                 return Err(Error::duplicate_field(name));
             }
             seen.push(name);
-            set.0.extend(map.next_value_seed(Perhaps(row))?);
+            set.0.extend(map.next_value_seed(OptionalField(row))?);
         }
         Ok(set.sorted(&self.0.rows))
     }
 }
 
 /// Reads a thing that may be left out.
-struct Perhaps<K: Kind>(Row<K>);
+struct OptionalField<K: Kind>(Row<K>);
 
-impl<'de, K: Kind> DeserializeSeed<'de> for Perhaps<K> {
+impl<'de, K: Kind> DeserializeSeed<'de> for OptionalField<K> {
     type Value = Option<Choice<K>>;
 
     fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
@@ -132,7 +132,7 @@ impl<'de, K: Kind> DeserializeSeed<'de> for Perhaps<K> {
     }
 }
 
-impl<'de, K: Kind> Visitor<'de> for Perhaps<K> {
+impl<'de, K: Kind> Visitor<'de> for OptionalField<K> {
     type Value = Option<Choice<K>>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -5,7 +5,7 @@
 //! for each type and for the names of its fields, a quarter of all code of the robots. What a type asks for reaches the
 //! format, and its errors keep their kind.
 
-use super::given::{Elements, Format, Given, Pairs, Request, Result, Variants, request, unit, word};
+use super::given::{Elements, Format, InputValue, Pairs, Request, Result, Variants, request, unit, word};
 use super::source_error::SourceError;
 use serde::Deserialize;
 use serde::de::{
@@ -35,9 +35,9 @@ impl<F, T> Taker<F, T> {
         Self { take: Some(take), value: None }
     }
 
-    fn give<'de>(&mut self, given: Given<'_, 'de>) -> Result<()>
+    fn give<'de>(&mut self, given: InputValue<'_, 'de>) -> Result<()>
     where
-        F: FnOnce(Given<'_, 'de>) -> Result<T>,
+        F: FnOnce(InputValue<'_, 'de>) -> Result<T>,
     {
         if let Some(take) = self.take.take() {
             self.value = Some(take(given)?);
@@ -55,7 +55,7 @@ impl<F, T> Taker<F, T> {
 fn value_of<'de, T>(
     from: &mut Format<'_, 'de>,
     what: Request,
-    take: impl FnOnce(Given<'_, 'de>) -> Result<T>,
+    take: impl FnOnce(InputValue<'_, 'de>) -> Result<T>,
 ) -> Result<T> {
     let mut taker = Taker::new(take);
     request(from, what, &mut |given| taker.give(given))?;
@@ -63,23 +63,23 @@ fn value_of<'de, T>(
 }
 
 /// A seed on the value within.
-fn seeded<'de, S: DeserializeSeed<'de>>(seed: S, given: Given<'_, 'de>) -> Result<S::Value> {
+fn seeded<'de, S: DeserializeSeed<'de>>(seed: S, given: InputValue<'_, 'de>) -> Result<S::Value> {
     match given {
-        Given::Inner(from) => seed.deserialize(Source(from)),
+        InputValue::Inner(from) => seed.deserialize(Source(from)),
         other => Err(other.unfit(&"a value")),
     }
 }
 
-fn in_sequence<'de, V: Visitor<'de>>(visitor: V, given: Given<'_, 'de>) -> Result<V::Value> {
+fn in_sequence<'de, V: Visitor<'de>>(visitor: V, given: InputValue<'_, 'de>) -> Result<V::Value> {
     match given {
-        Given::Seq(seq) => visitor.visit_seq(Access(seq)),
+        InputValue::Seq(seq) => visitor.visit_seq(Access(seq)),
         other => Err(other.unfit(&visitor)),
     }
 }
 
-fn in_map<'de, V: Visitor<'de>>(visitor: V, given: Given<'_, 'de>) -> Result<V::Value> {
+fn in_map<'de, V: Visitor<'de>>(visitor: V, given: InputValue<'_, 'de>) -> Result<V::Value> {
     match given {
-        Given::Map(map) => visitor.visit_map(Access(map)),
+        InputValue::Map(map) => visitor.visit_map(Access(map)),
         other => Err(other.unfit(&visitor)),
     }
 }
@@ -124,8 +124,8 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         value_of(self.0, Request::Option, |given| match given {
-            Given::Nothing => visitor.visit_none(),
-            Given::Inner(from) => visitor.visit_some(Source(from)),
+            InputValue::Nothing => visitor.visit_none(),
+            InputValue::Inner(from) => visitor.visit_some(Source(from)),
             other => Err(other.unfit(&visitor)),
         })
     }
@@ -142,8 +142,8 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(self, name: &'static str, visitor: V) -> Result<V::Value> {
         value_of(self.0, Request::Newtype(name), |given| match given {
-            Given::Text(text) => visitor.visit_str(text),
-            Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
+            InputValue::Text(text) => visitor.visit_str(text),
+            InputValue::Inner(from) => visitor.visit_newtype_struct(Source(from)),
             other => Err(other.unfit(&visitor)),
         })
     }
@@ -180,7 +180,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         visitor: V,
     ) -> Result<V::Value> {
         value_of(self.0, Request::Enum(name, legal), |given| match given {
-            Given::Choice(of) => visitor.visit_enum(Access(of)),
+            InputValue::Choice(of) => visitor.visit_enum(Access(of)),
             other => Err(other.unfit(&visitor)),
         })
     }
@@ -202,13 +202,13 @@ impl<'de> MapAccess<'de> for Access<&mut dyn Pairs<'de>> {
     type Error = SourceError;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| seeded(seed, given));
         self.0.key(&mut |given| taker.give(given))?;
         Ok(taker.value)
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| seeded(seed, given));
         self.0.value(&mut |given| taker.give(given))?;
         taker.value()
     }
@@ -218,7 +218,7 @@ impl<'de> SeqAccess<'de> for Access<&mut dyn Elements<'de>> {
     type Error = SourceError;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| seeded(seed, given));
         self.0.element(&mut |given| taker.give(given))?;
         Ok(taker.value)
     }
@@ -229,7 +229,7 @@ impl<'de> EnumAccess<'de> for Access<&mut dyn Variants<'de>> {
     type Variant = Self;
 
     fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self)> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| seeded(seed, given));
         self.0.name(&mut |given| taker.give(given))?;
         Ok((taker.value()?, self))
     }
@@ -243,19 +243,19 @@ impl<'de> VariantAccess<'de> for Access<&mut dyn Variants<'de>> {
     }
 
     fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| seeded(seed, given));
         self.0.newtype(&mut |given| taker.give(given))?;
         taker.value()
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| in_sequence(visitor, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| in_sequence(visitor, given));
         self.0.tuple(len, &mut |given| taker.give(given))?;
         taker.value()
     }
 
     fn struct_variant<V: Visitor<'de>>(self, legal: &'static [&'static str], visitor: V) -> Result<V::Value> {
-        let mut taker = Taker::new(|given: Given<'_, 'de>| in_map(visitor, given));
+        let mut taker = Taker::new(|given: InputValue<'_, 'de>| in_map(visitor, given));
         self.0.fields(legal, &mut |given| taker.give(given))?;
         taker.value()
     }

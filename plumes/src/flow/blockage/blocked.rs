@@ -18,7 +18,7 @@ use world::fields::Flow;
 use world::obstacles::Obstacles;
 
 use super::cells::{Cells, Faces};
-use super::field::{self, Between};
+use super::field::{self, FieldPair};
 use super::solve::{Projector, SolutionReport};
 use super::spec::BlockageSpec;
 use crate::error::PlumeError;
@@ -172,7 +172,7 @@ impl ObstacleFlow {
         flux
     }
 
-    fn between(&self, t_s: f64) -> Between<'_> {
+    fn between(&self, t_s: f64) -> FieldPair<'_> {
         let at = t_s / self.period_s - self.first as f64;
         let n = usize::from(at >= 1.0);
         ([&*self.fields[n], &*self.fields[n + 1]], at - n as f64)

@@ -15,10 +15,10 @@ use super::cells::{Cells, Faces};
 use crate::flow::ground::Floor;
 
 /// Two fields, and the position of the moment between the first and the second.
-pub(super) type Between<'a> = ([&'a Faces<f32>; 2], f64);
+pub(super) type FieldPair<'a> = ([&'a Faces<f32>; 2], f64);
 
 #[inline]
-pub(super) fn mixed(of: impl Fn(&Faces<f32>) -> f32, (fields, part): Between<'_>) -> f64 {
+pub(super) fn mixed(of: impl Fn(&Faces<f32>) -> f32, (fields, part): FieldPair<'_>) -> f64 {
     let [a, b] = fields.map(|f| f64::from(of(f)));
     a + part * (b - a)
 }
@@ -42,7 +42,7 @@ fn locate(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> Option<([usi
 #[inline]
 pub(super) fn velocity(
     cells: &Cells,
-    between: Between<'_>,
+    between: FieldPair<'_>,
     p: Vector2<f64>,
     z: f64,
     floor: &Floor,

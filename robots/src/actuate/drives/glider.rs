@@ -13,7 +13,7 @@
 //! *Deviations:* the depth that the guidance asks for is not held: the glider goes between the two depths of its file,
 //! and turns up when the bed comes near. Its speed is what the glide gives. Between glides the rudder has no effect.
 
-use crate::handoff::{Command, Does, DriveCommand, Estimate, GliderSpec, Plant};
+use crate::handoff::{Command, DriveCommand, DriveEffect, Estimate, GliderSpec, Plant};
 use nalgebra::Vector3;
 use world::math;
 use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
@@ -66,15 +66,15 @@ impl GliderPilot {
         let volume = |k: usize| way * s.volume_share.get().min(1.0) * self.plant.drives[k].limits[1];
         let engine: Vector3<f64> = (self.plant.drives.iter().enumerate())
             .map(|(k, d)| match d.does {
-                Does::Swells(at) => at * volume(k),
+                DriveEffect::Swells(at) => at * volume(k),
                 _ => Vector3::zeros(),
             })
             .sum();
         let set = self.plant.drives.iter().enumerate().map(|(k, d)| {
             let [least, most] = d.limits;
             match &d.does {
-                Does::Swells(_) => volume(k),
-                Does::Shifts(way, kg) => {
+                DriveEffect::Swells(_) => volume(k),
+                DriveEffect::Shifts(way, kg) => {
                     let weight = kg * GRAVITY_M_S2;
                     let (sin, cos) = math::sin_cos(pitch);
                     let righting = self.plant.righting_n_m;
@@ -83,8 +83,8 @@ impl GliderPilot {
                     let x = (lift - righting * sin / cos) / weight - righting / weight / TRIM_S * self.sum;
                     (x * way.x.signum()).clamp(least, most)
                 }
-                Does::Lifts(arm) if arm[5].abs() > arm[4].abs() => (helm * arm[5].signum()).clamp(least, most),
-                Does::Lifts(_) | Does::Pushes(..) => d.idle,
+                DriveEffect::Lifts(arm) if arm[5].abs() > arm[4].abs() => (helm * arm[5].signum()).clamp(least, most),
+                DriveEffect::Lifts(_) | DriveEffect::Pushes(..) => d.idle,
             }
         });
         DriveCommand::new(&set.collect::<Vec<_>>())

@@ -22,7 +22,7 @@
 
 use super::allocation::Allocation;
 use crate::handoff::{
-    Command, Does, DriveCommand, Estimate, MoveSetpoint, Plant, Setpoint, ThrustTable, ThrustersSpec, Vertical,
+    Command, DriveCommand, DriveEffect, Estimate, MoveSetpoint, Plant, Setpoint, ThrustTable, ThrustersSpec, Vertical,
 };
 use nalgebra::{UnitQuaternion, Vector2, Vector3, Vector6};
 
@@ -53,7 +53,7 @@ impl ThrusterPilot {
         let mut thrusters = Vec::new();
         let (mut arms, mut limits) = (Vec::new(), Vec::new());
         for (k, drive) in plant.drives.iter().enumerate() {
-            if let Does::Pushes(arm, table) = &drive.does {
+            if let DriveEffect::Pushes(arm, table) = &drive.does {
                 arms.push(*arm);
                 limits.push(table.thrusts_n());
                 thrusters.push((k, table.clone()));
@@ -92,21 +92,21 @@ impl ThrusterPilot {
         let s = &self.spec;
         let (wanted, turn, up) = match command {
             // They do not come here: the drives take them as they are.
-            Command::Drives(_) => (Vector2::new(water_ahead, water_left), Turn::Rate(0.0), 0.0),
+            Command::Drives(_) => (Vector2::new(water_ahead, water_left), TurnDemand::Rate(0.0), 0.0),
             Command::Direct(table) => {
                 let share = |of: f64, full: f64| (of / full).clamp(-1.0, 1.0);
                 let ahead = share(table.rpm, FULL_RPM) * s.speed_m_s.get();
                 let rate = -share(table.rudder_rad, FULL_RAD) * s.turn_deg_s.get().to_radians();
-                (Vector2::new(ahead + water_ahead, water_left), Turn::Rate(rate), 0.0)
+                (Vector2::new(ahead + water_ahead, water_left), TurnDemand::Rate(rate), 0.0)
             }
             Command::Steer(Setpoint { heading, water_speed_m_s, vertical }) => (
                 Vector2::new(water_speed_m_s + water_ahead, water_left),
-                Turn::To(-e.attitude.heading.turn_to(*heading)),
+                TurnDemand::To(-e.attitude.heading.turn_to(*heading)),
                 climb(*vertical),
             ),
             Command::Move(MoveSetpoint { heading, over_ground_m_s, vertical }) => {
                 let (ahead, left) = in_body(e, over_ground_m_s);
-                (Vector2::new(ahead, left), Turn::To(-e.attitude.heading.turn_to(*heading)), climb(*vertical))
+                (Vector2::new(ahead, left), TurnDemand::To(-e.attitude.heading.turn_to(*heading)), climb(*vertical))
             }
         };
         let tau = self.force(e, wanted, Vector2::new(water_ahead, water_left), turn, up, dt_s);
@@ -125,7 +125,7 @@ impl ThrusterPilot {
         e: &Estimate,
         wanted: Vector2<f64>,
         water: Vector2<f64>,
-        turn: Turn,
+        turn: TurnDemand,
         up_m: f64,
         dt_s: f64,
     ) -> Vector6<f64> {
@@ -139,8 +139,8 @@ impl ThrusterPilot {
         let climb = (loop_rad_s * up_m).clamp(-climb_most, climb_most);
         let turn_most = s.turn_deg_s.get().to_radians();
         let rate = match turn {
-            Turn::To(error) => (loop_rad_s * error).clamp(-turn_most, turn_most),
-            Turn::Rate(rate) => rate,
+            TurnDemand::To(error) => (loop_rad_s * error).clamp(-turn_most, turn_most),
+            TurnDemand::Rate(rate) => rate,
         };
         let rates = e.attitude.rates_rad_s;
         let tilt = UnitQuaternion::from_euler_angles(e.attitude.roll_rad, -e.attitude.pitch_rad, 0.0);
@@ -193,7 +193,7 @@ impl ThrusterPilot {
 
 /// How it is to turn, FLU (to port positive).
 #[derive(Clone, Copy, Debug)]
-enum Turn {
+enum TurnDemand {
     /// By an angle, rad.
     To(f64),
     /// At a rate, rad/s.

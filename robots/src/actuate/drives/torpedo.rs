@@ -10,11 +10,11 @@
 
 use super::super::autopilot::Autopilot;
 use super::torpedo_gains::{FULL_RPM, gains};
-use crate::handoff::{Command, Does, DriveCommand, Estimate, Plant, Setpoint, ThrustTable, TorpedoSpec};
+use crate::handoff::{Command, DriveCommand, DriveEffect, Estimate, Plant, Setpoint, ThrustTable, TorpedoSpec};
 
 /// A fin's part of the mix.
 #[derive(Clone, Debug, PartialEq)]
-struct Mixed {
+struct FinShare {
     drive: usize,
     limit_rad: f64,
     /// Deflection for 1 rad of rudder and of stern plane.
@@ -28,7 +28,7 @@ pub struct TorpedoPilot {
     autopilot: Autopilot,
     least_m_s: f64,
     idle: Vec<f64>,
-    fins: Vec<Mixed>,
+    fins: Vec<FinShare>,
     propellers: Vec<(usize, f64, ThrustTable)>,
 }
 
@@ -37,7 +37,7 @@ impl TorpedoPilot {
     #[must_use]
     pub fn new(plant: &Plant, spec: &TorpedoSpec) -> Self {
         let arms = plant.drives.iter().filter_map(|d| match &d.does {
-            Does::Lifts(arm) => Some(*arm),
+            DriveEffect::Lifts(arm) => Some(*arm),
             _ => None,
         });
         let (yaw, pitch) = arms.fold((1e-12f64, 1e-12f64), |(y, p), arm| (y.max(arm[5].abs()), p.max(arm[4].abs())));
@@ -45,14 +45,14 @@ impl TorpedoPilot {
         let mut propellers = Vec::new();
         for (k, drive) in plant.drives.iter().enumerate() {
             match &drive.does {
-                Does::Lifts(arm) => fins.push(Mixed {
+                DriveEffect::Lifts(arm) => fins.push(FinShare {
                     drive: k,
                     limit_rad: drive.limits[1],
                     // FLU: to starboard is a negative moment about z, nose down a positive one about y.
                     rudder: -arm[5] / yaw,
                     stern: arm[4] / pitch,
                 }),
-                Does::Pushes(arm, table) if arm[0].abs() > 0.5 => {
+                DriveEffect::Pushes(arm, table) if arm[0].abs() > 0.5 => {
                     propellers.push((k, arm[0].signum(), table.clone()));
                 }
                 _ => {}

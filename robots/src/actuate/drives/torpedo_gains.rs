@@ -14,7 +14,7 @@
 //! *Deviations:* the steady turn is that of the blocks, the Munk moment and the fins' incidence, level and without roll.
 
 use super::super::spec::AutopilotSpec;
-use crate::handoff::{Does, Plant, TorpedoSpec};
+use crate::handoff::{DriveEffect, Plant, TorpedoSpec};
 use nalgebra::{Matrix2, Vector2, Vector3, Vector6};
 use world::ranges::{NonNegative, Positive};
 use world::units::SEA_WATER_KG_M3;
@@ -38,7 +38,7 @@ pub(super) fn gains(plant: &Plant, spec: &TorpedoSpec) -> AutopilotSpec {
     let rudder = turning(plant, u, &yaw).max(0.0);
     let per_m_s = FULL_RPM / plant.top_speed_m_s.max(0.1);
     let fin = plant.drives.iter().filter_map(|d| match d.does {
-        Does::Lifts(_) => Some(d.limits[1]),
+        DriveEffect::Lifts(_) => Some(d.limits[1]),
         _ => None,
     });
     let fin_deg = fin.fold(f64::INFINITY, f64::min).to_degrees();
@@ -69,7 +69,7 @@ pub(super) fn gains(plant: &Plant, spec: &TorpedoSpec) -> AutopilotSpec {
 fn wrench(plant: &Plant, axis: usize, u: f64) -> Vector6<f64> {
     let arms = || {
         plant.drives.iter().filter_map(|d| match &d.does {
-            Does::Lifts(arm) => Some(arm),
+            DriveEffect::Lifts(arm) => Some(arm),
             _ => None,
         })
     };
@@ -110,7 +110,7 @@ fn free(plant: &Plant, nu: &Vector6<f64>) -> Vector6<f64> {
     let mut all = -coriolis - linear * nu - quadratic * squared - forward * nu * nu.x.abs();
     let speed = v.norm();
     for drive in &plant.drives {
-        if let Does::Lifts(arm) = &drive.does {
+        if let DriveEffect::Lifts(arm) = &drive.does {
             // The power of its force at 1 rad is that force times the water's speed across it.
             let size = part(arm, 0).norm().max(1e-12);
             all -= arm * (SEA_WATER_KG_M3 * speed * arm.dot(nu) / size);

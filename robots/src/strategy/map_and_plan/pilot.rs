@@ -12,7 +12,7 @@ use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
 use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
-use crate::plan::{Follow, FreeSpace, From, NoPath, Path, Planner, Reach, Revision};
+use crate::plan::{Follow, FreeSpace, NoPath, Path, PathStart, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};
 use world::terrain::Terrain;
@@ -166,7 +166,8 @@ impl Pilot {
         let off = steer.is_some_and(|s| s.off_m > self.replan_off_m);
         let again = steer.is_none() || (due && (moved || ended || off || self.closed()));
         if again {
-            let start = From { p_W: at, heading: moving(&seen.estimate), turning_radius_m: seen.able.turning_radius_m };
+            let start =
+                PathStart { p_W: at, heading: moving(&seen.estimate), turning_radius_m: seen.able.turning_radius_m };
             let path = self.planner.plan(&self.room, &start, &wish).unwrap_or_else(|full| {
                 // What was sensed fills the whole room: steer for the destination itself.
                 let NoPath::Full = full;

@@ -44,7 +44,7 @@ pub(super) enum Looks {
     /// Each picture by itself: whether one showed a source; `None` before the first.
     Single(Verifier, Option<bool>),
     /// All together.
-    Added(Box<Added>),
+    Added(Box<PictureSum>),
 }
 
 impl Looks {
@@ -52,7 +52,7 @@ impl Looks {
     pub(super) fn new(spec: &CameraPasses) -> Self {
         match &spec.add_up {
             None => Self::Single(Verifier::new(&spec.verifier), None),
-            Some(add_up) => Self::Added(Box::new(Added::new(add_up, spec.altitude_m.get()))),
+            Some(add_up) => Self::Added(Box::new(PictureSum::new(add_up, spec.altitude_m.get()))),
         }
     }
 
@@ -81,7 +81,7 @@ impl Looks {
 
 /// All pictures of a place, and the lines over it.
 #[derive(Debug)]
-pub(super) struct Added {
+pub(super) struct PictureSum {
     spec: AddUpSpec,
     highest_m: f64,
     place: Option<PlacePictures>,
@@ -105,7 +105,7 @@ pub(super) struct Added {
     looks_at: Vector2<f64>,
 }
 
-impl Added {
+impl PictureSum {
     fn new(spec: &AddUpSpec, highest_m: f64) -> Self {
         Self {
             spec: spec.clone(),

@@ -5,9 +5,9 @@ use crate::behave::Stride;
 use crate::handoff::Manoeuvre;
 use crate::handoff::testing::seen;
 
-fn begun(highest_m: f64) -> (Added, Observation) {
+fn begun(highest_m: f64) -> (PictureSum, Observation) {
     let o = seen(0.0, Vector2::zeros(), 0.0, Some(Vector2::new(0.0, -0.2)));
-    let mut added = Added::new(&AddUpSpec::default(), highest_m);
+    let mut added = PictureSum::new(&AddUpSpec::default(), highest_m);
     added.begin(Vector2::new(10.0, 20.0), Heading::from_deg(0.0), &o, false);
     (added, o)
 }

@@ -10,7 +10,7 @@
 //! line.
 
 use super::blocks::Damping;
-use crate::handoff::{Capabilities, Does, PilotSpec, Plant, PlantDrive};
+use crate::handoff::{Capabilities, DriveEffect, PilotSpec, Plant, PlantDrive};
 use crate::vehicles::drives::{Drive, Fin, Kind};
 use crate::vehicles::dynamics::{Equation, turned};
 use nalgebra::{DMatrix, Vector3, Vector6};
@@ -41,10 +41,10 @@ pub(super) fn plant(
         limits: drive.limits,
         idle: drive.idle(),
         does: match &drive.kind {
-            Kind::Thruster(t) => Does::Pushes(wrench(t.arm()), t.curve.clone()),
-            Kind::Fin(fin) => Does::Lifts(lifts(fin)),
-            Kind::Buoyancy(r, _) => Does::Swells(flu(r)),
-            Kind::Mass(way, kg, _) => Does::Shifts(flu(way), *kg),
+            Kind::Thruster(t) => DriveEffect::Pushes(wrench(t.arm()), t.curve.clone()),
+            Kind::Fin(fin) => DriveEffect::Lifts(lifts(fin)),
+            Kind::Buoyancy(r, _) => DriveEffect::Swells(flu(r)),
+            Kind::Mass(way, kg, _) => DriveEffect::Shifts(flu(way), *kg),
         },
     });
     let mut plant = Plant {
@@ -109,7 +109,7 @@ fn pushes(plant: &Plant) -> [bool; 6] {
         .drives
         .iter()
         .filter_map(|d| match &d.does {
-            Does::Pushes(arm, _) => Some(*arm),
+            DriveEffect::Pushes(arm, _) => Some(*arm),
             _ => None,
         })
         .collect();
@@ -181,7 +181,7 @@ fn turning_m(stated: Option<Positive>, speed_m_s: f64, rate_deg_s: Positive) -> 
 /// Horizontal speed of a steady glide, m/s: the weight along the path balances the drag ahead.
 fn glide_m_s(plant: &Plant, pitch_deg: f64, share: f64) -> f64 {
     let volume = plant.drives.iter().map(|d| match d.does {
-        Does::Swells(_) => d.limits[1],
+        DriveEffect::Swells(_) => d.limits[1],
         _ => 0.0,
     });
     let force = SEA_WATER_KG_M3 * GRAVITY_M_S2 * volume.sum::<f64>() * share;
@@ -204,9 +204,9 @@ pub(super) fn doubts(
     capabilities: &Capabilities,
     told: &mut Vec<String>,
 ) -> Result<(), String> {
-    let has = |what: fn(&Does) -> bool| plant.drives.iter().any(|d| what(&d.does));
-    let thruster = has(|d| matches!(d, Does::Pushes(..)));
-    let fin = has(|d| matches!(d, Does::Lifts(..)));
+    let has = |what: fn(&DriveEffect) -> bool| plant.drives.iter().any(|d| what(&d.does));
+    let thruster = has(|d| matches!(d, DriveEffect::Pushes(..)));
+    let fin = has(|d| matches!(d, DriveEffect::Lifts(..)));
     let lacks = |what: &str| Err(format!("autopilot: needs {what}, and `drives` has none"));
     match pilot {
         PilotSpec::Torpedo(_) => {
@@ -218,7 +218,7 @@ pub(super) fn doubts(
             }
             let moments = |k: usize| {
                 plant.drives.iter().any(|d| match &d.does {
-                    Does::Lifts(arm) => arm[k].abs() > 1e-12,
+                    DriveEffect::Lifts(arm) => arm[k].abs() > 1e-12,
                     _ => false,
                 })
             };
@@ -246,7 +246,7 @@ pub(super) fn doubts(
                     .drives
                     .iter()
                     .map(|d| match &d.does {
-                        Does::Pushes(arm, curve) => {
+                        DriveEffect::Pushes(arm, curve) => {
                             let [astern, ahead] = curve.thrusts_n();
                             (arm[2] * ahead).abs().min((arm[2] * astern).abs())
                         }
@@ -263,10 +263,10 @@ pub(super) fn doubts(
             }
         }
         PilotSpec::Glider(_) => {
-            if !has(|d| matches!(d, Does::Swells(_))) {
+            if !has(|d| matches!(d, DriveEffect::Swells(_))) {
                 return lacks("a buoyancy engine");
             }
-            if !has(|d| matches!(d, Does::Shifts(..))) {
+            if !has(|d| matches!(d, DriveEffect::Shifts(..))) {
                 return lacks("a moving mass");
             }
             if !fin {

@@ -17,7 +17,7 @@
 //! So another picture counts by as much as it makes the ground smoother: one taken twice adds nothing, and in clear
 //! water, where the bed's own unevenness limits, a hundred add little.
 
-use super::mosaic::{Boxed, Boxes, Mosaic};
+use super::mosaic::{BoxMean, Boxes, Mosaic};
 use nalgebra::Vector2;
 use serde::Serialize;
 use world::math;
@@ -150,7 +150,7 @@ pub(super) fn unseen(mosaic: &Mosaic, places: &[(Vector2<f64>, f64)], down_flow:
 }
 
 /// The box about a place; `None` if too little of it has been seen.
-fn box_about(mosaic: &Mosaic, boxes: &Boxes, p: Vector2<f64>) -> Option<Boxed> {
+fn box_about(mosaic: &Mosaic, boxes: &Boxes, p: Vector2<f64>) -> Option<BoxMean> {
     let [x, y] = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
     boxes.mean_at(x, y)
 }
@@ -171,7 +171,7 @@ fn tried(place: Vector2<f64>, within_m: f64) -> Vec<(Vector2<f64>, f64)> {
 }
 
 /// How dark a box is by more than the dye in it explains.
-fn darkness(b: &Boxed) -> f64 {
+fn darkness(b: &BoxMean) -> f64 {
     -(b.contrast[0] + SHADE * b.contrast[1])
 }
 
@@ -190,7 +190,7 @@ fn spread(boxes: &Boxes) -> [f64; 2] {
 }
 
 /// Variance of a box's darkness and redness: what the ground shows, or the noise if that is more, and the floor.
-fn squared(b: &Boxed, spread: [f64; 2], noise: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
+fn squared(b: &BoxMean, spread: [f64; 2], noise: impl Fn([f64; 2]) -> f64) -> [f64; 2] {
     let noise = noise(b.variance);
     [0, 1].map(|k| (spread[k] * spread[k]).max(noise) + FLOOR[k] * FLOOR[k])
 }

@@ -12,7 +12,7 @@ use super::evidence::{Limits, PlaceEvidence, REACH_M, unseen, weigh};
 use super::ground::{Patch, Stand};
 use super::mosaic::Mosaic;
 use super::photometry::Useless;
-use super::register::Known;
+use super::register::GroundBrightness;
 use super::spec::AddUpSpec;
 use crate::handoff::Picture;
 use nalgebra::Vector2;
@@ -28,7 +28,7 @@ pub struct PlacePictures {
     place: Vector2<f64>,
     down_flow: Heading,
     patches: Vec<(Patch, [i32; 2])>,
-    known: Known,
+    known: GroundBrightness,
     /// Shift of the newest picture that overlap was found for, cells.
     shift: [i32; 2],
     useless: usize,
@@ -44,7 +44,7 @@ impl PlacePictures {
             place,
             down_flow,
             patches: Vec::new(),
-            known: Known::default(),
+            known: GroundBrightness::default(),
             shift: [0; 2],
             useless: 0,
             clarity: None,

@@ -102,7 +102,7 @@ impl Mosaic {
                 let all = ((2 * half + 1) * (2 * half + 1)) as f64;
                 if s[4] >= SEEN * all && s[2] > 0.0 && s[3] > 0.0 {
                     means[y * w + x] =
-                        Some(Boxed { contrast: [s[0] / s[2], s[1] / s[3]], variance: [1.0 / s[2], 1.0 / s[3]] });
+                        Some(BoxMean { contrast: [s[0] / s[2], s[1] / s[3]], variance: [1.0 / s[2], 1.0 / s[3]] });
                 }
             }
         }
@@ -112,7 +112,7 @@ impl Mosaic {
 
 /// The mean over a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Boxed {
+pub(super) struct BoxMean {
     /// Contrasts of brightness and redness.
     pub(super) contrast: [f64; 2],
     /// Their variance by the pixels' noise alone.
@@ -124,12 +124,12 @@ pub(super) struct Boxes {
     width: usize,
     /// Cells from one box to the next that shares none with it.
     step: usize,
-    means: Vec<Option<Boxed>>,
+    means: Vec<Option<BoxMean>>,
 }
 
 impl Boxes {
     /// About a cell; `None` outside, or if too little of the box has been seen.
-    pub(super) fn mean_at(&self, column: i64, row: i64) -> Option<Boxed> {
+    pub(super) fn mean_at(&self, column: i64, row: i64) -> Option<BoxMean> {
         let [x, y] = [column, row].map(|v| usize::try_from(v).ok());
         let (x, y) = (x?, y?);
         if x >= self.width {
@@ -139,7 +139,7 @@ impl Boxes {
     }
 
     /// Boxes that share no cell.
-    pub(super) fn apart(&self) -> impl Iterator<Item = &Boxed> {
+    pub(super) fn apart(&self) -> impl Iterator<Item = &BoxMean> {
         let rows = self.means.chunks(self.width).step_by(self.step);
         rows.flat_map(|row| row.iter().step_by(self.step)).flatten()
     }

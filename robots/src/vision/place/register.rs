@@ -22,9 +22,9 @@ const ALIKE: f64 = 4.0;
 
 /// Brightness on the ground, by all pictures so far.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Known(BTreeMap<[i32; 2], [f64; 2]>);
+pub(super) struct GroundBrightness(BTreeMap<[i32; 2], [f64; 2]>);
 
-impl Known {
+impl GroundBrightness {
     /// Adds a picture, shifted by whole cells.
     pub(super) fn add(&mut self, patch: &Patch, shift: [i32; 2]) {
         for s in &patch.cells {
@@ -127,7 +127,7 @@ mod tests {
     #[test]
     fn a_known_shift_is_found_where_pictures_overlap() {
         let g = ground(1);
-        let mut known = Known::default();
+        let mut known = GroundBrightness::default();
         known.add(&picture(&g, [20, 20], [0, 0], 0.5, 1), [0, 0]);
         for off in [[0, 0], [3, -2], [-7, 6], [10, 0]] {
             let second = picture(&g, [27, 24], off, 0.5, 2);
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn what_does_not_stand_out_is_no_shift() {
         let (g, other) = (ground(1), ground(2));
-        let mut known = Known::default();
+        let mut known = GroundBrightness::default();
         known.add(&picture(&g, [20, 20], [0, 0], 0.5, 1), [0, 0]);
         assert_eq!(known.shift(&picture(&other, [22, 20], [0, 0], 0.5, 2), [0, 0], 8), None);
         assert_eq!(known.shift(&picture(&g, [22, 20], [0, 0], 9.0, 3), [0, 0], 8), None);
@@ -148,6 +148,6 @@ mod tests {
         assert_eq!(known.shift(&corner, [0, 0], 1), None);
         let far = picture(&g, [22, 20], [12, 0], 0.1, 5);
         assert_eq!(known.shift(&far, [0, 0], 8), None);
-        assert_eq!(Known::default().shift(&far, [0, 0], 8), None);
+        assert_eq!(GroundBrightness::default().shift(&far, [0, 0], 8), None);
     }
 }

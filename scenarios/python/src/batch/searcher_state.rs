@@ -3,7 +3,7 @@
 use super::Rules;
 use super::agent::{Agent, Machine};
 use nalgebra::Vector2;
-use rheotaxis::control::{Gathered, HeadGathered, Question, QuestionContent};
+use rheotaxis::control::{HeadGathered, Question, QuestionContent, ReadingsOfRobot};
 use rheotaxis::trial::Trial;
 use robots::handoff::{
     Declaration, GantryBehaviour, GantryLayout, GantryObservation, HeadOrder, Manoeuvre, MotionOrder, MoveOrder,
@@ -74,7 +74,7 @@ impl SearcherState {
         self.seen = Some(question.seen);
     }
 
-    fn see_robot(&mut self, seen: &Observation, gathered: &Gathered, time: f64) {
+    fn see_robot(&mut self, seen: &Observation, gathered: &ReadingsOfRobot, time: f64) {
         let e = &seen.estimate;
         let heading = e.attitude.heading;
         let left = heading.turned(-std::f64::consts::FRAC_PI_2).unit();

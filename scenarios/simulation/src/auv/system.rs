@@ -70,10 +70,10 @@ pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estim
     }
 }
 
-type Perceived<'a> = (&'a Readings, &'a Estimate, &'a GuidanceStatus, &'a Briefing, Option<&'a Belief>);
+type ObservationParts<'a> = (&'a Readings, &'a Estimate, &'a GuidanceStatus, &'a Briefing, Option<&'a Belief>);
 
 /// What a robot sees in this tick, with what it was told.
-fn observation(parts: Perceived, told: Option<ReplyOutcome>) -> Observation {
+fn observation(parts: ObservationParts, told: Option<ReplyOutcome>) -> Observation {
     let (readings, estimate, guidance, briefing, belief) = parts;
     Observation {
         // The estimate is of this tick.
@@ -94,7 +94,10 @@ fn observation(parts: Perceived, told: Option<ReplyOutcome>) -> Observation {
 }
 
 /// Asks the searchers outside this program; the answers come between this stage and the next.
-pub(crate) fn ask(clock: Res<Clock>, mut robots: Query<(Perceived, &SearcherId, &Decision, &mut ExchangeState)>) {
+pub(crate) fn ask(
+    clock: Res<Clock>,
+    mut robots: Query<(ObservationParts, &SearcherId, &Decision, &mut ExchangeState)>,
+) {
     for (parts, id, decision, mut consulting) in &mut robots {
         if let ReadingsSince::Robot(gathered) = &mut consulting.kept {
             gathered.add(clock.t_s(), parts.0);
@@ -108,10 +111,10 @@ pub(crate) fn ask(clock: Res<Clock>, mut robots: Query<(Perceived, &SearcherId, 
     }
 }
 
-type Deciding<'a> =
-    (&'a SearcherId, Perceived<'a>, &'a mut SearcherParts, &'a mut Decision, Option<&'a mut ExchangeState>);
+type DecideParts<'a> =
+    (&'a SearcherId, ObservationParts<'a>, &'a mut SearcherParts, &'a mut Decision, Option<&'a mut ExchangeState>);
 
-pub(crate) fn decide(mut robots: Query<Deciding>) {
+pub(crate) fn decide(mut robots: Query<DecideParts>) {
     for (id, parts, mut searching, mut decision, consulting) in &mut robots {
         let told = consulting.and_then(|mut c| c.take_told());
         let seen = observation(parts, told);
@@ -139,7 +142,7 @@ pub(crate) fn guide(
     }
 }
 
-type Actuated<'a> = (
+type ActuateParts<'a> = (
     &'a OnboardTime,
     &'a Command,
     &'a Estimate,
@@ -150,7 +153,7 @@ type Actuated<'a> = (
     &'a Hull,
 );
 
-pub(crate) fn actuate(mut robots: Query<Actuated>) {
+pub(crate) fn actuate(mut robots: Query<ActuateParts>) {
     for (now, command, estimate, mut pilot, mut faults, mut set, battery, hull) in &mut robots {
         *set = pilot.step(command, estimate, now.0.dt_s);
         faults.alter(&now.0, &mut set);
@@ -160,9 +163,9 @@ pub(crate) fn actuate(mut robots: Query<Actuated>) {
     }
 }
 
-type Pushed<'a> = (&'a OnboardTime, &'a Truth, &'a Actuation, &'a mut Hull, Option<&'a mut Battery>);
+type PushParts<'a> = (&'a OnboardTime, &'a Truth, &'a Actuation, &'a mut Hull, Option<&'a mut Battery>);
 
-pub(crate) fn push_bodies(ocean: Res<Ocean>, mut physics: ResMut<Physics>, mut robots: Query<Pushed>) {
+pub(crate) fn push_bodies(ocean: Res<Ocean>, mut physics: ResMut<Physics>, mut robots: Query<PushParts>) {
     // Each pushes its own body: their order does not matter.
     for (now, truth, set, mut hull, battery) in &mut robots {
         let (t_s, dt_s) = (now.0.t_s(), now.0.dt_s);

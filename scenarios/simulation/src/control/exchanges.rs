@@ -17,7 +17,7 @@ pub(crate) struct Exchanges(pub Vec<Entity>);
 
 /// What a robot's instruments said since the last question.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Gathered {
+pub struct ReadingsOfRobot {
     /// Readings of the chemical sensor.
     pub readings: u32,
     /// Those of them with a detection.
@@ -38,7 +38,7 @@ pub struct Gathered {
     pub picture: Option<Picture>,
 }
 
-impl Gathered {
+impl ReadingsOfRobot {
     /// Adds the readings of a tick.
     pub(crate) fn add(&mut self, t_s: f64, readings: &Readings) {
         if let Some(reading) = readings.chemical {
@@ -78,7 +78,7 @@ pub struct HeadGathered {
 /// The gathered of a robot or of a gantry.
 #[derive(Clone, Debug)]
 pub(crate) enum ReadingsSince {
-    Robot(Box<Gathered>),
+    Robot(Box<ReadingsOfRobot>),
     Gantry(HeadGathered),
 }
 
@@ -160,10 +160,10 @@ impl ExchangeState {
 
 impl ReadingsSince {
     /// What a robot gathered.
-    pub(crate) fn take_robot(&mut self) -> Gathered {
+    pub(crate) fn take_robot(&mut self) -> ReadingsOfRobot {
         match self {
             ReadingsSince::Robot(gathered) => gathered.take(),
-            ReadingsSince::Gantry(_) => Gathered::default(),
+            ReadingsSince::Gantry(_) => ReadingsOfRobot::default(),
         }
     }
 

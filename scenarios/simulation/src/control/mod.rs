@@ -21,7 +21,7 @@ mod replay;
 mod tests;
 
 pub use answers::{answer_json, read_answer};
-pub use exchanges::{Gathered, HeadGathered};
+pub use exchanges::{HeadGathered, ReadingsOfRobot};
 pub use questions::question_json;
 pub use replay::{Replay, consultation_json, read_consultation};
 
@@ -48,7 +48,7 @@ pub struct Question {
 #[derive(Clone, Debug, PartialEq)]
 pub enum QuestionContent {
     /// A robot.
-    Robot(Box<Observation>, Box<Gathered>),
+    Robot(Box<Observation>, Box<ReadingsOfRobot>),
     /// A gantry.
     Gantry(GantryObservation, HeadGathered),
 }

@@ -1,6 +1,6 @@
 //! A question as JSON: SI units, ENU axes, compass headings in radians; what was not measured is left out.
 
-use super::{Gathered, HeadGathered, Question, QuestionContent};
+use super::{HeadGathered, Question, QuestionContent, ReadingsOfRobot};
 use robots::handoff::{Estimate, GantryObservation, Observation, RangeScan};
 use serde_json::{Value, json};
 
@@ -27,7 +27,7 @@ fn with(mut said: Value, name: &str, number: Option<f64>) -> Value {
     said
 }
 
-fn robot(t_s: f64, seen: &Observation, gathered: &Gathered) -> Value {
+fn robot(t_s: f64, seen: &Observation, gathered: &ReadingsOfRobot) -> Value {
     let able = &seen.able;
     let mut said = json!({
         "estimate": estimate(&seen.estimate),
@@ -77,7 +77,7 @@ fn estimate(e: &Estimate) -> Value {
 }
 
 /// What the chemical sensor said since the last question.
-fn chemical(t_s: f64, g: &Gathered) -> Value {
+fn chemical(t_s: f64, g: &ReadingsOfRobot) -> Value {
     let mean = (g.readings > 0).then(|| g.sum / f64::from(g.readings));
     let mut said =
         with(json!({"readings": g.readings, "detections": g.detections, "highest": g.highest}), "mean", mean);

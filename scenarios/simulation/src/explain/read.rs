@@ -18,12 +18,12 @@ pub(super) struct Reference {
     /// The other kinds of files, as fields with their names.
     pub(super) files: Vec<Field>,
     /// The types they are made of, by name.
-    pub(super) types: BTreeMap<String, Named>,
+    pub(super) types: BTreeMap<String, NamedType>,
 }
 
 /// A type that fields refer to.
 #[derive(Clone, Debug)]
-pub(super) struct Named {
+pub(super) struct NamedType {
     /// What it is.
     pub(super) what: String,
     /// What it is made of.
@@ -101,9 +101,9 @@ pub(super) struct Variant {
 impl Reference {
     /// From a schema.
     pub(super) fn from_schema(schema: &Value) -> Self {
-        let named = |schema: &Value| Named { what: what(schema), shape: shape(schema) };
+        let named = |schema: &Value| NamedType { what: what(schema), shape: shape(schema) };
         let types = schema["$defs"].as_object().into_iter().flatten();
-        let Named { what, shape: root } = named(schema);
+        let NamedType { what, shape: root } = named(schema);
         Self {
             root,
             what,

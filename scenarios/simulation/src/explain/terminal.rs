@@ -1,7 +1,7 @@
 //! Writes places of a scenario as text for a terminal.
 
 use super::path::{At, PathTarget, below, joined};
-use super::read::{Field, Named, Reference, Shape, Variant};
+use super::read::{Field, NamedType, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
 use std::fmt::Write;
@@ -43,7 +43,7 @@ fn place(r: &Reference, place: &PathTarget<'_>) -> String {
     };
     wrapped(&mut out, 2, what);
     // The type's own description, if the place has another.
-    if let Some(Named { what: of_type, .. }) = place.shape().and_then(|s| named(r, s))
+    if let Some(NamedType { what: of_type, .. }) = place.shape().and_then(|s| named(r, s))
         && of_type != what
     {
         wrapped(&mut out, 2, of_type);
@@ -69,7 +69,7 @@ fn place(r: &Reference, place: &PathTarget<'_>) -> String {
 }
 
 /// The named type of a shape, or of a list's elements.
-fn named<'a>(r: &'a Reference, shape: &Shape) -> Option<&'a Named> {
+fn named<'a>(r: &'a Reference, shape: &Shape) -> Option<&'a NamedType> {
     match shape {
         Shape::Named(name) => r.types.get(name),
         Shape::List(of) => named(r, of),

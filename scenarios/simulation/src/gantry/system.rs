@@ -152,14 +152,14 @@ pub(crate) fn digest_gantries(
     }
 }
 
-type Pictured<'a> = (&'a SearcherId, &'a Rig, &'a Head, &'a GantryReadings, &'a GantryDecision);
+type FrameParts<'a> = (&'a SearcherId, &'a Rig, &'a Head, &'a GantryReadings, &'a GantryDecision);
 
 pub(crate) fn picture(
     physics: Res<Physics>,
     roster: Res<Gantries>,
     score: Res<Score>,
     mut outbox: ResMut<Outbox>,
-    gantries: Query<Pictured>,
+    gantries: Query<FrameParts>,
 ) {
     let Some(frame) = &mut outbox.open else {
         return;
@@ -185,14 +185,14 @@ pub(crate) fn picture(
     }
 }
 
-type Scored<'a> = (&'a SearcherId, &'a Rig, &'a GantryReadings, &'a GantryDecision, &'a Searcher);
+type ScoreParts<'a> = (&'a SearcherId, &'a Rig, &'a GantryReadings, &'a GantryDecision, &'a Searcher);
 
 pub(crate) fn keep_score(
     clock: Res<Clock>,
     roster: Res<Gantries>,
     physics: Res<Physics>,
     mut score: ResMut<Score>,
-    gantries: Query<Scored>,
+    gantries: Query<ScoreParts>,
 ) {
     for (id, rig, readings, decision, searcher) in gantries.iter_many(&roster.0).map(whole) {
         let ended = decision.stopped.map(|_| Outcome::Completed);

@@ -13,7 +13,7 @@ use crate::control::exchanges::Exchanges;
 use crate::extend::Addition;
 use crate::fleet::Fleet;
 use crate::gantry::{Gantries, GantryOwn};
-use crate::machines::Own;
+use crate::machines::LaneComponents;
 use crate::ocean::{Ocean, Origin};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
@@ -40,7 +40,7 @@ pub(super) struct Common {
 }
 
 /// The machines of a kind in the world.
-struct Machines<O: Own> {
+struct Machines<O: LaneComponents> {
     all: Vec<Entity>,
     parts: QueryState<O::Parts>,
 }
@@ -147,8 +147,8 @@ impl Common {
         let gantries = rosters.gantries.map_or(Vec::new(), |g| g.0);
         Ok(LaneParts {
             parts,
-            robots: robots.iter().map(|m| Own::take(world, *m)).collect(),
-            gantries: gantries.iter().map(|m| Own::take(world, *m)).collect(),
+            robots: robots.iter().map(|m| LaneComponents::take(world, *m)).collect(),
+            gantries: gantries.iter().map(|m| LaneComponents::take(world, *m)).collect(),
             progress: Progress::new(sources),
         })
     }
@@ -190,7 +190,7 @@ impl Common {
     }
 }
 
-impl<O: Own> Machines<O> {
+impl<O: LaneComponents> Machines<O> {
     fn new(world: &mut World, all: Vec<Entity>) -> Self {
         Self { all, parts: QueryState::new(world) }
     }

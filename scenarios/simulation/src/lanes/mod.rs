@@ -218,7 +218,7 @@ impl<O: Observer> Lanes<O> {
         self.spun_up = true;
         let stopped = stopped.iter().copied().chain(std::iter::repeat(false));
         for (lane, stopped) in self.lanes.iter_mut().zip(stopped) {
-            lane.with(&mut self.ocean, |trial, _| trial.set_out(stopped));
+            lane.with(&mut self.ocean, |trial, _| trial.begin_mission(stopped));
         }
     }
 
@@ -262,7 +262,7 @@ impl<O: Observer> Lanes<O> {
                 }
                 let quiet = quiet_steps(trial);
                 through(trial, quiet, |trial| {
-                    let going = trial.heed(observer);
+                    let going = trial.close_tick(observer);
                     if going {
                         trial.search(observer);
                     }

@@ -223,7 +223,8 @@ impl Shared {
                     let mut at = At::Over;
                     through(trial, quiet, |trial| {
                         let questions;
-                        (at, questions) = if trial.heed(&mut Unwatched) { ask(trial) } else { (At::Over, Vec::new()) };
+                        (at, questions) =
+                            if trial.close_tick(&mut Unwatched) { ask(trial) } else { (At::Over, Vec::new()) };
                         if at != At::Acted {
                             see(place, trial, questions);
                         }

@@ -36,8 +36,8 @@
 mod own;
 mod systems;
 
-pub(crate) use own::{Own, own};
-pub use systems::{BodiesMove, Systems, Turn};
+pub(crate) use own::{LaneComponents, own};
+pub use systems::{BodiesMove, SystemTurn, Systems};
 
 use crate::error::AssembleError;
 use bevy_ecs::prelude::World;

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::{Entity, World};
 use bevy_ecs::query::QueryState;
 
 /// All components of one machine of a kind that a run without frames uses.
-pub(crate) trait Own: Send + Sync + Sized {
+pub(crate) trait LaneComponents: Send + Sync + Sized {
     /// The same in a world.
     type Parts: bevy_ecs::query::QueryData;
 
@@ -50,7 +50,7 @@ macro_rules! own {
             $($other: Option<&'static mut $optional>,)*
         }
 
-        impl crate::machines::Own for $own {
+        impl crate::machines::LaneComponents for $own {
             type Parts = $parts;
 
             fn take(world: &mut bevy_ecs::prelude::World, machine: bevy_ecs::prelude::Entity) -> Self {

@@ -10,7 +10,7 @@ use world::stage::Stage;
 
 /// The place of a system within its stage.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Turn {
+pub enum SystemTurn {
     /// The systems of one apparatus or extension in a stage, by its place in the list.
     Of(Stage, usize),
     /// All systems in a stage that other crates add. They run after ours.
@@ -60,14 +60,14 @@ impl<'a> Systems<'a> {
             Stage::Drift | Stage::Report => &mut *self.report,
             _ => &mut *self.act,
         };
-        part.add_systems(systems.in_set(Turn::Of(stage, self.turn)));
+        part.add_systems(systems.in_set(SystemTurn::Of(stage, self.turn)));
         self
     }
 
     /// Adds systems that write into a frame. They run after all stages of a step in which a frame is made.
     pub fn add_to_frame<M>(&mut self, systems: impl IntoScheduleConfigs<ScheduleSystem, M>) -> &mut Self {
         if self.has_frames() {
-            let systems = systems.in_set(Turn::Frame(self.turn));
+            let systems = systems.in_set(SystemTurn::Frame(self.turn));
             self.frame.add_systems(systems);
         }
         self

@@ -102,7 +102,7 @@ impl Trial {
     /// with [`Self::answer`]; then this, [`Self::step`] or [`Self::run`] goes on. Without questions the run is over.
     pub fn until_asked(&mut self, observer: &mut dyn Observer) -> Vec<Question> {
         if self.progress.phase == RunPhase::Assembled {
-            self.develop(observer);
+            self.run_spin_up(observer);
         }
         if self.progress.open.is_some() && !self.advance(observer) {
             return Vec::new();

@@ -168,11 +168,11 @@ fn sound(dir: &Path, manifest: &Manifest, block: u64) -> Result<Option<Vec<RunRo
 }
 
 /// The lines of a table, and the notes in its footer.
-type Noted<T> = (Vec<T>, Vec<KeyValue>);
+type TableContent<T> = (Vec<T>, Vec<KeyValue>);
 
 /// The lines of a table and the notes in its footer; `None` if there is no file. If it is not known how many lines
 /// there may be, there are at most as many as the file has bytes.
-fn read_table<T: Record>(path: &Path, most: Option<usize>) -> Result<Option<Noted<T>>, CampaignError> {
+fn read_table<T: Record>(path: &Path, most: Option<usize>) -> Result<Option<TableContent<T>>, CampaignError> {
     let path = || path.to_owned();
     let unread = |e: std::io::Error| {
         let (path, problem) = (path(), e.to_string());

@@ -16,14 +16,14 @@ use std::path::Path;
 
 /// What a campaign needs, as far as its rows tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
+pub struct Demand {
     /// Runs from 0 to this one, exclusive.
     pub runs: u64,
     /// The number will not grow: all runs exist and suffice, or no more are allowed.
     pub decided: bool,
 }
 
-impl Wanted {
+impl Demand {
     /// The blocks that contain those runs: from 0 to this one, exclusive.
     #[must_use]
     pub fn blocks(&self, manifest: &Manifest) -> u64 {
@@ -33,9 +33,9 @@ impl Wanted {
 
 /// The runs that `dir` must hold before the campaign is done, or before more can be decided.
 #[must_use]
-pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
+pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Demand {
     let Some(until) = &campaign.spec.until else {
-        return Wanted { runs: manifest.runs, decided: true };
+        return Demand { runs: manifest.runs, decided: true };
     };
     let (cells, most) = (campaign.n_cells(), campaign.spec.seeds.count());
     // Successes of each cell that has any, among the seeds examined so far.
@@ -45,7 +45,7 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
         let none = ((found.len() as u64) < cells).then_some(&0);
         let next = (found.values().chain(none)).filter_map(|k| next_n(*k, seeds, until.half_width, most)).max();
         let Some(next) = next else {
-            return Wanted { runs: seeds * cells, decided: true };
+            return Demand { runs: seeds * cells, decided: true };
         };
         // Runs go seed by seed, so these are the rows of the seeds that have not been examined.
         let new = seeds * cells..next * cells;
@@ -62,7 +62,7 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
                 }
             }
             if there < (new.end.min((block + 1) * manifest.block)) - new.start {
-                return Wanted { runs: new.end, decided: next == most };
+                return Demand { runs: new.end, decided: next == most };
             }
         }
         seeds = next;

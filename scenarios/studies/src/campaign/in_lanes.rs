@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// A run to be made: its name and its scenario.
-pub(crate) type Planned<'a> = (RunName, &'a Loaded);
+pub(crate) type PlannedRun<'a> = (RunName, &'a Loaded);
 
 /// How far runs go, and who hears how long they took.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ pub(crate) struct LaneLimits<'a> {
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
 /// ocean afterwards take the spin-up over from each other, and the first of them from `kept` if one is there.
 pub(crate) fn in_lanes(
-    runs: &[Planned<'_>],
+    runs: &[PlannedRun<'_>],
     kept: Option<&SpinUps>,
     heed: LaneLimits<'_>,
     keep: &mut dyn FnMut(RunRow),
@@ -60,7 +60,7 @@ pub(crate) fn in_lanes(
 
 /// Makes the runs of a group, all of which have the same ocean. `keep` gets each row with the index of its run.
 fn together(
-    runs: &[Planned<'_>],
+    runs: &[PlannedRun<'_>],
     group: &[usize],
     (spun, kept): (&mut Vec<SpunUp>, Option<&SpinUps>),
     go_on: &dyn Fn() -> bool,
@@ -142,7 +142,7 @@ mod tests {
         })
     }
 
-    fn planned(arms: &[(String, Loaded)]) -> Vec<Planned<'_>> {
+    fn planned(arms: &[(String, Loaded)]) -> Vec<PlannedRun<'_>> {
         let mut runs = Vec::new();
         for (run, (arm, loaded)) in (0..).zip(arms) {
             let name = RunName { run, arm: arm.clone(), ..RunName::default() };
@@ -151,7 +151,7 @@ mod tests {
         runs
     }
 
-    fn rows(runs: &[Planned<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
+    fn rows(runs: &[PlannedRun<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
         let mut rows = Vec::new();
         let heed = LaneLimits { begin, go_on, took: &|_| {} };
         in_lanes(runs, None, heed, &mut |row| rows.push(row));

@@ -1,7 +1,7 @@
 //! Progress of a campaign.
 
 use super::block::{BlockState, present, read_block};
-use super::enough::{Wanted, wanted};
+use super::enough::{Demand, wanted};
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
@@ -25,7 +25,7 @@ pub struct ArmStatus {
 #[derive(Debug)]
 pub struct Status {
     /// What it needs, as far as its blocks tell.
-    pub wanted: Wanted,
+    pub wanted: Demand,
     /// What the folder was made from.
     pub manifest: Manifest,
     /// Number of blocks that contain everything wanted of them.

@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "the limit of wall time decides when to stop, never what a run does")]
 
 use super::error::CampaignError;
-use super::in_lanes::{LaneLimits, Planned, in_lanes};
+use super::in_lanes::{LaneLimits, PlannedRun, in_lanes};
 use super::one_run::{RunName, one_run};
 use super::plan::Campaign;
 use super::row::RunRow;
@@ -150,7 +150,7 @@ impl Work<'_> {
         let condition = runs.first().map(|run| self.campaign.place(*run).condition);
         let scenarios = self.scenarios(condition.unwrap_or_default())?;
         let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);
-        let planned: Vec<Planned<'_>> = runs.iter().map(planned).collect();
+        let planned: Vec<PlannedRun<'_>> = runs.iter().map(planned).collect();
         in_lanes(&planned, self.kept, heed, keep);
         Ok(())
     }

@@ -7,7 +7,9 @@
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
 use super::run::RowResult;
-use crate::campaign::{DeclarationRow, LaneLimits, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes};
+use crate::campaign::{
+    DeclarationRow, LaneLimits, PlannedRun, RunName, RunRow, as_csv, difference, from_csv, in_lanes,
+};
 use output::files::{ReportError, make_folder, write_whole};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasher, RandomState};
@@ -172,7 +174,7 @@ impl Table {
             let made = drawn(&reference.row.draw, arm, loaded, Seed::from(seed));
             scenarios.push((arm, made.expect("ends and values of every draw were checked")));
         }
-        let mut runs: Vec<Planned<'_>> = Vec::new();
+        let mut runs: Vec<PlannedRun<'_>> = Vec::new();
         for (arm, loaded) in &scenarios {
             let name = RunName {
                 run: 0,

@@ -4,7 +4,7 @@ use super::compare::{FigureComparison, compare};
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
-use crate::campaign::{LaneLimits, Planned, RunName, RunRow, in_lanes};
+use crate::campaign::{LaneLimits, PlannedRun, RunName, RunRow, in_lanes};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use rheotaxis::cache::SpinUps;
@@ -89,7 +89,7 @@ pub fn reproduce(
                         let made = drawn(&reference.row.draw, arm, loaded, seed);
                         scenarios.push(made.expect("ends and values of every draw were checked"));
                     }
-                    let mut runs: Vec<Planned<'_>> = Vec::new();
+                    let mut runs: Vec<PlannedRun<'_>> = Vec::new();
                     for (k, ((arm, _), loaded)) in (0..).zip(reference.arms.iter().zip(&scenarios)) {
                         let name = RunName {
                             run: index * n_arms + k,

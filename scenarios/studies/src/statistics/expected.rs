@@ -14,13 +14,13 @@ use plumes::flow::channel::{Channel, TRANSVERSE};
 const VERTICAL: f64 = 0.067;
 
 /// Figures of a channel.
-pub(super) struct Expected {
+pub(super) struct ChannelFigures {
     pub(super) k_y: f64,
     pub(super) k_z: f64,
     mean_m_s: f64,
 }
 
-impl Expected {
+impl ChannelFigures {
     pub(super) fn from_channel(channel: &Channel) -> Self {
         let scale = channel.u_star_m_s * channel.depth_m;
         Self { k_y: TRANSVERSE * scale, k_z: VERTICAL * scale, mean_m_s: channel.mean_m_s }
@@ -56,7 +56,7 @@ mod tests {
     /// The flume of Webster et al. 2012 with u_* = 2.8 mm/s: 4.1, 5.8, 7.1, 8.2 cm and 2.0e-3, 9.9e-4, 4.9e-4.
     #[test]
     fn textbook_figures_of_the_flume() {
-        let e = Expected { k_y: 0.15 * 0.0028 * 0.2, k_z: 0.067 * 0.0028 * 0.2, mean_m_s: 0.05 };
+        let e = ChannelFigures { k_y: 0.15 * 0.0028 * 0.2, k_z: 0.067 * 0.0028 * 0.2, mean_m_s: 0.05 };
         for (x, cm) in [(0.5, 4.1), (1.0, 5.8), (1.5, 7.1), (2.0, 8.2)] {
             assert!((100.0 * e.sigma_y(x) - cm).abs() < 0.06, "{x}");
         }

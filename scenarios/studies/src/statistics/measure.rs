@@ -7,7 +7,7 @@
 //! *Deviations*: widths are those of the mass in slices across the stream, at all heights together. Down-stream is
 //! where the water at the source goes at the end of the spin-up. Heights are parts of the water depth at the source.
 
-use super::expected::Expected;
+use super::expected::ChannelFigures;
 use super::figure::{PlumeFigure, Statistics};
 use super::series::Series;
 use nalgebra::{Vector2, Vector3};
@@ -248,7 +248,7 @@ impl Watch {
         }
         let mut figures = Vec::new();
         let channel = water.channel();
-        let expected = channel.map(Expected::from_channel);
+        let expected = channel.map(ChannelFigures::from_channel);
         self.widths(expected.as_ref(), &mut figures);
         let nozzle = plume.sources()[0].release.nozzle.as_ref();
         self.centreline(expected.as_ref(), nozzle.map(|n| n.volume_m3_s()), plume, &mut figures);

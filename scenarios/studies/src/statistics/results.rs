@@ -9,7 +9,7 @@
 //! the short gaps that sheets and holes of that size make; what remains are gaps of the meander, when the whole plume
 //! is elsewhere.
 
-use super::expected::Expected;
+use super::expected::ChannelFigures;
 use super::figure::PlumeFigure;
 use super::gamma;
 use super::measure::{PROFILE, Watch};
@@ -24,7 +24,7 @@ fn figure(name: String, unit: &'static str, ours: f64, expected: Option<f64>, so
 }
 
 impl Watch {
-    pub(super) fn widths(&self, expected: Option<&Expected>, to: &mut Vec<PlumeFigure>) {
+    pub(super) fn widths(&self, expected: Option<&ChannelFigures>, to: &mut Vec<PlumeFigure>) {
         let mut variances = Vec::new();
         for (sums, x) in self.slices.iter().zip(&self.distances) {
             let mean = sums[1] / sums[0];
@@ -57,7 +57,7 @@ impl Watch {
 
     pub(super) fn centreline(
         &self,
-        expected: Option<&Expected>,
+        expected: Option<&ChannelFigures>,
         volume_m3_s: Option<f64>,
         plume: &Plume,
         to: &mut Vec<PlumeFigure>,
@@ -169,7 +169,7 @@ impl Watch {
                 "integral time of the speed at the source's height".to_owned(),
                 "s",
                 time,
-                Some(Expected::passing_s(channel, height)),
+                Some(ChannelFigures::passing_s(channel, height)),
                 "macro-scale H (z/H)^0.5 passing: Nezu & Nakagawa 1993",
             ));
         }

@@ -16,4 +16,4 @@ pub use figure::figure;
 pub use fly::{Flight, FlownState, fly, table};
 pub use hull::{Looks, drawn};
 pub use manoeuvres::{has_rudder, trials};
-pub use trial::{Curve, Measured, SteeringRow, Trial};
+pub use trial::{Curve, SteeringRow, Trial, TrialNumber};

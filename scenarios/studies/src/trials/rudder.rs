@@ -1,7 +1,7 @@
 //! The rudder of a vehicle: what turns it as one, how far it goes, and where it is.
 
 use robots::actuate::AutopilotSpec;
-use robots::handoff::{Actuation, ActuatorCommand, Does, DriveCommand};
+use robots::handoff::{Actuation, ActuatorCommand, DriveCommand, DriveEffect};
 use robots::vehicles::Vehicle;
 
 /// Least share of the strongest fin at which a fin counts as a part of the rudder.
@@ -32,9 +32,9 @@ impl Rudder {
             Vehicle::Kinematic(_) => return None,
             Vehicle::Described(vehicle) => vehicle.plant(),
         };
-        let turns = |does: &Does| match does {
+        let turns = |does: &DriveEffect| match does {
             // FLU: to starboard is a negative moment about z.
-            Does::Lifts(arm) => -arm[5],
+            DriveEffect::Lifts(arm) => -arm[5],
             _ => 0.0,
         };
         let drives = || plant.drives.iter().enumerate();
@@ -47,7 +47,7 @@ impl Rudder {
         Some(Self {
             limit_rad: fins.iter().map(limit).reduce(f64::min)?,
             fins,
-            thrusters: drives().filter(|(_, d)| matches!(d.does, Does::Pushes(..))).map(|(k, _)| k).collect(),
+            thrusters: drives().filter(|(_, d)| matches!(d.does, DriveEffect::Pushes(..))).map(|(k, _)| k).collect(),
         })
     }
 

@@ -11,7 +11,7 @@
 
 use super::rudder::Rudder;
 use super::sail::STEP_S;
-use super::trial::{Curve, Measured, SteeringRow, THINNED, Trial, approach, command, cruise, depth_of, measured};
+use super::trial::{Curve, SteeringRow, THINNED, Trial, TrialNumber, approach, command, cruise, depth_of, measured};
 use robots::handoff::Capabilities;
 use robots::vehicles::Vehicle;
 
@@ -35,7 +35,7 @@ pub(super) fn circle(craft: &Vehicle, able: &Capabilities, rudder: &Rudder, most
 }
 
 /// What a turning circle's rows say.
-fn circled(rows: &[SteeringRow]) -> [Measured; 6] {
+fn circled(rows: &[SteeringRow]) -> [TrialNumber; 6] {
     let at = |deg: f64| rows.iter().position(|r| r.heading_deg >= deg);
     let quarter = at(90.0).map(|k| rows[k]);
     let half = at(180.0).map(|k| rows[k]);

@@ -13,7 +13,7 @@ pub(super) const THINNED: u64 = 10;
 
 /// A number that a trial found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
+pub struct TrialNumber {
     /// What it is.
     pub what: &'static str,
     /// Its value, `None` if the trial did not come so far.
@@ -41,15 +41,15 @@ pub struct Trial {
     /// Its name.
     pub name: &'static str,
     /// What was found.
-    pub found: Vec<Measured>,
+    pub found: Vec<TrialNumber>,
     /// What it looked like.
     pub curve: Curve,
     /// Heading, rudder and place every 0.2 s, if it is a trial by rudder.
     pub rows: Vec<SteeringRow>,
 }
 
-pub(super) fn measured(what: &'static str, value: impl Into<Option<f64>>, unit: &'static str) -> Measured {
-    Measured { what, value: value.into(), unit }
+pub(super) fn measured(what: &'static str, value: impl Into<Option<f64>>, unit: &'static str) -> TrialNumber {
+    TrialNumber { what, value: value.into(), unit }
 }
 
 /// A vehicle at one moment of a trial by rudder; all since the first order to the rudder.

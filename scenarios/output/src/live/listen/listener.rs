@@ -41,7 +41,7 @@ enum Event {
 
 /// What is known of a run.
 #[derive(Default)]
-struct Known {
+struct RunState {
     /// Keys of the messages heard so far.
     heard: BTreeSet<String>,
     /// What runs have answered, by key: a run keeps a message before it sends it, so the next one may be the same.
@@ -64,7 +64,7 @@ pub struct Listener {
     schemas: bool,
     place: String,
     notice: Option<String>,
-    runs: BTreeMap<String, Known>,
+    runs: BTreeMap<String, RunState>,
     ready: VecDeque<News>,
 }
 
@@ -158,7 +158,7 @@ impl Listener {
         let known = self.runs.entry(run.to_owned()).or_default();
         if known.silent.is_some() {
             // Another one with the same id.
-            *known = Known::default();
+            *known = RunState::default();
         }
         if known.asked {
             return Ok(());

@@ -15,7 +15,7 @@ const ALL: usize = 12_000;
 const DECADES: f64 = 9.2;
 
 /// A filament and its place on the plan.
-type Placed = ([f64; 2], Wisp);
+type PlacedWisp = ([f64; 2], Wisp);
 
 /// The plume, with filaments that lie far outside the plan left out. Bytes of a filament: two of each place on the
 /// plan, as a share of the plan's ranges widened by a tenth; one of its height; one of its size and one of its
@@ -28,7 +28,7 @@ pub(super) fn encode(film: &PlumeFilm, plan: &Plan) -> Value {
         (u[0] <= p[0] && p[0] <= u[1] && v[0] <= p[1] && p[1] <= v[1]).then_some((p, *w))
     };
     let shown = SHOWN.min(ALL / film.moments.len().max(1));
-    let moments: Vec<(f64, Vec<Placed>)> = (film.moments.iter())
+    let moments: Vec<(f64, Vec<PlacedWisp>)> = (film.moments.iter())
         .map(|(t_s, all)| {
             let near: Vec<_> = all.iter().filter_map(inside).collect();
             let every = near.len().div_ceil(shown).max(1);
@@ -46,7 +46,7 @@ pub(super) fn encode(film: &PlumeFilm, plan: &Plan) -> Value {
         // In range, so that the conversion keeps the value.
         ((x - r[0]) / (r[1] - r[0]) * top).clamp(0.0, top).round() as u16
     };
-    let packed = |wisps: &[Placed]| {
+    let packed = |wisps: &[PlacedWisp]| {
         let mut bytes = Vec::with_capacity(8 * wisps.len());
         for (p, w) in wisps {
             bytes.extend(share(p[0], u, 65_535.0).to_le_bytes());

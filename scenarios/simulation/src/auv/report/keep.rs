@@ -1,6 +1,6 @@
 //! What is kept of one robot.
 
-use super::system::Reported;
+use super::system::RobotEnd;
 use crate::auv::{Log, Mapping};
 use crate::frame::{PictureFrame, PingFrame};
 use crate::incidents::{Incident, IncidentKind, IncidentMonitor, OUTSIDE_M};
@@ -17,7 +17,7 @@ use world::physics::Physics;
 
 /// Adds it to the digest; `number` is that of the newest behaviour.
 pub(super) fn digest(
-    (_, truth, estimate, _, decision, set, ..): &Reported,
+    (_, truth, estimate, _, decision, set, ..): &RobotEnd,
     map: Option<(&Belief, Mut<Mapping>)>,
     digest: &mut Digest,
     number: &mut Option<(Behaviour, f64)>,
@@ -67,7 +67,7 @@ fn saturated(pilot: &Pilot, battery: Option<&Battery>) -> Option<bool> {
 
 /// Keeps its score.
 pub(super) fn score(
-    (id, truth, estimate, readings, decision, _, _, pilot, battery): &Reported,
+    (id, truth, estimate, readings, decision, _, _, pilot, battery): &RobotEnd,
     clock: &Clock,
     score: &mut Score,
 ) {
@@ -92,7 +92,7 @@ pub(super) fn score(
 
 /// Watches for what is abnormal.
 pub(super) fn watch(
-    (id, truth, _, readings, decision, _, hull, pilot, battery): &Reported,
+    (id, truth, _, readings, decision, _, hull, pilot, battery): &RobotEnd,
     clock: &Clock,
     ocean: &Ocean,
     physics: &Physics,
@@ -119,7 +119,7 @@ pub(super) fn watch(
 }
 
 /// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
-pub(super) fn log((id, truth, estimate, readings, ..): &Reported, clock: &Clock, log: &mut Log, outbox: &mut Outbox) {
+pub(super) fn log((id, truth, estimate, readings, ..): &RobotEnd, clock: &Clock, log: &mut Log, outbox: &mut Outbox) {
     let (t_s, name) = (clock.t_s(), &id.name);
     let picture = readings.picture.as_ref();
     (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));

@@ -17,7 +17,7 @@ use world::frames::Truth;
 use world::physics::Physics;
 
 /// A robot at the end of a step. It holds the truth.
-pub(super) type Reported<'a> = (
+pub(super) type RobotEnd<'a> = (
     &'a SearcherId,
     &'a Truth,
     &'a Estimate,
@@ -29,14 +29,14 @@ pub(super) type Reported<'a> = (
     Option<&'a Battery>,
 );
 
-type Kept<'a> =
-    (&'a OnboardTime, Reported<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut IncidentMonitor, &'a mut Log);
+type RobotLogs<'a> =
+    (&'a OnboardTime, RobotEnd<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut IncidentMonitor, &'a mut Log);
 
 /// Adds robots to the digest and the score, and watches for what is abnormal.
 pub(crate) fn report(
     places: (Res<Robots>, Res<Ocean>, Res<Physics>),
     kept: (ResMut<Digest>, ResMut<Score>),
-    robots: Query<Kept>,
+    robots: Query<RobotLogs>,
     number: Local<Option<(Behaviour, f64)>>,
 ) {
     each(places, kept, robots, number, None);
@@ -46,7 +46,7 @@ pub(crate) fn report(
 pub(crate) fn report_and_log(
     places: (Res<Robots>, Res<Ocean>, Res<Physics>),
     kept: (ResMut<Digest>, ResMut<Score>),
-    robots: Query<Kept>,
+    robots: Query<RobotLogs>,
     number: Local<Option<(Behaviour, f64)>>,
     mut outbox: ResMut<Outbox>,
 ) {
@@ -56,7 +56,7 @@ pub(crate) fn report_and_log(
 fn each(
     (roster, ocean, physics): (Res<Robots>, Res<Ocean>, Res<Physics>),
     (mut hashed, mut scored): (ResMut<Digest>, ResMut<Score>),
-    mut robots: Query<Kept>,
+    mut robots: Query<RobotLogs>,
     // Of the newest behaviour: some are hashed, and they seldom change.
     mut number: Local<Option<(Behaviour, f64)>>,
     mut outbox: Option<&mut Outbox>,

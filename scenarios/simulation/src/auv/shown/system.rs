@@ -10,7 +10,7 @@ use bevy_ecs::prelude::{Query, Res, ResMut};
 use robots::handoff::{Actuation, Belief, Command, Decision, Estimate};
 use world::frames::Truth;
 
-type Pictured<'a> = (
+type FrameParts<'a> = (
     &'a SearcherId,
     &'a Briefing,
     &'a Truth,
@@ -28,7 +28,7 @@ pub(crate) fn picture(
     roster: Res<Robots>,
     score: Res<Score>,
     mut outbox: ResMut<Outbox>,
-    mut robots: Query<Pictured>,
+    mut robots: Query<FrameParts>,
 ) {
     let Some(frame) = &mut outbox.open else {
         return;

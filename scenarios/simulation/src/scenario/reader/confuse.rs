@@ -3,7 +3,7 @@
 use super::fail::Misfit;
 use super::hint::Form;
 use super::mend::{Mender, SHORT};
-use super::tree::{Group, Item, Kind, Node, Wanted};
+use super::tree::{Group, Item, Kind, Node, WantedKind};
 use crate::scenario::fault::UnplacedFault;
 use world::spelling::choose;
 
@@ -50,7 +50,7 @@ impl Mender<'_> {
             self.tell(at, found, Form::Missing((*name).to_string(), hole));
         } else {
             items.remove(place);
-            let problem = self.got(&inner, &Misfit::Kind(Wanted::Plain("`name: value`")));
+            let problem = self.got(&inner, &Misfit::Kind(WantedKind::Plain("`name: value`")));
             let found = UnplacedFault::error(&node.path, problem).hint(choose("", legal, "fields"));
             self.tell(at, found, Form::Whole);
         }
@@ -62,7 +62,7 @@ impl Mender<'_> {
         let mut form = if misfit.says_range() { Form::Whole } else { Form::Kind(id) };
         let mut found = UnplacedFault::error(&node.path, self.got(node, misfit));
         match (&node.kind, misfit) {
-            (Kind::Group(group), Misfit::Kind(Wanted::List)) if group.bracket == '(' => {
+            (Kind::Group(group), Misfit::Kind(WantedKind::List)) if group.bracket == '(' => {
                 found = found.hint("write `[ ]` around it");
                 form = Form::Whole;
                 let tree = self.tree();
@@ -70,7 +70,9 @@ impl Mender<'_> {
                 let inner = Item { key: None, key_at: 0..0, node: tree.nodes.len() - 1 };
                 tree.nodes[id].kind = Kind::Group(Group { name: None, bracket: '[', items: vec![inner] });
             }
-            (Kind::Group(group), Misfit::Kind(Wanted::Tuple(_))) if group.bracket == '[' && group.name.is_none() => {
+            (Kind::Group(group), Misfit::Kind(WantedKind::Tuple(_)))
+                if group.bracket == '[' && group.name.is_none() =>
+            {
                 found = found.hint("write `( )` in place of `[ ]`");
                 form = Form::Whole;
                 self.group(id).expect("it is one").bracket = '(';

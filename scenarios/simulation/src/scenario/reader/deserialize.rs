@@ -3,7 +3,7 @@
 use super::access::Choice;
 use super::fail::{Fail, Misfit, What};
 use super::scalar;
-use super::tree::{Kind, Wanted, is_name};
+use super::tree::{Kind, WantedKind, is_name};
 use super::value::Value;
 use serde::de::value::StrDeserializer;
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
@@ -45,13 +45,13 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_bool<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        if value.asks(Wanted::Plain("true or false")) {
+        if value.asks(WantedKind::Plain("true or false")) {
             return visitor.visit_bool(self.reading.filling == 1);
         }
         match value.word() {
             Some("true") => visitor.visit_bool(true),
             Some("false") => visitor.visit_bool(false),
-            _ => value.wanted(Wanted::Plain("true or false")),
+            _ => value.wanted(WantedKind::Plain("true or false")),
         }
     }
 
@@ -77,12 +77,12 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_char<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        if value.asks(Wanted::Plain("a character in quotes")) {
+        if value.asks(WantedKind::Plain("a character in quotes")) {
             return visitor.visit_char('a');
         }
         match value.word().and_then(|w| w.strip_prefix('\'')?.strip_suffix('\'')) {
             Some(c) => visitor.visit_str(c),
-            None => value.wanted(Wanted::Plain("a character in quotes")),
+            None => value.wanted(WantedKind::Plain("a character in quotes")),
         }
         .map_err(|e: Fail| value.about(e))
     }
@@ -93,7 +93,7 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_string<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        if value.asks(Wanted::Plain("a text in quotes")) {
+        if value.asks(WantedKind::Plain("a text in quotes")) {
             return visitor
                 .visit_string("a".repeat(value.refused() + self.reading.filling))
                 .map_err(|e: Fail| value.about(e));
@@ -101,7 +101,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         match value.word().map(scalar::text) {
             Some(Some(Ok(text))) => visitor.visit_string(text).map_err(|e: Fail| value.about(e)),
             Some(Some(Err(escape))) => value.misfit(Misfit::Escape(escape)),
-            _ => value.wanted(Wanted::Plain("a text in quotes")),
+            _ => value.wanted(WantedKind::Plain("a text in quotes")),
         }
     }
 
@@ -131,10 +131,10 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_unit<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let empty = self.group().is_some_and(|g| g.bracket == '(' && g.items.is_empty());
-        if self.asks(Wanted::Fields) || empty {
+        if self.asks(WantedKind::Fields) || empty {
             return visitor.visit_unit();
         }
-        self.wanted(Wanted::Plain("`()`"))
+        self.wanted(WantedKind::Plain("`()`"))
     }
 
     fn deserialize_unit_struct<V: Visitor<'static>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fail> {
@@ -143,7 +143,8 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_newtype_struct<V: Visitor<'static>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fail> {
         if name == RAW {
-            let text = if self.asks(Wanted::Plain("a value")) { "()" } else { &self.reading.text[self.node().value] };
+            let text =
+                if self.asks(WantedKind::Plain("a value")) { "()" } else { &self.reading.text[self.node().value] };
             let text: StrDeserializer<'_, Fail> = text.into_deserializer();
             return visitor.visit_newtype_struct(text).map_err(|e| self.about(e));
         }
@@ -153,7 +154,7 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_seq<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        if value.asks(Wanted::List) {
+        if value.asks(WantedKind::List) {
             let kids =
                 (0..value.refused() + self.reading.filling / 2).map(|i| value.hole_kid(&i.to_string()).id).collect();
             return value.visit_elements(kids, visitor);
@@ -161,7 +162,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         match value.group().filter(|g| g.bracket == '[' && g.name.is_none()) {
             // The parser has reported names in a list already.
             Some(group) => value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor),
-            None => value.wanted(Wanted::List),
+            None => value.wanted(WantedKind::List),
         }
     }
 
@@ -180,12 +181,12 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_map<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        if value.asks(Wanted::Plain("names and values in braces")) {
+        if value.asks(WantedKind::Plain("names and values in braces")) {
             return value.visit_elements(Vec::new(), visitor);
         }
         match value.group().filter(|g| g.bracket == '{') {
             Some(group) => value.visit_fields(&group, &[], visitor),
-            None => value.wanted(Wanted::Plain("names and values in braces")),
+            None => value.wanted(WantedKind::Plain("names and values in braces")),
         }
     }
 
@@ -205,7 +206,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         visitor: V,
     ) -> Result<V::Value, Fail> {
         let value = self.inner()?;
-        let name = if value.asks(Wanted::Choice(legal)) {
+        let name = if value.asks(WantedKind::Choice(legal)) {
             let n = legal.len().max(1);
             legal.get((self.reading.filling + value.refused()) % n).map(|l| (*l).to_string())
         } else {
@@ -221,7 +222,7 @@ impl Deserializer<'static> for Value<'_, '_> {
     fn deserialize_identifier<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         match self.word() {
             Some(word) => visitor.visit_string(word.to_string()),
-            None => self.wanted(Wanted::Plain("a name")),
+            None => self.wanted(WantedKind::Plain("a name")),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Failures to read a value: which value, and why.
 
 use super::scalar;
-use super::tree::Wanted;
+use super::tree::WantedKind;
 use std::fmt::{self, Display};
 
 /// A value could not be read.
@@ -89,7 +89,7 @@ impl Display for Refusal {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Misfit {
     /// Something of this kind belongs there.
-    Kind(Wanted),
+    Kind(WantedKind),
     /// The same, in the words of the type that is read.
     Said(String),
     /// So many values belong in the parentheses, and there are others.
@@ -112,13 +112,13 @@ pub(super) enum Misfit {
 impl Misfit {
     /// Whether its words say the whole legal range.
     pub(super) fn says_range(&self) -> bool {
-        matches!(self, Misfit::Kind(Wanted::Whole(..)) | Misfit::Zero)
+        matches!(self, Misfit::Kind(WantedKind::Whole(..)) | Misfit::Zero)
     }
 
     /// The legal range, if it has two ends.
     pub(super) fn bounds(&self) -> Option<(f64, f64)> {
         match self {
-            Misfit::Kind(Wanted::Whole(least, most)) => Some((*least as f64, *most as f64)),
+            Misfit::Kind(WantedKind::Whole(least, most)) => Some((*least as f64, *most as f64)),
             _ => None,
         }
     }
@@ -127,14 +127,14 @@ impl Misfit {
 impl Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Misfit::Kind(Wanted::Plain(kind)) => write!(f, "expected {kind}"),
-            Misfit::Kind(Wanted::Whole(least, most)) => {
+            Misfit::Kind(WantedKind::Plain(kind)) => write!(f, "expected {kind}"),
+            Misfit::Kind(WantedKind::Whole(least, most)) => {
                 write!(f, "must be a whole number from {least} to {most}")
             }
-            Misfit::Kind(Wanted::Fields) => f.write_str("expected fields in parentheses"),
-            Misfit::Kind(Wanted::Tuple(n)) => write!(f, "expected {n} values in parentheses"),
-            Misfit::Kind(Wanted::List) => f.write_str("expected a list in square brackets"),
-            Misfit::Kind(Wanted::Choice(_)) => f.write_str("expected the name of a choice"),
+            Misfit::Kind(WantedKind::Fields) => f.write_str("expected fields in parentheses"),
+            Misfit::Kind(WantedKind::Tuple(n)) => write!(f, "expected {n} values in parentheses"),
+            Misfit::Kind(WantedKind::List) => f.write_str("expected a list in square brackets"),
+            Misfit::Kind(WantedKind::Choice(_)) => f.write_str("expected the name of a choice"),
             Misfit::Said(words) => write!(f, "expected {words}"),
             Misfit::Count { wanted, got } => {
                 write!(f, "expected {wanted} values in parentheses, not {got}")

@@ -1,11 +1,11 @@
 //! Hints how to correct a mistake: the nearest name, what to write, or the legal range.
 
-use super::tree::{Hole, Kind, Placed, Tree, Wanted};
+use super::tree::{Hole, Kind, PlacedMistake, Tree, WantedKind};
 use crate::scenario::fault::UnplacedFault;
 use std::ops::Range;
 
 /// A mistake. Its hint is known only after the whole text has been read.
-pub(super) struct Told {
+pub(super) struct HintedMistake {
     pub at: Range<usize>,
     pub found: UnplacedFault,
     pub form: Form,
@@ -23,8 +23,8 @@ pub(super) enum Form {
     Parentheses(String, usize),
 }
 
-impl Told {
-    pub(super) fn with_hint(&self, tree: &Tree) -> Placed {
+impl HintedMistake {
+    pub(super) fn with_hint(&self, tree: &Tree) -> PlacedMistake {
         let hint = match &self.form {
             Form::Whole => None,
             Form::Missing(field, id) => {
@@ -33,10 +33,10 @@ impl Told {
                 Some(format!("add `{field}: {}`{legal}", shape(tree, *id)))
             }
             Form::Kind(id) => match hole(tree, *id) {
-                Some(Hole { wanted: Some(Wanted::Fields | Wanted::Tuple(_)), .. }) => {
+                Some(Hole { wanted: Some(WantedKind::Fields | WantedKind::Tuple(_)), .. }) => {
                     Some(format!("write `{}`", shape(tree, *id)))
                 }
-                Some(Hole { wanted: Some(Wanted::Whole(..)), .. }) => hole(tree, *id).and_then(legal),
+                Some(Hole { wanted: Some(WantedKind::Whole(..)), .. }) => hole(tree, *id).and_then(legal),
                 Some(Hole { range: Some(range), .. }) if range != FINITE => Some(range.clone()),
                 _ => None,
             },
@@ -74,11 +74,11 @@ fn shape(tree: &Tree, id: usize) -> String {
             });
             format!("({})", fields.collect::<Vec<_>>().join(", "))
         }
-        Kind::Hole(Hole { wanted: Some(Wanted::Fields), kids, fields, .. }) => {
+        Kind::Hole(Hole { wanted: Some(WantedKind::Fields), kids, fields, .. }) => {
             let fields = fields.iter().map(|f| kids.get(*f).map_or(format!("{f}: ..."), |id| field(f, *id)));
             format!("({})", fields.collect::<Vec<_>>().join(", "))
         }
-        Kind::Hole(Hole { wanted: Some(Wanted::Tuple(n)), .. }) => format!("({})", vec!["..."; *n].join(", ")),
+        Kind::Hole(Hole { wanted: Some(WantedKind::Tuple(n)), .. }) => format!("({})", vec!["..."; *n].join(", ")),
         _ => "...".to_string(),
     }
 }
@@ -87,12 +87,12 @@ fn shape(tree: &Tree, id: usize) -> String {
 fn legal(hole: &Hole) -> Option<String> {
     let range = hole.range.as_ref().filter(|r| *r != FINITE);
     let kind = match hole.wanted.as_ref()? {
-        Wanted::Plain(words) => (*words).to_string(),
-        Wanted::Whole(0, most) if *most == u64::MAX.into() => "a whole number, 0 or greater".to_string(),
-        Wanted::Whole(least, most) => format!("a whole number from {least} to {most}"),
-        Wanted::List => "a list in square brackets".to_string(),
-        Wanted::Choice(choices) => format!("one of {}", choices.join(", ")),
-        Wanted::Fields | Wanted::Tuple(_) => return None,
+        WantedKind::Plain(words) => (*words).to_string(),
+        WantedKind::Whole(0, most) if *most == u64::MAX.into() => "a whole number, 0 or greater".to_string(),
+        WantedKind::Whole(least, most) => format!("a whole number from {least} to {most}"),
+        WantedKind::List => "a list in square brackets".to_string(),
+        WantedKind::Choice(choices) => format!("one of {}", choices.join(", ")),
+        WantedKind::Fields | WantedKind::Tuple(_) => return None,
     };
     Some(range.map_or(kind.clone(), |range| format!("{kind}, {range}")))
 }

@@ -1,8 +1,8 @@
 //! Reads a value completely: reports what cannot be read and replaces it, until there is nothing more to report.
 
 use super::fail::{Fail, Misfit, What};
-use super::hint::{Form, Told};
-use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
+use super::hint::{Form, HintedMistake};
+use super::tree::{Group, Hole, Item, Kind, Node, PlacedMistake, Tree, WantedKind};
 use super::value::{Reading, Value};
 use crate::scenario::fault::UnplacedFault;
 use crate::scenario::outline::{Outline, joined};
@@ -24,7 +24,7 @@ pub(super) const SHORT: usize = 40;
 /// A text while it is read.
 pub(super) struct Mender<'a> {
     pub(super) reading: Reading<'a>,
-    told: Vec<Told>,
+    told: Vec<HintedMistake>,
 }
 
 impl<'a> Mender<'a> {
@@ -61,7 +61,7 @@ impl<'a> Mender<'a> {
     }
 
     /// All mistakes found so far.
-    pub(super) fn mistakes(&mut self) -> Vec<Placed> {
+    pub(super) fn mistakes(&mut self) -> Vec<PlacedMistake> {
         let tree = self.reading.tree.get_mut();
         let mut found = std::mem::take(&mut tree.faults);
         found.extend(self.told.iter().map(|told| told.with_hint(tree)));
@@ -114,7 +114,7 @@ impl<'a> Mender<'a> {
         let mut settled = true;
         for node in &mut self.tree().nodes {
             if let Kind::Hole(hole) = &mut node.kind
-                && hole.wanted == Some(Wanted::Plain("a number"))
+                && hole.wanted == Some(WantedKind::Plain("a number"))
                 && hole.refused == 0
                 && !hole.absent
             {
@@ -126,7 +126,7 @@ impl<'a> Mender<'a> {
     }
 
     pub(super) fn tell(&mut self, at: Range<usize>, found: UnplacedFault, form: Form) {
-        self.told.push(Told { at, found, form });
+        self.told.push(HintedMistake { at, found, form });
     }
 
     pub(super) fn dig(&mut self, id: usize) {
@@ -181,7 +181,7 @@ impl<'a> Mender<'a> {
                 true
             }
             (_, What::Unnamed(legal)) => {
-                let problem = self.got(&node, &Misfit::Kind(Wanted::Choice(legal)));
+                let problem = self.got(&node, &Misfit::Kind(WantedKind::Choice(legal)));
                 let found = UnplacedFault::error(&node.path, problem).hint(choose("", legal, "choices"));
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);

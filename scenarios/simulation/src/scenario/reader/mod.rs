@@ -25,7 +25,7 @@ use mend::Mender;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
-use tree::{Placed, Tree};
+use tree::{PlacedMistake, Tree};
 use world::registry::read_from;
 
 /// A value of which every part is read by the one reader for all formats.
@@ -65,7 +65,7 @@ pub fn read<T: DeserializeOwned>(
     Err(ScenarioError::from_faults(name, faults.collect()))
 }
 
-fn mistakes<T: DeserializeOwned>(text: &str, meaning: &dyn Fn(&T) -> Vec<UnplacedFault>) -> Vec<Placed> {
+fn mistakes<T: DeserializeOwned>(text: &str, meaning: &dyn Fn(&T) -> Vec<UnplacedFault>) -> Vec<PlacedMistake> {
     let Some(tree) = Tree::parse(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, UnplacedFault::error("", problem))];

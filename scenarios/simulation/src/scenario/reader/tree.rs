@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A mistake and its place.
-pub(super) type Placed = (Range<usize>, UnplacedFault);
+pub(super) type PlacedMistake = (Range<usize>, UnplacedFault);
 
 /// A value.
 #[derive(Clone, Debug)]
@@ -68,7 +68,7 @@ pub(super) struct Hole {
     /// Fields that must be in it.
     pub fields: Vec<&'static str>,
     /// The kind of value that belongs there, if it is known.
-    pub wanted: Option<Wanted>,
+    pub wanted: Option<WantedKind>,
     /// The legal range in the type's words.
     pub range: Option<String>,
     /// The legal range in numbers, if the type has named it.
@@ -89,7 +89,7 @@ impl Hole {
 
 /// What kind of value belongs in a place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Wanted {
+pub(super) enum WantedKind {
     /// A value named in words: a number, a text, true or false.
     Plain(&'static str),
     /// A whole number between bounds.
@@ -112,7 +112,7 @@ pub(super) struct Tree {
     /// The outermost value.
     pub root: usize,
     /// Mistakes of syntax.
-    pub faults: Vec<Placed>,
+    pub faults: Vec<PlacedMistake>,
     /// The text ends before its brackets are closed.
     pub cut: bool,
     /// Number of brackets that do not match.

@@ -3,7 +3,7 @@
 use super::access::{Elements, Fields};
 use super::fail::{Fail, Misfit, What};
 use super::scalar;
-use super::tree::{Group, Item, Kind, Node, Tree, Wanted};
+use super::tree::{Group, Item, Kind, Node, Tree, WantedKind};
 use serde::de::Visitor;
 use std::cell::RefCell;
 
@@ -63,7 +63,7 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     /// Something of this kind belongs here.
-    pub(super) fn wanted<T>(&self, kind: Wanted) -> Result<T, Fail> {
+    pub(super) fn wanted<T>(&self, kind: WantedKind) -> Result<T, Fail> {
         self.misfit(Misfit::Kind(kind))
     }
 
@@ -81,7 +81,7 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     /// Whether this is a stand-in. If it is, it learns what belongs here.
-    pub(super) fn asks(&self, wanted: Wanted) -> bool {
+    pub(super) fn asks(&self, wanted: WantedKind) -> bool {
         match &mut self.reading.tree.borrow_mut().nodes[self.id].kind {
             Kind::Hole(hole) => {
                 hole.wanted.get_or_insert(wanted);
@@ -121,7 +121,7 @@ impl<'a, 'b> Value<'a, 'b> {
         match (self.only(), self.group()) {
             (Some(value), _) => Ok(value),
             (None, Some(group)) if group.items.is_empty() => self.fail(What::Missing("0")),
-            _ => self.wanted(Wanted::Plain("one value in the parentheses")),
+            _ => self.wanted(WantedKind::Plain("one value in the parentheses")),
         }
     }
 
@@ -164,7 +164,7 @@ impl<'a, 'b> Value<'a, 'b> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Fail> {
-        if self.asks(Wanted::Fields) {
+        if self.asks(WantedKind::Fields) {
             let Kind::Hole(hole) = self.node().kind else { unreachable!("it was one just now") };
             let item = |f: &&str| Item { key: Some((*f).to_string()), key_at: 0..0, node: self.hole_kid(f).id };
             let items: Vec<Item> = hole.fields.iter().map(item).collect();
@@ -173,7 +173,7 @@ impl<'a, 'b> Value<'a, 'b> {
                 .map_err(|e| self.about(e));
         }
         let Some(group) = self.group().filter(|g| g.bracket == '(') else {
-            return self.wanted(Wanted::Fields);
+            return self.wanted(WantedKind::Fields);
         };
         match &group.name {
             Some(given) if !self.unwrapped && given != name => self.misfit(Misfit::Name(given.clone())),
@@ -182,12 +182,12 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     pub(super) fn tuple<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {
-        if self.asks(Wanted::Tuple(len)) {
+        if self.asks(WantedKind::Tuple(len)) {
             let kids = (0..len).map(|i| self.hole_kid(&i.to_string()).id).collect();
             return self.visit_elements(kids, visitor);
         }
         let Some(group) = self.group().filter(|g| g.bracket == '(' && (self.unwrapped || g.name.is_none())) else {
-            return self.wanted(Wanted::Tuple(len));
+            return self.wanted(WantedKind::Tuple(len));
         };
         let elements = self.elements(&group)?;
         if elements.len() != len {
@@ -197,7 +197,7 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     pub(super) fn float(self) -> Result<f64, Fail> {
-        if self.asks(Wanted::Plain("a number")) {
+        if self.asks(WantedKind::Plain("a number")) {
             let bounds = match &self.reading.tree.borrow().nodes[self.id].kind {
                 Kind::Hole(hole) => hole.bounds,
                 _ => None,
@@ -209,19 +209,19 @@ impl<'a, 'b> Value<'a, 'b> {
         }
         match self.word().and_then(scalar::number) {
             Some(v) => Ok(v),
-            None => self.wanted(Wanted::Plain("a number")),
+            None => self.wanted(WantedKind::Plain("a number")),
         }
     }
 
     pub(super) fn whole(self, least: i128, most: i128) -> Result<i128, Fail> {
-        if self.asks(Wanted::Whole(least, most)) {
+        if self.asks(WantedKind::Whole(least, most)) {
             return Ok(scalar::stand_in_whole(self.reading.filling, self.refused()).clamp(least, most));
         }
         match self.word().map(|w| (scalar::whole(w), scalar::number(w))) {
             Some((Some(v), _)) if (least..=most).contains(&v) => Ok(v),
-            Some((Some(_), _)) => self.wanted(Wanted::Whole(least, most)),
+            Some((Some(_), _)) => self.wanted(WantedKind::Whole(least, most)),
             Some((None, Some(_))) => self.misfit(Misfit::Fraction),
-            _ => self.wanted(Wanted::Plain("a whole number")),
+            _ => self.wanted(WantedKind::Plain("a whole number")),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The figures of each arm, over all conditions and under each.
 
-use super::restricted::{Restricted, restricted};
+use super::restricted::{RestrictedMean, restricted};
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson};
@@ -55,7 +55,7 @@ impl ArmMeasure {
 
 /// A measure over many runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct MeasureSummary {
     /// The measure.
     pub measure: ArmMeasure,
     /// Number of runs.
@@ -101,9 +101,9 @@ pub struct ArmFigures {
     pub(super) success: Share,
     pub(super) declared: Share,
     /// Mean time to success; failures count as the limit.
-    pub restricted: Restricted,
+    pub restricted: RestrictedMean,
     /// Time, path and error.
-    pub measured: Vec<Measured>,
+    pub measured: Vec<MeasureSummary>,
 }
 
 /// The figures of an arm under one condition.
@@ -142,13 +142,13 @@ pub(super) fn figures(arm: &str, rows: &[&RunRow], limit_s: f64) -> ArmFigures {
     }
 }
 
-fn measured(measure: ArmMeasure, rows: &[&RunRow]) -> Measured {
+fn measured(measure: ArmMeasure, rows: &[&RunRow]) -> MeasureSummary {
     let sorted = finite_sorted(rows.iter().filter_map(|r| measure.value(r)));
     let interval = |p| {
         let enough = sorted.len() >= LEAST_VALUES;
         enough.then(|| quantile_interval(&sorted, p, SEED, measure.label()))?
     };
-    Measured {
+    MeasureSummary {
         measure,
         n: sorted.len() as u64,
         median: quantile(&sorted, 0.5),

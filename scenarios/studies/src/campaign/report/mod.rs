@@ -20,17 +20,17 @@ pub(crate) mod sample;
 #[cfg(test)]
 mod tests;
 
-pub use arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
+pub use arms::{ArmFigures, ArmMeasure, ConditionFigures, MeasureSummary};
 pub use curves::{Curve, Point};
 pub(crate) use reliability::reliability;
-pub use reliability::{Bin, Reliability, Stated};
+pub use reliability::{Bin, Reliability, StatedEvent};
 pub(crate) mod reliable {
     //! The reliability of maps as table, notes, CSV and picture.
     pub(crate) use super::plots::colour;
     pub(crate) use super::reliability::{csv, notes, picture, table};
 }
 pub use pairs::{Compares, Comparison};
-pub use restricted::Restricted;
+pub use restricted::RestrictedMean;
 pub(crate) use tables::range;
 pub(crate) use text::{Table, wrapped};
 pub use tracks::{Film, Pick, Rank, RemadeRun, picks};

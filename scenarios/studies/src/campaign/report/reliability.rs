@@ -16,31 +16,31 @@ const EDGES: [f64; 8] = [0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.99, 1.0];
 
 /// Of what a map states a probability.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stated {
+pub enum StatedEvent {
     /// The source is in the best cell.
     Cell,
     /// The source is within 5 m of its centre.
     Near,
 }
 
-impl Stated {
+impl StatedEvent {
     /// Both.
-    pub const ALL: [Stated; 2] = [Stated::Cell, Stated::Near];
+    pub const ALL: [StatedEvent; 2] = [StatedEvent::Cell, StatedEvent::Near];
 
     /// In words.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
-            Stated::Cell => "best cell",
-            Stated::Near => "within 5 m of it",
+            StatedEvent::Cell => "best cell",
+            StatedEvent::Near => "within 5 m of it",
         }
     }
 
     /// The stated probability, and whether it was true; `None` without a map or a source.
     fn statement(self, r: &RunRow) -> Option<(f64, bool)> {
         let (p, yes) = match self {
-            Stated::Cell => (r.map_cell_p, r.map_cell_true),
-            Stated::Near => (r.map_near_p, r.map_near_true),
+            StatedEvent::Cell => (r.map_cell_p, r.map_cell_true),
+            StatedEvent::Near => (r.map_near_p, r.map_near_true),
         };
         p.zip(yes.map(|y| y > 0))
     }
@@ -92,7 +92,7 @@ pub struct Reliability {
     /// Name of the arm.
     pub arm: String,
     /// Of what.
-    pub of: Stated,
+    pub of: StatedEvent,
     /// All runs.
     pub all: Bin,
     /// By what they stated; bins without a run are left out.
@@ -103,7 +103,7 @@ pub struct Reliability {
 
 /// Of an arm's runs that have a map: two statements each.
 pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
-    let one = |of: Stated| {
+    let one = |of: StatedEvent| {
         let said: Vec<_> = rows.iter().filter_map(|r| of.statement(r)).collect();
         let bins = EDGES.windows(2).filter_map(|e| {
             let last = e[1] == EDGES[EDGES.len() - 1];
@@ -120,7 +120,7 @@ pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
             declared: declared.count() as u64,
         })
     };
-    Stated::ALL.into_iter().filter_map(one).collect()
+    StatedEvent::ALL.into_iter().filter_map(one).collect()
 }
 
 /// The table: all runs of an arm, then bin by bin.
@@ -157,7 +157,7 @@ pub(crate) fn table(all: &[Reliability]) -> Table {
 
 /// What stands below the table.
 pub(crate) fn notes(all: &[Reliability]) -> String {
-    let ends: Vec<String> = (all.iter().filter(|r| r.of == Stated::Cell))
+    let ends: Vec<String> = (all.iter().filter(|r| r.of == StatedEvent::Cell))
         .filter(|r| r.declared < r.all.n)
         .map(|r| format!("{} of {} of {}", r.all.n - r.declared, r.all.n, r.arm))
         .collect();
@@ -208,7 +208,7 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
     let mut c = Canvas::new(width, below + 17.0 * arms.len() as f64 + 14.0);
     let title = "Probability that the map states, and the share that is true, with 95 % interval";
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, title);
-    for (k, of) in Stated::ALL.into_iter().enumerate() {
+    for (k, of) in StatedEvent::ALL.into_iter().enumerate() {
         let panel = Panel {
             left: LEFT + k as f64 * (SIDE + 72.0),
             top: TOP,

@@ -12,7 +12,7 @@ use crate::campaign::stats::{Interval, positive_mean_interval};
 
 /// The restricted mean of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Restricted {
+pub struct RestrictedMean {
     /// The limit, s.
     pub limit_s: f64,
     /// Number of runs.
@@ -44,12 +44,12 @@ fn success_s(row: &RunRow) -> f64 {
 }
 
 /// From the rows of an arm.
-pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> Restricted {
+pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> RestrictedMean {
     let times: Vec<f64> = rows.iter().filter_map(|r| time_s(r, limit_s)).collect();
     let n = times.len() as u64;
     let at_limit = times.iter().filter(|t| **t >= limit_s).count() as u64;
     let interval = positive_mean_interval(&times).map(|i| Interval { low: i.low, high: i.high.min(limit_s) });
-    Restricted { limit_s, n, at_limit, mean_s: (n > 0).then(|| times.iter().sum::<f64>() / n as f64), interval }
+    RestrictedMean { limit_s, n, at_limit, mean_s: (n > 0).then(|| times.iter().sum::<f64>() / n as f64), interval }
 }
 
 #[cfg(test)]

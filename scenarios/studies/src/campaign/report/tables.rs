@@ -1,6 +1,6 @@
 //! The report's tables for the screen and the page, and every number as CSV.
 
-use super::arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
+use super::arms::{ArmFigures, ArmMeasure, ConditionFigures, MeasureSummary};
 use super::curves::Curve;
 use super::pairs::{Compares, Comparison};
 use super::text::Table;
@@ -59,9 +59,9 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
     let of = |measure: ArmMeasure| {
         let all = || (arms.iter()).flat_map(|a| a.measured.iter().map(move |m| (a, m)));
         let rows = || all().filter(|(_, m)| m.measure == measure);
-        let both = |m: &Measured| [(m.median, m.median_interval), (m.q90, m.q90_interval)];
+        let both = |m: &MeasureSummary| [(m.median, m.median_interval), (m.q90, m.q90_interval)];
         let scale = measure.unit().scale(values(rows().flat_map(|(_, m)| both(m))));
-        let one = |(a, m): (&ArmFigures, &Measured)| {
+        let one = |(a, m): (&ArmFigures, &MeasureSummary)| {
             let interval = |i| range(m.n, i, |i| scale.numbers(i));
             [
                 a.arm.clone(),
