@@ -25,12 +25,10 @@ pub const KARMAN: f64 = 0.4;
 #[serde(deny_unknown_fields)]
 pub struct BedSpec {
     /// Height at which the law reaches zero, m.
-    #[serde(deserialize_with = "world::limits::roughness_m")]
-    #[schemars(transform = world::limits::schema::roughness_m)]
+    #[serde(with = "world::limits::roughness_m")]
     pub roughness_m: Positive,
     /// Height at which it reaches the free current, m.
-    #[serde(deserialize_with = "world::limits::depth_m")]
-    #[schemars(transform = world::limits::schema::depth_m)]
+    #[serde(with = "world::limits::depth_m")]
     pub thickness_m: Positive,
 }
 

@@ -43,19 +43,16 @@ pub const TRANSVERSE: f64 = 0.15;
 #[serde(deny_unknown_fields)]
 pub struct OpenChannelSpec {
     /// Mean over the depth, m/s.
-    #[serde(deserialize_with = "world::limits::running_m_s")]
-    #[schemars(transform = world::limits::schema::running_m_s)]
+    #[serde(with = "world::limits::running_m_s")]
     pub mean_m_s: Positive,
     /// Where the water goes: along the area's axis.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
     /// Equivalent sand roughness k_s, m; 0 means a smooth bed.
-    #[serde(default = "smooth", deserialize_with = "world::limits::sand_m")]
-    #[schemars(transform = world::limits::schema::sand_m)]
+    #[serde(default = "smooth", with = "world::limits::sand_m")]
     pub roughness_m: NonNegative,
     /// Kinematic viscosity, m²/s.
-    #[serde(default = "water", deserialize_with = "world::limits::viscosity_m2_s")]
-    #[schemars(transform = world::limits::schema::viscosity_m2_s)]
+    #[serde(default = "water", with = "world::limits::viscosity_m2_s")]
     pub viscosity_m2_s: Positive,
     /// Resolved turbulence; without it, all turbulence is diffusivity.
     #[serde(default)]

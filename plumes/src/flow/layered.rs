@@ -51,14 +51,12 @@ pub struct LayeredSpec {
 #[serde(deny_unknown_fields)]
 pub struct LayerSpec {
     /// Speed over ground, m/s.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub speed_m_s: NonNegative,
     /// Where the layer's water goes, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Density, kg/m³.
-    #[serde(deserialize_with = "world::limits::density_kg_m3")]
-    #[schemars(transform = world::limits::schema::density_kg_m3)]
+    #[serde(with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
 }
 
@@ -67,12 +65,10 @@ pub struct LayerSpec {
 #[serde(deny_unknown_fields)]
 pub struct InterfaceSpec {
     /// Mean depth, m.
-    #[serde(deserialize_with = "world::limits::depth_m")]
-    #[schemars(transform = world::limits::schema::depth_m)]
+    #[serde(with = "world::limits::depth_m")]
     pub depth_m: Positive,
     /// Thickness, m: the change across the interface divided by the steepest gradient in it.
-    #[serde(deserialize_with = "world::limits::depth_m")]
-    #[schemars(transform = world::limits::schema::depth_m)]
+    #[serde(with = "world::limits::depth_m")]
     pub thickness_m: Positive,
     /// Waves of its height, summed.
     #[serde(default)]
@@ -85,16 +81,13 @@ pub struct InterfaceSpec {
 #[serde(deny_unknown_fields)]
 pub struct WaveSpec {
     /// Half the height from trough to crest, m.
-    #[serde(deserialize_with = "world::limits::internal_m")]
-    #[schemars(transform = world::limits::schema::internal_m)]
+    #[serde(with = "world::limits::internal_m")]
     pub amplitude_m: NonNegative,
     /// Wave length, m.
-    #[serde(deserialize_with = "world::limits::internal_length_m")]
-    #[schemars(transform = world::limits::schema::internal_length_m)]
+    #[serde(with = "world::limits::internal_length_m")]
     pub length_m: Positive,
     /// Period at a fixed place, s.
-    #[serde(deserialize_with = "world::limits::internal_s")]
-    #[schemars(transform = world::limits::schema::internal_s)]
+    #[serde(with = "world::limits::internal_s")]
     pub period_s: Positive,
     /// Where the wave travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

@@ -39,22 +39,18 @@ use crate::flow::water::Water;
 #[serde(deny_unknown_fields)]
 pub struct MeanderSpec {
     /// Standard deviation of each velocity component at the corners, m/s.
-    #[serde(deserialize_with = "world::limits::std_m_s")]
-    #[schemars(transform = world::limits::schema::std_m_s)]
+    #[serde(with = "world::limits::std_m_s")]
     pub std_m_s: NonNegative,
     /// Natural frequency of the noise, rad/s.
-    #[serde(default = "farrell_omega", deserialize_with = "world::limits::wander_rad_s")]
-    #[schemars(transform = world::limits::schema::wander_rad_s)]
+    #[serde(default = "farrell_omega", with = "world::limits::wander_rad_s")]
     pub omega_rad_s: Positive,
     /// Damping ratio of the noise, in (0, 1).
-    #[serde(default = "farrell_damping", deserialize_with = "world::limits::damping")]
-    #[schemars(transform = world::limits::schema::damping)]
+    #[serde(default = "farrell_damping", with = "world::limits::damping")]
     pub damping: Positive,
     /// Wanted spacing of the grid, m.
     pub cell_m: Positive,
     /// Diffusivity K of the velocity, m²/s; if absent, 2ω(W/2)², W the area's shorter side.
-    #[serde(default, deserialize_with = "world::limits::diffusivity_m2_s")]
-    #[schemars(transform = world::limits::schema::diffusivity_m2_s)]
+    #[serde(default, with = "world::limits::diffusivity_m2_s::<Option<NonNegative>>")]
     pub diffusivity_m2_s: Option<NonNegative>,
 }
 

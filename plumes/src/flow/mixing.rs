@@ -24,16 +24,13 @@ use crate::flow::bed::KARMAN;
 #[serde(deny_unknown_fields, default)]
 pub struct MixingSpec {
     /// Horizontal diffusivity everywhere, m²/s.
-    #[serde(deserialize_with = "world::limits::diffusivity_m2_s")]
-    #[schemars(transform = world::limits::schema::diffusivity_m2_s)]
+    #[serde(with = "world::limits::diffusivity_m2_s")]
     pub horizontal_m2_s: NonNegative,
     /// Vertical diffusivity added everywhere, m²/s.
-    #[serde(deserialize_with = "world::limits::vertical_m2_s")]
-    #[schemars(transform = world::limits::schema::vertical_m2_s)]
+    #[serde(with = "world::limits::vertical_m2_s")]
     pub background_vertical_m2_s: NonNegative,
     /// Horizontal diffusivity by bed friction, in units of u_*H.
-    #[serde(deserialize_with = "world::limits::transverse")]
-    #[schemars(transform = world::limits::schema::transverse)]
+    #[serde(with = "world::limits::transverse")]
     pub transverse: NonNegative,
 }
 

@@ -38,16 +38,13 @@ pub struct TideSpec {
 #[serde(deny_unknown_fields)]
 pub struct ConstituentSpec {
     /// Period, h.
-    #[serde(default = "m2", deserialize_with = "world::limits::tide_h")]
-    #[schemars(transform = world::limits::schema::tide_h)]
+    #[serde(default = "m2", with = "world::limits::tide_h")]
     pub period_h: Positive,
     /// Greatest speed, m/s.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub major_m_s: NonNegative,
     /// Speed a quarter of a period later, to the left of the major axis, m/s; negative means to the right.
-    #[serde(default = "none", deserialize_with = "world::limits::component_m_s")]
-    #[schemars(transform = world::limits::schema::component_m_s)]
+    #[serde(default = "none", with = "world::limits::component_m_s")]
     pub minor_m_s: Finite,
     /// Where the water goes at the greatest speed, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

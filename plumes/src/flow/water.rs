@@ -59,8 +59,7 @@ pub struct WaterSpec {
     /// Diffusivities.
     pub mixing: MixingSpec,
     /// Density where no layers set it, kg/m³.
-    #[serde(deserialize_with = "world::limits::density_kg_m3")]
-    #[schemars(transform = world::limits::schema::density_kg_m3)]
+    #[serde(with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
     /// Obstacles and bed divert the currents; if absent, currents pass through obstacles.
     pub blockage: Option<BlockageSpec>,

@@ -29,12 +29,10 @@ pub struct SourceSpec {
     #[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
     pub id: String,
     /// East of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Height above the bed, m; either this or `depth_m`.
     #[serde(default)]
@@ -43,8 +41,7 @@ pub struct SourceSpec {
     #[serde(default)]
     pub depth_m: Option<Finite>,
     /// Mass released, g/s.
-    #[serde(deserialize_with = "world::limits::source_g_s")]
-    #[schemars(transform = world::limits::schema::source_g_s)]
+    #[serde(with = "world::limits::source_g_s")]
     pub rate_g_s: Positive,
     /// How it is divided into filaments.
     #[serde(default)]
@@ -58,29 +55,24 @@ pub struct ReleaseSpec {
     /// Filaments per second, 1/s.
     pub rate_hz: Positive,
     /// Size (standard deviation of the kernel) at release, m.
-    #[serde(deserialize_with = "world::limits::filament_m")]
-    #[schemars(transform = world::limits::schema::filament_m)]
+    #[serde(with = "world::limits::filament_m")]
     pub initial_size_m: Positive,
     /// Growth of the squared size, m²/s.
-    #[serde(deserialize_with = "world::limits::growth_m2_s")]
-    #[schemars(transform = world::limits::schema::growth_m2_s)]
+    #[serde(with = "world::limits::growth_m2_s")]
     pub growth_m2_s: NonNegative,
     /// Greatest vertical size, m; without it half the local depth.
-    #[serde(deserialize_with = "world::limits::depth_m")]
-    #[schemars(transform = world::limits::schema::depth_m)]
+    #[serde(with = "world::limits::depth_m::<Option<Positive>>")]
     pub vertical_size_limit_m: Option<Positive>,
     /// At random times (true) or at equal intervals (false).
     pub poisson: bool,
     /// Size of the smallest eddies that are resolved, m. Below it a filament grows by the eddies smaller than itself
     /// instead of by `growth_m2_s`, and only the larger ones kick it.
-    #[serde(deserialize_with = "world::limits::filament_m")]
-    #[schemars(transform = world::limits::schema::filament_m)]
+    #[serde(with = "world::limits::filament_m::<Option<Positive>>")]
     pub eddy_size_m: Option<Positive>,
     /// Whether the release is lighter or heavier than the water around.
     pub buoyancy: BuoyancySpec,
     /// Volume released, L/s; a nozzle sets it. A buoyant release needs it.
-    #[serde(deserialize_with = "world::limits::volume_l_s")]
-    #[schemars(transform = world::limits::schema::volume_l_s)]
+    #[serde(with = "world::limits::volume_l_s::<Option<Positive>>")]
     pub volume_l_s: Option<Positive>,
     /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
@@ -91,12 +83,10 @@ pub struct ReleaseSpec {
 #[serde(deny_unknown_fields)]
 pub struct NozzleSpec {
     /// Inner diameter, m.
-    #[serde(deserialize_with = "world::limits::nozzle_m")]
-    #[schemars(transform = world::limits::schema::nozzle_m)]
+    #[serde(with = "world::limits::nozzle_m")]
     pub diameter_m: Positive,
     /// Speed of the fluid that leaves it, m/s; iso-kinetic if it is that of the water around.
-    #[serde(deserialize_with = "world::limits::nozzle_m_s")]
-    #[schemars(transform = world::limits::schema::nozzle_m_s)]
+    #[serde(with = "world::limits::nozzle_m_s")]
     pub speed_m_s: Positive,
 }
 

@@ -39,16 +39,13 @@ pub struct AutopilotSpec {
     /// Propeller speed per integrated error in speed, rpm/m.
     pub speed_integral_rpm_m: NonNegative,
     /// Speed through the water at which the gains hold, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub design_speed_m_s: Positive,
     /// Greatest deflection of rudder and stern plane, deg.
-    #[serde(deserialize_with = "world::limits::fin_deg")]
-    #[schemars(transform = world::limits::schema::fin_deg)]
+    #[serde(with = "world::limits::fin_deg")]
     pub fin_limit_deg: Positive,
     /// Greatest propeller speed, rpm.
-    #[serde(deserialize_with = "world::limits::rpm_limit")]
-    #[schemars(transform = world::limits::schema::rpm_limit)]
+    #[serde(with = "world::limits::rpm_limit")]
     pub rpm_limit: Positive,
 }
 

@@ -23,16 +23,13 @@ pub struct TimeTableRow {
     /// From this time on, s.
     pub t_s: NonNegative,
     /// Rudder, °, positive to starboard.
-    #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
-    #[schemars(transform = world::limits::schema::fin_deg)]
+    #[serde(default = "zero", with = "world::limits::fin_deg::<Finite>")]
     pub rudder_deg: Finite,
     /// Stern plane, °, positive nose down.
-    #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
-    #[schemars(transform = world::limits::schema::fin_deg)]
+    #[serde(default = "zero", with = "world::limits::fin_deg::<Finite>")]
     pub stern_deg: Finite,
     /// Propeller, rpm.
-    #[serde(deserialize_with = "world::limits::rpm")]
-    #[schemars(transform = world::limits::schema::rpm)]
+    #[serde(with = "world::limits::rpm")]
     pub rpm: Finite,
 }
 

@@ -44,8 +44,7 @@ pub struct Params {
     /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,
     /// How long it first waits where it is for the plume to come back, s; more than 0 needs a vehicle that hovers.
-    #[serde(deserialize_with = "world::limits::response_s")]
-    #[schemars(transform = world::limits::schema::response_s)]
+    #[serde(with = "world::limits::response_s")]
     pub wait_s: NonNegative,
 }
 

@@ -10,11 +10,7 @@ pub enum FinFault {
     /// It stays at its last set-point.
     Stuck,
     /// It goes to an angle and stays there, degrees; signs as in the table of `OpenLoop`.
-    StuckAt(
-        #[serde(deserialize_with = "world::limits::fin_deg")]
-        #[schemars(transform = world::limits::schema::fin_deg)]
-        Finite,
-    ),
+    StuckAt(#[serde(with = "world::limits::fin_deg::<Finite>")] Finite),
     /// It takes only this share of each angle that it is asked for.
     Weak(Fraction),
     /// It stays in the middle.
@@ -27,11 +23,7 @@ pub enum PropellerFault {
     /// It stays at its last set-point.
     Stuck,
     /// It goes to a speed and stays there, rpm.
-    StuckAt(
-        #[serde(deserialize_with = "world::limits::rpm")]
-        #[schemars(transform = world::limits::schema::rpm)]
-        Finite,
-    ),
+    StuckAt(#[serde(with = "world::limits::rpm")] Finite),
     /// It turns with only this share of each speed that it is asked for.
     Weak(Fraction),
     /// It stands still.

@@ -12,17 +12,9 @@ pub enum DyeFault {
     /// It repeats its last reading.
     Stuck,
     /// It reads so much more dye than there is, µg/L; the reading stays between zero and full scale.
-    Biased(
-        #[serde(deserialize_with = "world::limits::bias_ug_l")]
-        #[schemars(transform = world::limits::schema::bias_ug_l)]
-        Finite,
-    ),
+    Biased(#[serde(with = "world::limits::bias_ug_l")] Finite),
     /// It reads ever more dye than there is, µg/L in each second.
-    Drifting(
-        #[serde(deserialize_with = "world::limits::drift_ug_l_s")]
-        #[schemars(transform = world::limits::schema::drift_ug_l_s)]
-        Finite,
-    ),
+    Drifting(#[serde(with = "world::limits::drift_ug_l_s")] Finite),
 }
 
 /// How a compass fails.
@@ -33,17 +25,9 @@ pub enum HeadingFault {
     /// It repeats its last reading.
     Stuck,
     /// The heading is turned by so much, clockwise, degrees.
-    Biased(
-        #[serde(deserialize_with = "world::limits::bias_deg")]
-        #[schemars(transform = world::limits::schema::bias_deg)]
-        Finite,
-    ),
+    Biased(#[serde(with = "world::limits::bias_deg")] Finite),
     /// The heading turns away, clockwise, degrees in each second.
-    Drifting(
-        #[serde(deserialize_with = "world::limits::drift_deg_s")]
-        #[schemars(transform = world::limits::schema::drift_deg_s)]
-        Finite,
-    ),
+    Drifting(#[serde(with = "world::limits::drift_deg_s")] Finite),
 }
 
 /// How an instrument fails that reports a depth or a range.
@@ -54,17 +38,9 @@ pub enum MetresFault {
     /// It repeats its last reading.
     Stuck,
     /// It reads so much more than there is, m; a range stays at zero or above.
-    Biased(
-        #[serde(deserialize_with = "world::limits::bias_m")]
-        #[schemars(transform = world::limits::schema::bias_m)]
-        Finite,
-    ),
+    Biased(#[serde(with = "world::limits::bias_m")] Finite),
     /// It reads ever more than there is, m in each second.
-    Drifting(
-        #[serde(deserialize_with = "world::limits::drift_m_s")]
-        #[schemars(transform = world::limits::schema::drift_m_s)]
-        Finite,
-    ),
+    Drifting(#[serde(with = "world::limits::drift_m_s")] Finite),
 }
 
 /// How an instrument fails that reports a velocity.
@@ -75,17 +51,9 @@ pub enum SpeedFault {
     /// It repeats its last reading.
     Stuck,
     /// The velocity ahead is too large by so much, m/s; what the instrument calls invalid stays as it is.
-    Biased(
-        #[serde(deserialize_with = "world::limits::component_m_s")]
-        #[schemars(transform = world::limits::schema::component_m_s)]
-        Finite,
-    ),
+    Biased(#[serde(with = "world::limits::component_m_s")] Finite),
     /// The velocity ahead grows, m/s in each second.
-    Drifting(
-        #[serde(deserialize_with = "world::limits::drift_m_s2")]
-        #[schemars(transform = world::limits::schema::drift_m_s2)]
-        Finite,
-    ),
+    Drifting(#[serde(with = "world::limits::drift_m_s2")] Finite),
 }
 
 /// How an instrument fails that reports a density.
@@ -96,17 +64,9 @@ pub enum DensityFault {
     /// It repeats its last reading.
     Stuck,
     /// The water reads denser by so much, kg/m³.
-    Biased(
-        #[serde(deserialize_with = "world::limits::excess_kg_m3")]
-        #[schemars(transform = world::limits::schema::excess_kg_m3)]
-        Finite,
-    ),
+    Biased(#[serde(with = "world::limits::excess_kg_m3")] Finite),
     /// The water reads ever denser, kg/m³ in each second.
-    Drifting(
-        #[serde(deserialize_with = "world::limits::drift_kg_m3_s")]
-        #[schemars(transform = world::limits::schema::drift_kg_m3_s)]
-        Finite,
-    ),
+    Drifting(#[serde(with = "world::limits::drift_kg_m3_s")] Finite),
 }
 
 /// How an instrument fails that reports pictures.
@@ -134,12 +94,10 @@ pub enum FixFault {
 #[serde(deny_unknown_fields)]
 pub struct LieSpec {
     /// To the east, m.
-    #[serde(default = "none", deserialize_with = "world::limits::bias_m")]
-    #[schemars(transform = world::limits::schema::bias_m)]
+    #[serde(default = "none", with = "world::limits::bias_m")]
     pub east_m: Finite,
     /// To the north, m.
-    #[serde(default = "none", deserialize_with = "world::limits::bias_m")]
-    #[schemars(transform = world::limits::schema::bias_m)]
+    #[serde(default = "none", with = "world::limits::bias_m")]
     pub north_m: Finite,
     /// Time over which the displacement grows to its full size, s; zero means that it jumps.
     #[serde(default = "at_once")]

@@ -14,8 +14,7 @@ pub struct GuidanceSpec {
     /// Greatest rate of the commanded heading, °/s (section 4: 10).
     pub heading_rate_deg_s: Positive,
     /// Greatest speed through the water, m/s (section 4: 2); of a vehicle that the water does not carry, over ground.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub water_speed_limit_m_s: Positive,
     /// R of eq. 6: a point, or the end of a line, counts as reached within this distance, m (Table 4: 10).
     pub arrive_m: Positive,
@@ -30,8 +29,7 @@ pub struct GuidanceSpec {
     /// R_L of eq. 10: a line ends when the vehicle has overshot its end by more than this, m (not printed; R taken).
     pub line_overshoot_m: Positive,
     /// R_m of section 4.3, m (not printed; the 11.5 m that 2 m/s at 10 °/s give, with a margin).
-    #[serde(deserialize_with = "world::limits::turn_m")]
-    #[schemars(transform = world::limits::schema::turn_m)]
+    #[serde(with = "world::limits::turn_m")]
     pub turn_radius_m: Positive,
     /// A Dubins path is planned again when the vehicle is farther from it than this, m (not printed; just under the
     /// 10 m of a navigation fix, so that a fix causes a new path and noise does not).

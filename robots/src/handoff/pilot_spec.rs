@@ -22,15 +22,13 @@ pub enum PilotSpec {
 #[serde(deny_unknown_fields, default)]
 pub struct TorpedoSpec {
     /// Speed through the water at which the gains hold, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub design_speed_m_s: Positive,
     /// Greatest commanded turn rate, degrees/s.
     pub heading_rate_deg_s: Positive,
     /// Radius of its tightest turn, m, for searchers and guidance; without it, that of design speed and turn rate.
     /// `rheotaxis vehicle trials` measures it.
-    #[serde(deserialize_with = "world::limits::turn_m")]
-    #[schemars(transform = world::limits::schema::turn_m)]
+    #[serde(with = "world::limits::turn_m::<Option<Positive>>")]
     pub turn_radius_m: Option<Positive>,
     /// Greatest commanded pitch, degrees.
     pub pitch_limit_deg: Positive,
@@ -67,20 +65,16 @@ impl TorpedoSpec {
 #[serde(deny_unknown_fields, default)]
 pub struct ThrustersSpec {
     /// Greatest commanded speed ahead, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub speed_m_s: Positive,
     /// Greatest commanded speed sideways, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub sideways_m_s: Positive,
     /// Greatest commanded speed up and down, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub climb_m_s: Positive,
     /// Greatest commanded turn rate, degrees/s.
-    #[serde(deserialize_with = "world::limits::turn_deg_s")]
-    #[schemars(transform = world::limits::schema::turn_deg_s)]
+    #[serde(with = "world::limits::turn_deg_s")]
     pub turn_deg_s: Positive,
     /// Time constant with which speeds approach what is commanded, s.
     pub speed_lag_s: Positive,
@@ -119,8 +113,7 @@ pub struct GliderSpec {
     pub heading_rate_deg_s: Positive,
     /// Radius of its tightest turn, m, for searchers and guidance; without it, that of glide and turn rate.
     /// `rheotaxis vehicle trials` measures it.
-    #[serde(deserialize_with = "world::limits::turn_m")]
-    #[schemars(transform = world::limits::schema::turn_m)]
+    #[serde(with = "world::limits::turn_m::<Option<Positive>>")]
     pub turn_radius_m: Option<Positive>,
 }
 

@@ -56,13 +56,11 @@ pub struct DoubtSpec {
     pub fix_m: NonNegative,
     /// Standard deviation of the rate at which the believed position drifts away between two fixes, in each horizontal
     /// axis, m/s. The mission begins where the vehicle believes it does.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub drift_m_s: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the whole way behind the vehicle from the measured
     /// one, m/s: an error that all releases share. 0: the measured flow is true.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub flow_m_s: NonNegative,
     /// Possible strengths of the source: releases in each release period, all equally likely before the mission. None
     /// given: one, as in the papers. At most 9, each from 0.01 to 100.

@@ -90,36 +90,29 @@ pub struct TrajectorySpec {
     /// Chance of detecting dye that is there, μ.
     pub mu: Fraction,
     /// Spread of dye in one second along the area's axis, σx, m/√s.
-    #[serde(deserialize_with = "world::limits::spread_m_rts")]
-    #[schemars(transform = world::limits::schema::spread_m_rts)]
+    #[serde(with = "world::limits::spread_m_rts")]
     pub sigma_x_m_rts: Positive,
     /// The same across the axis, σy, m/√s.
-    #[serde(deserialize_with = "world::limits::spread_m_rts")]
-    #[schemars(transform = world::limits::schema::spread_m_rts)]
+    #[serde(with = "world::limits::spread_m_rts")]
     pub sigma_y_m_rts: Positive,
     /// The same in the vertical, σz, m/√s; not used in a map of the plane.
-    #[serde(deserialize_with = "world::limits::spread_m_rts")]
-    #[schemars(transform = world::limits::schema::spread_m_rts)]
+    #[serde(with = "world::limits::spread_m_rts")]
     pub sigma_z_m_rts: Positive,
     /// Horizontal size of a release, to which dye of age 0 is met round its middle: a standard deviation, m; 0, as in the
     /// papers: it is a point.
     pub initial_m: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the way from the flow at the vehicle, u′, m/s;
     /// 0: the flow is the same everywhere, as in the papers.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub flow_error_m_s: NonNegative,
     /// Time for which a deviation lasts along a way, T, s.
-    #[serde(deserialize_with = "world::limits::lasting_s")]
-    #[schemars(transform = world::limits::schema::lasting_s)]
+    #[serde(with = "world::limits::lasting_s")]
     pub flow_error_s: Positive,
     /// Look-back h, s: older releases are not considered.
-    #[serde(deserialize_with = "world::limits::lasting_s")]
-    #[schemars(transform = world::limits::schema::lasting_s)]
+    #[serde(with = "world::limits::lasting_s")]
     pub lookback_s: Positive,
     /// Time between two releases, the papers' time unit, s.
-    #[serde(deserialize_with = "world::limits::lasting_s")]
-    #[schemars(transform = world::limits::schema::lasting_s)]
+    #[serde(with = "world::limits::lasting_s")]
     pub release_period_s: Positive,
     /// Neighbouring releases are merged while their places differ by less than this share of their spread (root mean
     /// square); 0: never.

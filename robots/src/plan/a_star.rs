@@ -44,8 +44,7 @@ pub struct Params {
     /// Which costs.
     pub cost: Cost,
     /// Turning radius for which the path is smoothed, m; the vehicle's own if that is greater.
-    #[serde(deserialize_with = "world::limits::turn_m")]
-    #[schemars(transform = world::limits::schema::turn_m)]
+    #[serde(with = "world::limits::turn_m")]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
     pub clearance_weight: NonNegative,

@@ -53,8 +53,7 @@ pub struct AdcpSpec {
     /// Length of the cell beyond it, m.
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub noise_m_s: NonNegative,
     /// Angle between the beams and the axis, degrees, below 60.
     pub beam_angle_deg: Finite,

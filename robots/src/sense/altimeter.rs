@@ -31,14 +31,12 @@ pub struct AltimeterSpec {
     /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
-    #[serde(deserialize_with = "world::limits::error_m")]
-    #[schemars(transform = world::limits::schema::error_m)]
+    #[serde(with = "world::limits::error_m")]
     pub noise_m: NonNegative,
     /// Least range, m.
     pub min_range_m: NonNegative,
     /// Greatest range, m.
-    #[serde(deserialize_with = "world::limits::sonar_m")]
-    #[schemars(transform = world::limits::schema::sonar_m)]
+    #[serde(with = "world::limits::sonar_m")]
     pub max_range_m: Positive,
 }
 

@@ -29,8 +29,7 @@ pub struct DepthSpec {
     /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
-    #[serde(deserialize_with = "world::limits::error_m")]
-    #[schemars(transform = world::limits::schema::error_m)]
+    #[serde(with = "world::limits::error_m")]
     pub noise_m: NonNegative,
 }
 

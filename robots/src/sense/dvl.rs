@@ -35,16 +35,14 @@ pub struct DvlSpec {
     /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
-    #[serde(deserialize_with = "world::limits::stream_m_s")]
-    #[schemars(transform = world::limits::schema::stream_m_s)]
+    #[serde(with = "world::limits::stream_m_s")]
     pub noise_m_s: NonNegative,
     /// Standard deviation of the relative scale error, drawn once per run.
     pub scale_error: NonNegative,
     /// Least range to the bed for bottom lock, m.
     pub min_altitude_m: NonNegative,
     /// Greatest range to the bed for bottom lock, m.
-    #[serde(deserialize_with = "world::limits::sonar_m")]
-    #[schemars(transform = world::limits::schema::sonar_m)]
+    #[serde(with = "world::limits::sonar_m")]
     pub max_altitude_m: Positive,
 }
 

@@ -31,8 +31,7 @@ pub struct LblSpec {
     /// Time between two fixes, s.
     pub period_s: Positive,
     /// Standard deviation of east and of north, m.
-    #[serde(deserialize_with = "world::limits::error_m")]
-    #[schemars(transform = world::limits::schema::error_m)]
+    #[serde(with = "world::limits::error_m")]
     pub noise_m: NonNegative,
     /// Share of fixes that fail.
     pub dropout: Fraction,

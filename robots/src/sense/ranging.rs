@@ -55,12 +55,10 @@ pub struct RangingSpec {
     /// Least range, m.
     pub min_range_m: NonNegative,
     /// Greatest range, m.
-    #[serde(deserialize_with = "world::limits::sonar_m")]
-    #[schemars(transform = world::limits::schema::sonar_m)]
+    #[serde(with = "world::limits::sonar_m")]
     pub max_range_m: Positive,
     /// Standard deviation of the noise, m.
-    #[serde(deserialize_with = "world::limits::error_m")]
-    #[schemars(transform = world::limits::schema::error_m)]
+    #[serde(with = "world::limits::error_m")]
     pub noise_m: NonNegative,
     /// Share of the beams that drop out.
     pub dropout: Fraction,

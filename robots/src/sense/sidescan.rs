@@ -60,8 +60,7 @@ pub struct SidescanSpec {
     /// Pings per second, Hz.
     pub rate_hz: Positive,
     /// Greatest slant range, m.
-    #[serde(deserialize_with = "world::limits::sonar_m")]
-    #[schemars(transform = world::limits::schema::sonar_m)]
+    #[serde(with = "world::limits::sonar_m")]
     pub range_m: Positive,
     /// Samples on a side, nearest to farthest.
     pub samples: u32,
@@ -72,12 +71,10 @@ pub struct SidescanSpec {
     /// Angle of the beam's axis below the horizontal, °.
     pub tilt_deg: NonNegative,
     /// Backscatter strength of a square metre of bed at a grazing angle of 90°, dB.
-    #[serde(deserialize_with = "world::limits::level_db")]
-    #[schemars(transform = world::limits::schema::level_db)]
+    #[serde(with = "world::limits::level_db")]
     pub bed_db: Finite,
     /// Backscatter strength whose echo from the greatest range equals the noise, dB.
-    #[serde(deserialize_with = "world::limits::level_db")]
-    #[schemars(transform = world::limits::schema::level_db)]
+    #[serde(with = "world::limits::level_db")]
     pub floor_db: Finite,
     /// Absorption, dB/m.
     pub absorption_db_m: NonNegative,

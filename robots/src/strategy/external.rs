@@ -32,8 +32,7 @@ pub struct ExternalSpec {
     /// Simulated time between two questions, s; at least one step.
     pub period_s: Positive,
     /// How long the run waits for an answer, s of real time.
-    #[serde(deserialize_with = "world::limits::answer_s")]
-    #[schemars(transform = world::limits::schema::answer_s)]
+    #[serde(with = "world::limits::answer_s")]
     pub deadline_s: Positive,
     /// What the robot does without an answer.
     pub on_late: OnLate,

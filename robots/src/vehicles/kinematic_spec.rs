@@ -15,18 +15,15 @@ pub struct KinematicSpec {
     /// What its speed is relative to.
     pub moves: Moves,
     /// Greatest speed ahead, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub max_speed_m_s: Positive,
     /// How tightly it turns. The guidance asks for no faster turn than its own `heading_rate_deg_s`.
     pub turn: TurnSpec,
     /// Greatest speed up and down, m/s.
-    #[serde(deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(with = "world::limits::vehicle_m_s")]
     pub climb_m_s: Positive,
     /// Time constant with which heading, speed and depth approach what is asked, s; 0 for none.
-    #[serde(deserialize_with = "world::limits::response_s")]
-    #[schemars(transform = world::limits::schema::response_s)]
+    #[serde(with = "world::limits::response_s")]
     pub lag_s: NonNegative,
     /// URDF file with hull, mass and places of the instruments, relative to the scenario file; `None`: the built-in
     /// one of the REMUS 100.
@@ -71,8 +68,7 @@ pub enum TurnSpec {
 #[serde(deny_unknown_fields)]
 pub struct RateSpec {
     /// Greatest turn rate, degrees/s.
-    #[serde(deserialize_with = "world::limits::turn_deg_s")]
-    #[schemars(transform = world::limits::schema::turn_deg_s)]
+    #[serde(with = "world::limits::turn_deg_s")]
     pub deg_s: Positive,
 }
 
@@ -81,8 +77,7 @@ pub struct RateSpec {
 #[serde(deny_unknown_fields)]
 pub struct RadiusSpec {
     /// Least turning radius, m, of the path along its own speed.
-    #[serde(deserialize_with = "world::limits::radius_m")]
-    #[schemars(transform = world::limits::schema::radius_m)]
+    #[serde(with = "world::limits::radius_m")]
     pub radius_m: Positive,
 }
 

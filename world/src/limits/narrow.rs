@@ -58,39 +58,37 @@ fn is_number(schema: &Map<String, Value>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::schema;
+    use super::super::{component_m_s, depth_m, peakedness, solid_m, stream_m_s};
     use crate::ranges::{Finite, NonNegative, Positive};
     use schemars::{JsonSchema, SchemaGenerator};
     use serde_json::json;
 
-    fn narrowed<T: JsonSchema>(limit: fn(&mut schemars::Schema)) -> serde_json::Value {
-        let mut schema = SchemaGenerator::default().subschema_for::<T>();
-        limit(&mut schema);
-        schema.to_value()
+    fn narrowed<L: JsonSchema>() -> serde_json::Value {
+        SchemaGenerator::default().subschema_for::<L>().to_value()
     }
 
     #[test]
     fn a_limit_narrows_what_the_type_allows_and_says_the_unit() {
         assert_eq!(
-            narrowed::<Positive>(schema::solid_m),
+            narrowed::<solid_m<Positive>>(),
             json!({"type": "number", "minimum": 1e-3, "maximum": 1e6, "x-unit": "m"})
         );
         assert_eq!(
-            narrowed::<Positive>(schema::stream_m_s),
+            narrowed::<stream_m_s<Positive>>(),
             json!({"type": "number", "exclusiveMinimum": 0.0, "maximum": 15.0, "x-unit": "m/s"})
         );
         assert_eq!(
-            narrowed::<NonNegative>(schema::component_m_s),
+            narrowed::<component_m_s<NonNegative>>(),
             json!({"type": "number", "minimum": 0.0, "maximum": 15.0, "x-unit": "m/s"})
         );
-        assert_eq!(narrowed::<Finite>(schema::peakedness), json!({"type": "number", "minimum": 0.1, "maximum": 20.0}));
+        assert_eq!(narrowed::<peakedness<Finite>>(), json!({"type": "number", "minimum": 0.1, "maximum": 20.0}));
     }
 
     #[test]
     fn it_reaches_every_number_of_a_triple_and_one_that_may_be_left_out() {
-        let triple = narrowed::<(Positive, Positive, Positive)>(schema::solid_m);
+        let triple = narrowed::<solid_m<(Positive, Positive, Positive)>>();
         assert_eq!(triple["prefixItems"][2]["maximum"], json!(1e6));
-        let maybe = narrowed::<Option<Positive>>(schema::depth_m);
+        let maybe = narrowed::<depth_m<Option<Positive>>>();
         assert_eq!(maybe["maximum"], json!(12_000.0));
         assert_eq!(maybe["type"], json!(["number", "null"]));
     }

@@ -15,12 +15,10 @@ pub struct ObstacleSpec {
     /// Its shape.
     pub shape: ShapeSpec,
     /// East of the datum (down-stream in a flume), m.
-    #[serde(deserialize_with = "crate::limits::place_m")]
-    #[schemars(transform = crate::limits::schema::place_m)]
+    #[serde(with = "crate::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum (to the left in a flume), m.
-    #[serde(deserialize_with = "crate::limits::place_m")]
-    #[schemars(transform = crate::limits::schema::place_m)]
+    #[serde(with = "crate::limits::place_m")]
     pub north_m: Finite,
     /// Height of its lowest point; on the bed by default.
     #[serde(default)]
@@ -55,8 +53,7 @@ pub enum ShapeSpec {
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     /// Length along x, width along y and height, m.
-    #[serde(deserialize_with = "crate::limits::solid_m")]
-    #[schemars(transform = crate::limits::schema::solid_m)]
+    #[serde(with = "crate::limits::solid_m::<(Positive, Positive, Positive)>")]
     pub size_m: (Positive, Positive, Positive),
 }
 
@@ -65,12 +62,10 @@ pub struct BoxShape {
 #[serde(deny_unknown_fields)]
 pub struct CylinderShape {
     /// Radius, m.
-    #[serde(deserialize_with = "crate::limits::solid_m")]
-    #[schemars(transform = crate::limits::schema::solid_m)]
+    #[serde(with = "crate::limits::solid_m")]
     pub radius_m: Positive,
     /// Height, m.
-    #[serde(deserialize_with = "crate::limits::solid_m")]
-    #[schemars(transform = crate::limits::schema::solid_m)]
+    #[serde(with = "crate::limits::solid_m")]
     pub height_m: Positive,
 }
 
@@ -81,8 +76,7 @@ pub struct MeshShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file.
-    #[serde(default = "one", deserialize_with = "crate::limits::scale")]
-    #[schemars(transform = crate::limits::schema::scale)]
+    #[serde(default = "one", with = "crate::limits::scale")]
     pub scale: Positive,
 }
 
@@ -94,8 +88,7 @@ pub struct HeightfieldShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file, for `cellsize` and heights alike.
-    #[serde(default = "one", deserialize_with = "crate::limits::scale")]
-    #[schemars(transform = crate::limits::schema::scale)]
+    #[serde(default = "one", with = "crate::limits::scale")]
     pub scale: Positive,
 }
 

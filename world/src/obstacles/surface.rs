@@ -11,8 +11,7 @@ pub struct Surface {
     /// Share of red, green and blue light that is reflected, equally in all directions.
     pub albedo: (Fraction, Fraction, Fraction),
     /// Backscatter strength per square metre at a grazing angle of 90°, dB.
-    #[serde(deserialize_with = "crate::limits::level_db")]
-    #[schemars(transform = crate::limits::schema::level_db)]
+    #[serde(with = "crate::limits::level_db")]
     pub backscatter_db: Finite,
 }
 

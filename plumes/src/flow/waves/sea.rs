@@ -56,8 +56,7 @@ pub struct WavesSpec {
     #[serde(default = "yes")]
     pub stokes: bool,
     /// Ichiye's coefficient of the mixing.
-    #[serde(default = "ichiye", deserialize_with = "world::limits::wave_mixing")]
-    #[schemars(transform = world::limits::schema::wave_mixing)]
+    #[serde(default = "ichiye", with = "world::limits::wave_mixing")]
     pub mixing: NonNegative,
 }
 
@@ -66,12 +65,10 @@ pub struct WavesSpec {
 #[serde(deny_unknown_fields)]
 pub struct TrainSpec {
     /// Height from trough to crest, m.
-    #[serde(deserialize_with = "world::limits::wave_m")]
-    #[schemars(transform = world::limits::schema::wave_m)]
+    #[serde(with = "world::limits::wave_m")]
     pub height_m: Positive,
     /// Period at a fixed place, s.
-    #[serde(deserialize_with = "world::limits::wave_s")]
-    #[schemars(transform = world::limits::schema::wave_s)]
+    #[serde(with = "world::limits::wave_s")]
     pub period_s: Positive,
     /// Where the train travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

@@ -24,22 +24,18 @@ use world::seeds::Stream;
 #[serde(deny_unknown_fields)]
 pub struct SpectrumSpec {
     /// Four standard deviations of the surface, m.
-    #[serde(deserialize_with = "world::limits::wave_m")]
-    #[schemars(transform = world::limits::schema::wave_m)]
+    #[serde(with = "world::limits::wave_m")]
     pub significant_height_m: Positive,
     /// Period of the spectrum's peak, s.
-    #[serde(deserialize_with = "world::limits::wave_s")]
-    #[schemars(transform = world::limits::schema::wave_s)]
+    #[serde(with = "world::limits::wave_s")]
     pub peak_period_s: Positive,
     /// Where the waves travel, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// γ: 3.3 a growing sea, 1 a fully grown one.
-    #[serde(default = "jonswap", deserialize_with = "world::limits::peakedness")]
-    #[schemars(transform = world::limits::schema::peakedness)]
+    #[serde(default = "jonswap", with = "world::limits::peakedness")]
     pub peakedness: Positive,
     /// s: the greater, the longer the crests.
-    #[serde(default = "wind_waves", deserialize_with = "world::limits::spreading")]
-    #[schemars(transform = world::limits::schema::spreading)]
+    #[serde(default = "wind_waves", with = "world::limits::spreading")]
     pub spreading: NonNegative,
     /// How many waves stand for it, from 1 to 200.
     #[serde(default = "enough")]

@@ -22,16 +22,13 @@ pub struct CompositionSpec {
     /// A further solute, of which there is as much as makes the release as dense as the water around.
     pub neutral_with: Option<Solute>,
     /// Practical salinity of the water that it is made with; 0 is fresh water.
-    #[serde(deserialize_with = "world::limits::salinity")]
-    #[schemars(transform = world::limits::schema::salinity)]
+    #[serde(with = "world::limits::salinity")]
     pub salinity: NonNegative,
     /// Temperature of the release, °C.
-    #[serde(deserialize_with = "world::limits::water_c")]
-    #[schemars(transform = world::limits::schema::water_c)]
+    #[serde(with = "world::limits::water_c")]
     pub temperature_c: Finite,
     /// Temperature of the water around, °C. Its salinity follows from its density.
-    #[serde(deserialize_with = "world::limits::water_c")]
-    #[schemars(transform = world::limits::schema::water_c)]
+    #[serde(with = "world::limits::water_c")]
     pub around_c: Finite,
 }
 
@@ -42,8 +39,7 @@ pub struct DissolvedSpec {
     /// The substance.
     pub what: Solute,
     /// Grams of it in a litre of the release.
-    #[serde(deserialize_with = "world::limits::solute_g_l")]
-    #[schemars(transform = world::limits::schema::solute_g_l)]
+    #[serde(with = "world::limits::solute_g_l")]
     pub g_l: Positive,
 }
 

@@ -28,11 +28,7 @@ pub enum BuoyancySpec {
     Neutral,
     /// Heavier (or, if negative, lighter) than the water around by so many kg/m³ at the source; the excess falls as the
     /// dilution rises.
-    Excess(
-        #[serde(deserialize_with = "world::limits::excess_kg_m3")]
-        #[schemars(transform = world::limits::schema::excess_kg_m3)]
-        Finite,
-    ),
+    Excess(#[serde(with = "world::limits::excess_kg_m3")] Finite),
     /// A solution, whose excess follows from what it consists of.
     Composition(CompositionSpec),
 }

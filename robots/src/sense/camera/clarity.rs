@@ -29,16 +29,13 @@ const CONTRAST: f64 = 4.8;
 #[serde(default, deny_unknown_fields)]
 pub struct ClaritySpec {
     /// Distance at which a dark thing is just visible on a level line, m.
-    #[serde(deserialize_with = "world::limits::visibility_m")]
-    #[schemars(transform = world::limits::schema::visibility_m)]
+    #[serde(with = "world::limits::visibility_m")]
     pub visibility_m: Positive,
     /// Absorption of red, green and blue, 1/m, instead of that from the visibility.
-    #[serde(deserialize_with = "world::limits::loss_per_m")]
-    #[schemars(transform = world::limits::schema::loss_per_m)]
+    #[serde(with = "world::limits::loss_per_m::<Option<(Positive, Positive, Positive)>>")]
     pub absorption_per_m: Option<(Positive, Positive, Positive)>,
     /// Scattering of red, green and blue, 1/m, instead of that from the visibility.
-    #[serde(deserialize_with = "world::limits::loss_per_m")]
-    #[schemars(transform = world::limits::schema::loss_per_m)]
+    #[serde(with = "world::limits::loss_per_m::<Option<(NonNegative, NonNegative, NonNegative)>>")]
     pub scattering_per_m: Option<(NonNegative, NonNegative, NonNegative)>,
 }
 

@@ -28,18 +28,15 @@ const HELD: (f64, f64) = (0.25, 3.0);
 #[serde(deny_unknown_fields, default)]
 pub struct EvadeSpec {
     /// Turning radius, m; the vehicle's own if that is greater.
-    #[serde(deserialize_with = "world::limits::turn_m")]
-    #[schemars(transform = world::limits::schema::turn_m)]
+    #[serde(with = "world::limits::turn_m")]
     pub turn_radius_m: Positive,
     /// Distance looked ahead, m.
-    #[serde(deserialize_with = "world::limits::look_m")]
-    #[schemars(transform = world::limits::schema::look_m)]
+    #[serde(with = "world::limits::look_m")]
     pub look_m: Positive,
     /// How long it backs off when it is held, s.
     pub back_s: NonNegative,
     /// Propeller speed while backing off, astern, rpm.
-    #[serde(deserialize_with = "world::limits::rpm_limit")]
-    #[schemars(transform = world::limits::schema::rpm_limit)]
+    #[serde(with = "world::limits::rpm_limit")]
     pub back_rpm: Positive,
 }
 

@@ -76,8 +76,7 @@ pub struct FinSpec {
     #[serde(default = "plate")]
     pub plate: NonNegative,
     /// Greatest deflection, degrees.
-    #[serde(deserialize_with = "world::limits::fin_deg")]
-    #[schemars(transform = world::limits::schema::fin_deg)]
+    #[serde(with = "world::limits::fin_deg")]
     pub limit_deg: Positive,
     /// Time constant with which the angle follows its set-point, s.
     #[serde(default = "zero")]

@@ -38,12 +38,10 @@ pub struct GantryBlock {
 #[serde(deny_unknown_fields)]
 pub struct PlaceSpec {
     /// East of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Direction of its first axis, up-stream.
     pub heading_deg: HeadingDeg,

@@ -121,12 +121,10 @@ pub struct AreaSpec {
     /// Direction of the axis.
     pub axis_heading_deg: HeadingDeg,
     /// Its centre east of the datum, m.
-    #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(default = "zero", with = "world::limits::place_m")]
     pub east_m: Finite,
     /// Its centre north of the datum, m.
-    #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(default = "zero", with = "world::limits::place_m")]
     pub north_m: Finite,
 }
 
@@ -248,12 +246,10 @@ impl RobotSpec {
 #[serde(deny_unknown_fields)]
 pub struct StartSpec {
     /// East of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
-    #[serde(deserialize_with = "world::limits::place_m")]
-    #[schemars(transform = world::limits::schema::place_m)]
+    #[serde(with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Depth below the still surface, m.
     #[serde(default)]
@@ -264,12 +260,10 @@ pub struct StartSpec {
     /// Direction of its nose.
     pub heading_deg: HeadingDeg,
     /// Speed over ground, forward, m/s.
-    #[serde(default = "still", deserialize_with = "world::limits::vehicle_m_s")]
-    #[schemars(transform = world::limits::schema::vehicle_m_s)]
+    #[serde(default = "still", with = "world::limits::vehicle_m_s::<NonNegative>")]
     pub speed_m_s: NonNegative,
     /// Standard deviation, east and north, of the position fix that its navigation starts from, m.
-    #[serde(default = "still", deserialize_with = "world::limits::error_m")]
-    #[schemars(transform = world::limits::schema::error_m)]
+    #[serde(default = "still", with = "world::limits::error_m")]
     pub fix_noise_m: NonNegative,
 }
 

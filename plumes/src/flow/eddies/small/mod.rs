@@ -40,8 +40,7 @@ use world::seeds::{Seed, Stream};
 #[serde(deny_unknown_fields)]
 pub struct SmallSpec {
     /// Length of the shortest waves, m. Each halving from the grid's shortest wave down is one octave.
-    #[serde(deserialize_with = "world::limits::eddy_m")]
-    #[schemars(transform = world::limits::schema::eddy_m)]
+    #[serde(with = "world::limits::eddy_m")]
     pub finest_m: Positive,
 }
 
