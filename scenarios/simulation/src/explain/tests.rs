@@ -2,8 +2,6 @@
 
 use super::read::Shape;
 use super::{Unknown, path, reference};
-use std::fs;
-use std::path::{Path, PathBuf};
 
 fn explain(path: &str) -> Result<String, Unknown> {
     super::explain(path, &[])
@@ -11,10 +9,6 @@ fn explain(path: &str) -> Result<String, Unknown> {
 
 fn markdown() -> String {
     super::markdown(&[])
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 #[test]
@@ -143,47 +137,4 @@ fn algorithms_have_their_sources() {
         };
         assert!(variants.iter().all(|v| v.source.is_some()), "{choice}");
     }
-}
-
-/// Without its twin a limit would be kept by the reader and unknown to the reference.
-#[test]
-fn every_limit_of_the_reader_stands_in_the_schema() {
-    let mut limits = 0;
-    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/simulation/src"] {
-        let mut open = vec![root().join(folder)];
-        while let Some(path) = open.pop() {
-            if path.is_dir() {
-                open.extend(fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
-            } else if path.extension().is_some_and(|e| e == "rs") {
-                limits += twins(&path);
-            }
-        }
-    }
-    assert!(limits > 80, "found only {limits}");
-}
-
-/// Counts the limits of a file; each has its twin among the attributes of the same field.
-fn twins(file: &Path) -> usize {
-    let text = fs::read_to_string(file).unwrap();
-    let (reads, shows) = ("deserialize_with = \"", "schemars(transform = ");
-    let mut limits = 0;
-    // From one field's end to the next: attributes and the field itself.
-    for field in text.split_inclusive(",\n    ") {
-        let code = || field.lines().filter(|l| !l.trim_start().starts_with("//"));
-        let named = |mark: &str, path: &str| -> Vec<String> {
-            let rest = code().filter_map(|l| l.split_once(mark).map(|(_, rest)| rest));
-            let name = |rest: &str| {
-                let (_, name) = rest.split_once(path)?;
-                Some(name.split(|c: char| !c.is_alphanumeric() && c != '_').next()?.to_string())
-            };
-            rest.filter_map(name).collect()
-        };
-        let (read, shown) = (named(reads, "limits::"), named(shows, "limits::schema::"));
-        if file.ends_with("explain/tests.rs") {
-            continue;
-        }
-        assert_eq!(read, shown, "{}: a limit without its twin:\n{field}", file.display());
-        limits += read.len();
-    }
-    limits
 }

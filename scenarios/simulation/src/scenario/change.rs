@@ -64,7 +64,7 @@ pub fn set_value(text: &str, path: &str, value: &str) -> Result<String, String> 
 /// A value must be one RON value: it must not end the field and begin another.
 fn whole(value: &str) -> Result<(), String> {
     let outline = Outline::scan(value);
-    let one = outline.open.is_empty()
+    let one = outline.whole
         && (outline.nodes.last()).is_some_and(|n| n.path.is_empty() && n.whole == (0..value.len()))
         && !value.contains("//")
         && !value.contains("/*");

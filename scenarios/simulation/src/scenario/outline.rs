@@ -1,12 +1,10 @@
 //! The places of all fields in a RON text: from paths such as `robots[1].start` to places, and back.
 //!
-//! ron knows places only while it reads. Later checks (a start inside an obstacle) know only a path. This scan follows
-//! brackets and field names and nothing else. It never fails: of a broken text it returns as much as it has seen.
+//! ron knows places only while it reads. Later checks (a start inside an obstacle) know only a path. Of a broken text
+//! the outline has as much as can be understood.
 
+use super::reader::Tree;
 use std::ops::Range;
-
-/// Deepest nesting of brackets.
-pub(super) const DEEPEST: usize = 128;
 
 /// A field, an element of a list, or a positional value.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,113 +22,22 @@ pub struct Node {
 pub struct Outline {
     /// Every value; inner values come before the ones around them.
     pub nodes: Vec<Node>,
-    /// Brackets that are open at the end of the text, outermost first.
-    pub open: Vec<(char, usize)>,
-}
-
-/// An open bracket and the item being read within it.
-struct Frame {
-    path: String,
-    bracket: Option<(char, usize)>,
-    variant: bool,
-    count: usize,
-    key: Option<Range<usize>>,
-    start: Option<usize>,
-    end: usize,
-    /// The newest token, and the end of the one before it.
-    last: Range<usize>,
-    before: usize,
-}
-
-impl Frame {
-    fn new(path: String, bracket: Option<(char, usize)>, variant: bool) -> Self {
-        Self { path, bracket, variant, count: 0, key: None, start: None, end: 0, last: 0..0, before: 0 }
-    }
-
-    fn item_path(&self, text: &str) -> String {
-        let Some((bracket, _)) = self.bracket else {
-            return String::new();
-        };
-        match &self.key {
-            Some(k) => joined(&self.path, &text[k.clone()]),
-            None if bracket == '[' => format!("{}[{}]", self.path, self.count),
-            // `Altitude(2.0)`: the value of the variant is the value of the field.
-            None if self.path.is_empty() || self.variant && self.count == 0 => self.path.clone(),
-            None => joined(&self.path, &self.count.to_string()),
-        }
-    }
-
-    fn finish(&mut self, text: &str, nodes: &mut Vec<Node>) {
-        let path = self.item_path(text);
-        let key = self.key.take();
-        if let Some(start) = self.start.take() {
-            nodes.push(Node { path, whole: key.map_or(start, |k| k.start)..self.end, value: start..self.end });
-            self.count += 1;
-        }
-    }
-
-    fn take(&mut self, token: Range<usize>) {
-        self.start.get_or_insert(token.start);
-        self.before = self.end;
-        self.end = token.end;
-        self.last = token;
-    }
-
-    /// Handles a colon: the newest token is a name, and what comes before it lacks its comma.
-    fn name(&mut self, text: &str, nodes: &mut Vec<Node>) {
-        let Some(start) = self.start else {
-            return;
-        };
-        if start < self.last.start {
-            self.end = self.before;
-            self.finish(text, nodes);
-        }
-        self.start = None;
-        self.key = Some(self.last.clone());
-    }
+    /// Whether the text is one value with matching brackets.
+    pub whole: bool,
 }
 
 impl Outline {
     /// Scans a text.
     pub fn scan(text: &str) -> Self {
-        // Deeper values are dropped: their paths, each longer than the one around it, would fill the memory.
-        let (mut nodes, mut deeper) = (Vec::new(), Vec::new());
-        let mut stack = vec![Frame::new(String::new(), None, false)];
-        let mut at = 0;
-        while at < text.len() {
-            let rest = &text[at..];
-            let token = at..at + token_len(rest);
-            let deep = stack.len() > DEEPEST;
-            let nodes = if deep { &mut deeper } else { &mut nodes };
-            let top = stack.last_mut().expect("the root frame is never popped");
-            match rest.as_bytes()[0] {
-                open @ (b'(' | b'[' | b'{') => {
-                    let variant = top.start.is_some();
-                    top.take(token.clone());
-                    let path = if deep { String::new() } else { top.item_path(text) };
-                    stack.push(Frame::new(path, Some((open as char, at)), variant));
-                }
-                b')' | b']' | b'}' => {
-                    top.finish(text, nodes);
-                    if stack.len() > 1 {
-                        stack.pop();
-                        stack.last_mut().expect("checked").end = token.end;
-                    }
-                }
-                b',' => top.finish(text, nodes),
-                b':' => top.name(text, nodes),
-                _ if is_blank(rest) => {}
-                _ => top.take(token.clone()),
-            }
-            at = token.end;
-        }
-        let open = stack.iter().filter_map(|f| f.bracket).collect();
-        for (n, frame) in stack.iter_mut().enumerate().rev() {
-            frame.end = text.trim_end().len().max(frame.end);
-            let nodes = if n < DEEPEST { &mut nodes } else { &mut deeper };
-            frame.finish(text, nodes);
-        }
-        Self { nodes, open }
+        let Some(tree) = Tree::parse(text) else {
+            // Nested too deep: the reader says so.
+            let all = 0..text.len();
+            return Self { nodes: vec![Node { path: String::new(), whole: all.clone(), value: all }], whole: false };
+        };
+        let whole = !tree.cut && tree.brackets == 0;
+        let written = tree.nodes.into_iter().filter(|n| !n.value.is_empty());
+        let nodes = written.map(|n| Node { path: n.path, whole: n.whole, value: n.value }).collect();
+        Self { nodes, whole }
     }
 
     /// The node of a path, or of the nearest enclosing path that the text has.
@@ -149,67 +56,6 @@ impl Outline {
     pub(super) fn innermost(&self, place: usize) -> Option<&Node> {
         self.nodes.iter().filter(|n| n.whole.start <= place && place < n.whole.end).min_by_key(|n| n.whole.len())
     }
-}
-
-pub(super) fn joined(path: &str, part: &str) -> String {
-    if path.is_empty() { part.to_string() } else { format!("{path}.{part}") }
-}
-
-pub(super) fn is_blank(rest: &str) -> bool {
-    rest.starts_with(char::is_whitespace) || rest.starts_with("//") || rest.starts_with("/*")
-}
-
-/// Length of the token, comment or blank a text begins with; at least one character.
-pub(super) fn token_len(rest: &str) -> usize {
-    let whole = rest.len();
-    if rest.starts_with("//") {
-        return rest.find('\n').unwrap_or(whole);
-    }
-    if rest.starts_with("/*") {
-        return block_comment(rest);
-    }
-    if let Some(body) = rest.strip_prefix('"') {
-        let mut escaped = false;
-        for (i, c) in body.char_indices() {
-            match c {
-                '"' if !escaped => return i + 2,
-                _ => escaped = c == '\\' && !escaped,
-            }
-        }
-        return whole;
-    }
-    let raw = rest.strip_prefix('r').unwrap_or("");
-    let hashes = raw.len() - raw.trim_start_matches('#').len();
-    if raw[hashes..].starts_with('"') {
-        let closing = format!("\"{}", "#".repeat(hashes));
-        let from = hashes + 2;
-        return rest[from..].find(&closing).map_or(whole, |i| from + i + closing.len());
-    }
-    let first = rest.chars().next().map_or(1, char::len_utf8);
-    if "()[]{},:=;".contains(&rest[..first]) || rest.starts_with(char::is_whitespace) {
-        return first;
-    }
-    rest.find(|c: char| c.is_whitespace() || "()[]{},:=;\"/".contains(c)).unwrap_or(whole).max(first)
-}
-
-fn block_comment(rest: &str) -> usize {
-    let (mut depth, mut at) = (0, 0);
-    while at < rest.len() {
-        let step = if rest[at..].starts_with("/*") {
-            depth += 1;
-            2
-        } else if rest[at..].starts_with("*/") {
-            depth -= 1;
-            2
-        } else {
-            rest[at..].chars().next().map_or(1, char::len_utf8)
-        };
-        at += step;
-        if depth == 0 {
-            break;
-        }
-    }
-    at
 }
 
 #[cfg(test)]
@@ -250,18 +96,15 @@ mod tests {
         assert_eq!(at("east_m"), "robots[1].start.east_m");
         assert_eq!(at("2.0"), "robots[1].start.v");
         assert_eq!(at("robots"), "robots");
-        assert!(o.open.is_empty());
+        assert!(o.whole);
     }
 
     #[test]
-    fn a_cut_text_says_what_is_open_at_any_cut() {
-        for cut in (0..TEXT.len()).filter(|&i| TEXT.is_char_boundary(i)) {
-            let o = Outline::scan(&TEXT[..cut]);
-            assert_eq!(o.open.is_empty(), cut == 0, "cut at {cut}");
+    fn a_cut_text_says_so_at_any_cut() {
+        for cut in (1..TEXT.len()).filter(|&i| TEXT.is_char_boundary(i)) {
+            assert!(!Outline::scan(&TEXT[..cut]).whole, "cut at {cut}");
         }
-        let cut = TEXT.find("east_m").unwrap();
-        let open: String = Outline::scan(&TEXT[..cut]).open.iter().map(|o| o.0).collect();
-        assert_eq!(open, "([(((".to_string());
+        assert!(Outline::scan("").nodes.is_empty());
     }
 
     #[test]

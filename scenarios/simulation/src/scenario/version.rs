@@ -42,7 +42,7 @@ fn unknown(got: impl std::fmt::Display) -> String {
 /// form first.
 pub fn version_first(name: &str, text: &str, outline: &Outline) -> Result<(), ScenarioError> {
     let top = outline.nodes.iter().filter(|n| !n.path.is_empty() && !n.path.contains(['.', '[']));
-    let Some(first) = top.min_by_key(|n| n.whole.start).filter(|_| outline.open.is_empty()) else {
+    let Some(first) = top.min_by_key(|n| n.whole.start).filter(|_| outline.whole) else {
         return Ok(());
     };
     let number = text[first.value.clone()].parse();

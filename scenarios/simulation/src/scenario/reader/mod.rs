@@ -25,7 +25,8 @@ use mend::Mender;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
-use tree::{PlacedMistake, Tree};
+use tree::PlacedMistake;
+pub(super) use tree::Tree;
 use world::registry::read_from;
 
 /// A value of which every part is read by the one reader for all formats.

@@ -1,15 +1,16 @@
 //! Parses a text into a tree and continues after mistakes of syntax.
 
 use super::token::{Token, Tokens};
-use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name};
+use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name, joined};
 use crate::scenario::fault::UnplacedFault;
-use crate::scenario::outline::DEEPEST;
-use crate::scenario::outline::joined;
 use std::ops::Range;
+
+/// Deepest nesting of brackets.
+const DEEPEST: usize = 128;
 
 impl Tree {
     /// Parses a text. `None` if brackets are nested too deep.
-    pub(super) fn parse(text: &str) -> Option<Self> {
+    pub(in crate::scenario) fn parse(text: &str) -> Option<Self> {
         let tokens = Tokens::scan(text);
         let plain = Parser::new(text, &tokens, false).whole()?;
         if plain.brackets == 0 && !plain.cut {

@@ -1,6 +1,5 @@
 //! The tokens of a RON text: brackets, separators, words and texts in quotes. Blanks and comments are skipped.
 
-use crate::scenario::outline::{is_blank, token_len};
 use std::ops::Range;
 
 /// A token.
@@ -66,6 +65,63 @@ fn scan(text: &str, by_line: bool) -> Tokens {
         at += len;
     }
     tokens
+}
+
+fn is_blank(rest: &str) -> bool {
+    rest.starts_with(char::is_whitespace) || rest.starts_with("//") || rest.starts_with("/*")
+}
+
+/// Length of the token, comment or blank a text begins with; at least one character.
+fn token_len(rest: &str) -> usize {
+    let whole = rest.len();
+    if rest.starts_with("//") {
+        return rest.find('\n').unwrap_or(whole);
+    }
+    if rest.starts_with("/*") {
+        return block_comment(rest);
+    }
+    if let Some(body) = rest.strip_prefix('"') {
+        let mut escaped = false;
+        for (i, c) in body.char_indices() {
+            match c {
+                '"' if !escaped => return i + 2,
+                _ => escaped = c == '\\' && !escaped,
+            }
+        }
+        return whole;
+    }
+    let raw = rest.strip_prefix('r').unwrap_or("");
+    let hashes = raw.len() - raw.trim_start_matches('#').len();
+    if raw[hashes..].starts_with('"') {
+        let closing = format!("\"{}", "#".repeat(hashes));
+        let from = hashes + 2;
+        return rest[from..].find(&closing).map_or(whole, |i| from + i + closing.len());
+    }
+    let first = rest.chars().next().map_or(1, char::len_utf8);
+    if "()[]{},:=;".contains(&rest[..first]) || rest.starts_with(char::is_whitespace) {
+        return first;
+    }
+    rest.find(|c: char| c.is_whitespace() || "()[]{},:=;\"/".contains(c)).unwrap_or(whole).max(first)
+}
+
+fn block_comment(rest: &str) -> usize {
+    let (mut depth, mut at) = (0, 0);
+    while at < rest.len() {
+        let step = if rest[at..].starts_with("/*") {
+            depth += 1;
+            2
+        } else if rest[at..].starts_with("*/") {
+            depth -= 1;
+            2
+        } else {
+            rest[at..].chars().next().map_or(1, char::len_utf8)
+        };
+        at += step;
+        if depth == 0 {
+            break;
+        }
+    }
+    at
 }
 
 /// The likely end of a text that is not closed on its line: before the next field, or before the brackets and the comma

@@ -1,7 +1,6 @@
 //! A tree of the values of a RON text with their places.
 
 use crate::scenario::fault::UnplacedFault;
-use crate::scenario::outline::joined;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -10,7 +9,7 @@ pub(super) type PlacedMistake = (Range<usize>, UnplacedFault);
 
 /// A value.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(in crate::scenario) struct Node {
     /// Its path, such as `robots[1].start`.
     pub path: String,
     /// Its place with its name, in bytes.
@@ -18,7 +17,7 @@ pub(super) struct Node {
     /// Its place without its name.
     pub value: Range<usize>,
     /// Its kind.
-    pub kind: Kind,
+    pub(super) kind: Kind,
     /// Fields missing in it follow from a mistake that is reported already.
     pub silent: bool,
 }
@@ -106,7 +105,7 @@ pub(super) enum WantedKind {
 
 /// The tree of a text.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tree {
+pub(in crate::scenario) struct Tree {
     /// All values.
     pub nodes: Vec<Node>,
     /// The outermost value.
@@ -153,4 +152,9 @@ impl Tree {
 /// Whether a word can be the name of a field or of a choice.
 pub(super) fn is_name(word: &str) -> bool {
     word.starts_with(|c: char| c.is_alphabetic() || c == '_') && word.chars().all(|c| c.is_alphanumeric() || c == '_')
+}
+
+/// The path of a part of what is at a path.
+pub(super) fn joined(path: &str, part: &str) -> String {
+    if path.is_empty() { part.to_string() } else { format!("{path}.{part}") }
 }
