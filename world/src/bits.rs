@@ -119,7 +119,7 @@ impl<'a> Reader<'a> {
     /// The next list, which must have this length.
     ///
     /// # Errors
-    /// As [`Self::write_list`]; also if it has another length.
+    /// As [`Self::read_list`]; also if it has another length.
     pub fn exactly<W: Word>(&mut self, n: usize) -> Result<Vec<W>, Unreadable> {
         let list = self.read_list()?;
         if list.len() == n { Ok(list) } else { Err(Unreadable("a list has another length than it must have")) }

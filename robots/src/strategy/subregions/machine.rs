@@ -133,9 +133,7 @@ impl Subregions {
     }
 
     fn mark(&mut self, k: usize, change: impl Fn(&mut Region)) {
-        let mut all = self.regions.to_vec();
-        change(&mut all[k]);
-        self.regions = all.into();
+        change(&mut self.regions[k]);
     }
 
     fn begin_search(&mut self, k: usize, t_s: f64) {

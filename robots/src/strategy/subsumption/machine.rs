@@ -213,10 +213,8 @@ impl Subsumption {
     }
 
     fn publish(&mut self, states: &[LayerState]) {
-        let same = self.states.iter().zip(states).all(|(l, s)| l.state == *s);
-        if !same {
-            let now = self.states.iter().zip(states);
-            self.states = now.map(|(l, state)| Layer { state: *state, ..*l }).collect();
+        for (layer, state) in self.states.iter_mut().zip(states) {
+            layer.state = *state;
         }
     }
 

@@ -81,7 +81,7 @@ pub struct LiveMeta {
 /// What happened to the states that were passed in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LiveCounts {
-    /// States passed to [`Live::publish`](super::Live::publish).
+    /// States passed to [`Live::see`](super::Live::see).
     pub offered: u64,
     /// States sent.
     pub sent: u64,

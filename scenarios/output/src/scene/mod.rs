@@ -1,7 +1,7 @@
 //! What is known before a run: the bed, solid things, sources, layers of the water, and the machines with their shapes,
 //! joints, drives and sensors. Recordings, live state and ROS 2 show the same scene.
 //!
-//! [`Scene::of`] makes it from a scenario; [`Scene::document`] writes it as the JSON text that viewers read
+//! [`Scene::from_scenario`] makes it from a scenario; [`Scene::document`] writes it as the JSON text that viewers read
 //! (`docs/scene.md`); [`Scene::markers`] and [`frames`] write it for ROS 2.
 
 mod bed;
