@@ -1,6 +1,6 @@
 //! Changes the value at a path in a scenario's text. The rest stays word for word, including comments.
 
-use super::outline::Outline;
+use super::reader::outline::Outline;
 
 /// Puts `value` (RON) at `path`. A field that the text leaves to its default is added.
 ///

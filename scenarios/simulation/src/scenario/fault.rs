@@ -1,6 +1,5 @@
 //! Errors and warnings about a scenario, with file, line, column and the text around the place.
 
-use super::outline::Outline;
 use std::ops::Range;
 
 /// Longest line that is shown, bytes.
@@ -111,13 +110,6 @@ impl Fault {
             text: shown.then(|| text.to_string()),
             span: span.start..end,
         }
-    }
-
-    /// A fault at the place of its path.
-    #[must_use]
-    pub fn located(name: &str, text: &str, outline: &Outline, found: UnplacedFault) -> Self {
-        let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
-        Self::new(name, text, span, found)
     }
 
     /// The fault in one line: `file:line:column: field: what is wrong`.

@@ -4,8 +4,8 @@ use super::catalog;
 use super::check::check;
 use super::fault::Severity;
 use super::fault::{Fault, ScenarioError, UnplacedFault};
-use super::outline::Outline;
 use super::reader;
+use super::reader::outline::Outline;
 use super::schema::Scenario;
 use super::version::version_first;
 use ron::extensions::Extensions;
@@ -92,10 +92,8 @@ impl Loaded {
         let text = self.text();
         let outline = Outline::scan(&text);
         let path = self.path.display().to_string();
-        let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) = found
-            .into_iter()
-            .map(|f| Fault::located(&path, &text, &outline, f))
-            .partition(|f| f.severity == Severity::Error);
+        let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) =
+            found.into_iter().map(|f| outline.located(&path, &text, f)).partition(|f| f.severity == Severity::Error);
         if faults.is_empty() {
             warnings.sort_by_key(|f| (f.line, f.column));
             Ok(warnings)

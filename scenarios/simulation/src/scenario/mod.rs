@@ -21,7 +21,6 @@ mod fault;
 mod folder_files;
 mod gantry;
 mod load;
-mod outline;
 mod reader;
 mod schema;
 mod success;
@@ -37,7 +36,7 @@ pub use fault::{Fault, ScenarioError, Severity, UnplacedFault};
 pub use folder_files::FolderFiles;
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
 pub use load::{Loaded, hash, load, load_text, load_text_in, load_with, parse, parse_with};
-pub use outline::{Node, Outline};
+pub use reader::outline::{Node, Outline};
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec, TimeSpec,

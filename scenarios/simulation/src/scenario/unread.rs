@@ -1,7 +1,7 @@
 //! The message of the crate ron, for the rare text that ron refuses and our reader of mistakes accepts.
 
 use super::fault::UnplacedFault;
-use super::outline::Outline;
+use super::reader::outline::Outline;
 use ron::error::{Position, SpannedError};
 use std::ops::Range;
 

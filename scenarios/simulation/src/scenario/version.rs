@@ -1,7 +1,7 @@
 //! The version of files that this program reads.
 
 use super::fault::{Fault, ScenarioError, UnplacedFault};
-use super::outline::{Node, Outline};
+use super::reader::outline::{Node, Outline};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

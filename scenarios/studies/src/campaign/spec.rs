@@ -111,7 +111,7 @@ impl CampaignSpec {
         let outline = Outline::scan(text);
         version_first(name, text, &outline)?;
         let spec: Self = read(name, text, &Self::check)?;
-        let located = |found| Fault::located(name, text, &outline, found);
+        let located = |found| outline.located(name, text, found);
         let faults: Vec<Fault> = spec.check().into_iter().map(located).collect();
         if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::from_faults(name, faults)) }
     }

@@ -2,10 +2,10 @@
 
 use super::fail::{Fail, Misfit, What};
 use super::hint::{Form, HintedMistake};
+use super::outline::Outline;
 use super::tree::{Group, Hole, Item, Kind, Node, PlacedMistake, Tree, WantedKind, joined};
 use super::value::{Reading, Value};
 use crate::scenario::fault::UnplacedFault;
-use crate::scenario::outline::Outline;
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::ops::Range;

@@ -12,6 +12,7 @@ mod deserialize;
 mod fail;
 mod hint;
 mod mend;
+pub(super) mod outline;
 mod parse;
 mod scalar;
 mod token;
@@ -25,8 +26,7 @@ use mend::Mender;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
-use tree::PlacedMistake;
-pub(super) use tree::Tree;
+use tree::{PlacedMistake, Tree};
 use world::registry::read_from;
 
 /// A value of which every part is read by the one reader for all formats.

@@ -10,7 +10,7 @@ const DEEPEST: usize = 128;
 
 impl Tree {
     /// Parses a text. `None` if brackets are nested too deep.
-    pub(in crate::scenario) fn parse(text: &str) -> Option<Self> {
+    pub(super) fn parse(text: &str) -> Option<Self> {
         let tokens = Tokens::scan(text);
         let plain = Parser::new(text, &tokens, false).whole()?;
         if plain.brackets == 0 && !plain.cut {

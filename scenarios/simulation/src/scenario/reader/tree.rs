@@ -9,7 +9,7 @@ pub(super) type PlacedMistake = (Range<usize>, UnplacedFault);
 
 /// A value.
 #[derive(Clone, Debug)]
-pub(in crate::scenario) struct Node {
+pub(super) struct Node {
     /// Its path, such as `robots[1].start`.
     pub path: String,
     /// Its place with its name, in bytes.
@@ -17,7 +17,7 @@ pub(in crate::scenario) struct Node {
     /// Its place without its name.
     pub value: Range<usize>,
     /// Its kind.
-    pub(super) kind: Kind,
+    pub kind: Kind,
     /// Fields missing in it follow from a mistake that is reported already.
     pub silent: bool,
 }
@@ -105,7 +105,7 @@ pub(super) enum WantedKind {
 
 /// The tree of a text.
 #[derive(Clone, Debug, Default)]
-pub(in crate::scenario) struct Tree {
+pub(super) struct Tree {
     /// All values.
     pub nodes: Vec<Node>,
     /// The outermost value.

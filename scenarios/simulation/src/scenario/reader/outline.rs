@@ -3,7 +3,8 @@
 //! ron knows places only while it reads. Later checks (a start inside an obstacle) know only a path. Of a broken text
 //! the outline has as much as can be understood.
 
-use super::reader::Tree;
+use super::tree::Tree;
+use crate::scenario::fault::{Fault, UnplacedFault};
 use std::ops::Range;
 
 /// A field, an element of a list, or a positional value.
@@ -40,8 +41,15 @@ impl Outline {
         Self { nodes, whole }
     }
 
+    /// A mistake at the place of its path; errors call the text `name`.
+    #[must_use]
+    pub fn located(&self, name: &str, text: &str, found: UnplacedFault) -> Fault {
+        let span = self.find(&found.path).map_or(0..0, |n| n.whole.clone());
+        Fault::new(name, text, span, found)
+    }
+
     /// The node of a path, or of the nearest enclosing path that the text has.
-    pub(super) fn find(&self, path: &str) -> Option<&Node> {
+    pub(in crate::scenario) fn find(&self, path: &str) -> Option<&Node> {
         let mut path = path;
         loop {
             // The outermost node of that path: `Altitude(2.0)`, not `2.0`.
@@ -53,7 +61,7 @@ impl Outline {
     }
 
     /// The innermost node over a place.
-    pub(super) fn innermost(&self, place: usize) -> Option<&Node> {
+    pub(in crate::scenario) fn innermost(&self, place: usize) -> Option<&Node> {
         self.nodes.iter().filter(|n| n.whole.start <= place && place < n.whole.end).min_by_key(|n| n.whole.len())
     }
 }
