@@ -1,7 +1,7 @@
 //! Replacement for live state if it is not built in: the same functions, which do nothing.
 
 use super::{ListenOptions, LiveCounts, LiveError, LiveMeta, LiveOptions, News};
-use rheotaxis::control::{Controller, Heard, Question};
+use rheotaxis::control::{Controller, Question, Response};
 use rheotaxis::trial::Event;
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,8 +25,8 @@ impl LiveController {
 }
 
 impl Controller for LiveController {
-    fn answer(&mut self, _question: &Question) -> Heard {
-        Heard::Absent
+    fn answer(&mut self, _question: &Question) -> Response {
+        Response::Absent
     }
 }
 
