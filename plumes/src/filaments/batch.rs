@@ -1,53 +1,53 @@
-//! A group of filaments at one time, for many questions about that time: sixteen neighbours in the water form a
-//! leaflet, and the boxes around all leaflets are looked at together.
+//! A group of filaments at one time, for many questions about that time: sixteen neighbours in the water form a small
+//! packet, and the boxes around all of these are looked at together.
 //!
 //! *Source*: boxes side by side as for rays in Dammertz, Hanika & Keller 2008, Comput. Graph. Forum 27, 1225; the order
 //! is that of `order`.
 //!
-//! *Parameters*: 16 filaments in a leaflet.
+//! *Parameters*: 16 filaments in a small packet.
 //!
 //! *Deviations*: a box holds all points at which one of its members is felt at that time. In a plume of 10⁴ filaments,
-//! 89 are felt at a point near one; the boxes of five groups are looked at, and leave 21 leaflets of some 300. Leaflets
-//! of eight would leave four fifths of as many filaments, with twice as many boxes. A mirror image at the surface or at
-//! the bed is worked out only if one of a leaflet may be felt. Below the bed, where no water is, a scan may leave out
-//! images that a crowd does not.
+//! 89 are felt at a point near one; the boxes of five groups are looked at, and leave 21 packets of some 300. Packets of
+//! eight would leave four fifths of as many filaments, with twice as many boxes. A mirror image at the surface or at the
+//! bed is worked out only if one of a packet may be felt. Below the bed, where no water is, a scan may leave out images
+//! that a batch does not.
 
 use super::boxes::{BOXES, Boxes, EMPTY, set, wider};
 use super::contribution::GroupQuery;
 use super::group::GROUP;
 use super::image::NearWall;
 use super::moving_packet::MovingPacket;
-use super::packet::{CUT_SIGMAS, LANES, LEAF, Packet64, Whole, felt_by};
+use super::packet::{CUT_SIGMAS, LANES, PACKET_64, Packet64, Whole, felt_by};
 use crate::simd::dispatch::InstructionSet;
 use crate::simd::movemask::{self, Movemask};
 
-/// Filaments in a leaflet.
-pub(super) const LEAFLET: usize = 16;
+/// Filaments in a small packet.
+pub(super) const PACKET_16: usize = 16;
 
-/// Leaflets in a leaf.
-const PER_LEAF: usize = LEAF / LEAFLET;
+/// Small packets in a packet of 64.
+const SMALL_IN_64: usize = PACKET_64 / PACKET_16;
 
-/// Words that tell of each leaflet of a group whether it is hit.
-const WORDS: usize = GROUP / LEAFLET / BOXES;
+/// Words that tell of each small packet of a group whether it is hit.
+const WORDS: usize = GROUP / PACKET_16 / BOXES;
 
 /// A group at a time.
 #[derive(Clone, Debug)]
 pub(super) struct Batch {
     boxes: [Boxes; WORDS],
-    leaflets: Vec<Packet16>,
-    /// Those that feel a wall, with the leaflets in which their places have no mass.
+    packets16: Vec<Packet16>,
+    /// Those that feel a wall, with the small packets in which their places have no mass.
     walled: Vec<(usize, NearWall)>,
 }
 
-/// Filaments as in a [sealed](Packet64::seal) leaf; no vector of them lies across two lines of the processor's cache.
+/// Filaments as in a [sealed](Packet64::seal) packet; no vector of them lies across two lines of the processor's cache.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 struct Packet16 {
-    p: [[f32; LEAFLET]; 3],
-    bed: [f32; LEAFLET],
-    h: [f32; LEAFLET],
-    v: [f32; LEAFLET],
-    peak: [f32; LEAFLET],
+    p: [[f32; PACKET_16]; 3],
+    bed: [f32; PACKET_16],
+    h: [f32; PACKET_16],
+    v: [f32; PACKET_16],
+    peak: [f32; PACKET_16],
     images: Images,
 }
 
@@ -67,34 +67,34 @@ impl Batch {
     /// The members of a group in an order, of which those that are released last come last.
     pub(super) fn new(asked: &GroupQuery, order: &[u16]) -> Self {
         let mut ends = [EMPTY; WORDS * BOXES];
-        let (mut leaflets, mut walled) = (Vec::with_capacity(order.len() / LEAFLET + 2), Vec::new());
-        let (mut moving, mut leaf) = (MovingPacket::default(), Packet64::default());
+        let (mut packets16, mut walled) = (Vec::with_capacity(order.len() / PACKET_16 + 2), Vec::new());
+        let (mut moving, mut packet) = (MovingPacket::default(), Packet64::default());
         let open = asked.spot.room.is_open();
-        for members in order.chunks(LEAF) {
+        for members in order.chunks(PACKET_64) {
             moving.take(asked.s, asked.q.lookup, asked.from, members);
-            moving.fill(asked.q.path, &asked.s.size, &asked.moment, &mut leaf);
-            let mut images = [Images::NONE; PER_LEAF];
-            let mut walls = [false; LEAF];
-            for (n, wall) in walls.iter_mut().enumerate().take(leaf.count) {
-                let (of, nth) = (n / LEAFLET, leaflets.len() + n / LEAFLET);
-                let (p, sizes) = ([leaf.x[n], leaf.y[n], leaf.z[n]], [leaf.h[n], leaf.v[n]]);
+            moving.fill(asked.q.path, &asked.s.size, &asked.moment, &mut packet);
+            let mut images = [Images::NONE; SMALL_IN_64];
+            let mut walls = [false; PACKET_64];
+            for (n, wall) in walls.iter_mut().enumerate().take(packet.count) {
+                let (of, nth) = (n / PACKET_16, packets16.len() + n / PACKET_16);
+                let (p, sizes) = ([packet.x[n], packet.y[n], packet.z[n]], [packet.h[n], packet.v[n]]);
                 let reach = asked.reach_of(sizes);
                 for (d, ends) in ends[nth].iter_mut().enumerate() {
                     *ends = wider(*ends, [p[d] - reach[d], p[d] + reach[d]]);
                 }
-                images[of].add(p[2], leaf.bed[n], sizes[1]);
+                images[of].add(p[2], packet.bed[n], sizes[1]);
                 if !open && let Some(felt) = asked.walled(p, sizes) {
                     walled.push((nth, felt));
                     *wall = true;
                 }
             }
-            leaf.seal(asked.q.path, asked.s.filament_kg * asked.quanta);
+            packet.seal(asked.q.path, asked.s.filament_kg * asked.quanta);
             for (of, images) in images.into_iter().enumerate() {
-                leaflets.push(Packet16::new(&leaf, &walls, of * LEAFLET, images));
+                packets16.push(Packet16::new(&packet, &walls, of * PACKET_16, images));
             }
         }
         let boxes = |word: usize| Boxes::new(ends.into_iter().skip(word * BOXES));
-        Self { boxes: std::array::from_fn(boxes), leaflets, walled }
+        Self { boxes: std::array::from_fn(boxes), packets16, walled }
     }
 
     /// The sum of their contributions at a point, in quanta. Those that feel a wall need to know what is `asked`.
@@ -140,18 +140,18 @@ impl Images {
 }
 
 impl Packet16 {
-    /// Those in a leaf from a place on, without those that feel walls.
-    fn new(leaf: &Packet64, walls: &[bool; LEAF], from: usize, images: Images) -> Self {
-        let of = |all: &[f32; LEAF]| std::array::from_fn(|l| all[from + l]);
+    /// Those in a packet from a place on, without those that feel walls.
+    fn new(packet: &Packet64, walls: &[bool; PACKET_64], from: usize, images: Images) -> Self {
+        let of = |all: &[f32; PACKET_64]| std::array::from_fn(|l| all[from + l]);
         Self {
-            p: [of(&leaf.x), of(&leaf.y), of(&leaf.z)],
-            bed: of(&leaf.bed),
-            h: of(&leaf.h),
-            v: of(&leaf.v),
+            p: [of(&packet.x), of(&packet.y), of(&packet.z)],
+            bed: of(&packet.bed),
+            h: of(&packet.h),
+            v: of(&packet.v),
             peak: std::array::from_fn(|l| {
                 let n = from + l;
-                let here = n < leaf.count && !walls[n];
-                if here { leaf.peak[n] } else { 0.0 }
+                let here = n < packet.count && !walls[n];
+                if here { packet.peak[n] } else { 0.0 }
             }),
             images,
         }
@@ -172,13 +172,13 @@ impl Packet16 {
 
     #[inline(always)]
     fn add_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(&self, p: [f32; 3], total: &mut Whole) {
-        let mut felt = [0.0; LEAFLET];
+        let mut felt = [0.0; PACKET_16];
         for (l, felt) in felt.iter_mut().enumerate() {
             let at = [self.p[0][l], self.p[1][l], self.p[2][l], self.bed[l]];
             let size = [self.h[l], self.v[l], self.peak[l]];
             *felt = felt_by::<SURFACE, BED, AGAIN>(at, size, p);
         }
-        for from in (0..LEAFLET).step_by(LANES) {
+        for from in (0..PACKET_16).step_by(LANES) {
             total.add(&felt, from);
         }
     }
@@ -186,31 +186,31 @@ impl Packet16 {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn sum_avx2(crowd: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+fn sum_avx2(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { sum::<movemask::Avx2>(crowd, p, hits) }
+    unsafe { sum::<movemask::Avx2>(batch, p, hits) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(crowd: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+fn sum_avx512(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { sum::<movemask::Avx512>(crowd, p, hits) }
+    unsafe { sum::<movemask::Avx512>(batch, p, hits) }
 }
 
-/// The sum of the leaflets that are hit, and which these are: their boxes hold the point.
+/// The sum of the small packets that are hit, and which these are: their boxes hold the point.
 ///
 /// # Safety
 /// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn sum<M: Movemask>(crowd: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+unsafe fn sum<M: Movemask>(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     let mut total = Whole::default();
-    let leaflets = crowd.leaflets.chunks(BOXES);
-    for ((boxes, leaflets), hits) in crowd.boxes.iter().zip(leaflets).zip(hits) {
+    let packets16 = batch.packets16.chunks(BOXES);
+    for ((boxes, packets16), hits) in batch.boxes.iter().zip(packets16).zip(hits) {
         // SAFETY: as the caller promises.
         *hits = unsafe { boxes.held::<M>(p) };
         for hit in set(*hits) {
-            leaflets[hit].add(p, &mut total);
+            packets16[hit].add(p, &mut total);
         }
     }
     total.sum()

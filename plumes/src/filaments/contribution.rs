@@ -31,10 +31,10 @@ pub(super) struct GroupQuery<'a> {
     pub(super) quanta: f64,
 }
 
-/// Filaments at a time, and those that feel a wall and are therefore not in the leaf.
+/// Filaments at a time, and those that feel a wall and are therefore not in the packet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PresentMembers {
-    leaf: Packet64,
+    packet: Packet64,
     walled: Vec<NearWall>,
 }
 
@@ -82,28 +82,28 @@ impl GroupQuery<'_> {
 }
 
 impl PresentMembers {
-    /// Becomes those of a leaf on its way that are released at the present time.
+    /// Becomes those of a packet on its way that are released at the present time.
     pub(super) fn work_out(&mut self, moving: &MovingPacket, asked: &GroupQuery) {
         let GroupQuery { s, q, spot, .. } = asked;
-        let Self { leaf, walled } = self;
-        moving.fill(q.path, &s.size, &asked.moment, leaf);
+        let Self { packet, walled } = self;
+        moving.fill(q.path, &s.size, &asked.moment, packet);
         walled.clear();
         if !spot.room.is_open() {
-            leaf.retain(|p, sizes| {
+            packet.retain(|p, sizes| {
                 let felt = asked.walled(p, sizes);
                 let free = felt.is_none();
                 walled.extend(felt);
                 free
             });
         }
-        leaf.seal(q.path, s.filament_kg * asked.quanta);
+        packet.seal(q.path, s.filament_kg * asked.quanta);
     }
 
     /// Its contribution, in quanta.
     pub(super) fn felt(&self, asked: &GroupQuery) -> i64 {
         let walled = self.walled.iter();
         let walled = walled.map(|felt| asked.in_quanta(felt));
-        self.leaf.concentration(asked.q.path, asked.p) + walled.sum::<i64>()
+        self.packet.concentration(asked.q.path, asked.p) + walled.sum::<i64>()
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! *Source*: see `index`.
 //!
-//! *Parameters*: 1024 filaments in a group; a crowd from the 33rd question about one time.
+//! *Parameters*: 1024 filaments in a group; a batch from the 33rd question about one time.
 //!
 //! *Deviations*: none.
 
@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Most filaments in a group.
 pub(super) const GROUP: usize = 1024;
 
-/// To make a crowd takes as long as so many questions without one. It holds for one time only.
+/// To make a batch takes as long as so many questions without one. It holds for one time only.
 pub(super) const SCANS: u32 = 32;
 
 /// Up to [`GROUP`] neighbours in the order of release.
@@ -38,7 +38,7 @@ pub(super) struct Group {
     asked: Count,
     /// Holds for the step.
     order: OnceLock<Vec<u16>>,
-    crowd: OnceLock<Box<Batch>>,
+    batch: OnceLock<Box<Batch>>,
 }
 
 /// How often something was asked about the present time.
@@ -81,14 +81,14 @@ impl Group {
             sides: Default::default(),
             asked: Count::default(),
             order: OnceLock::new(),
-            crowd: OnceLock::new(),
+            batch: OnceLock::new(),
         }
     }
 
     /// Forgets what holds only for the present time.
     pub(super) fn forget(&mut self) {
         self.asked.forget();
-        self.crowd.take();
+        self.batch.take();
     }
 
     /// Whether one of its members may be felt at a point during the step. `axes` begins with the one along which the
@@ -107,8 +107,8 @@ impl Group {
     #[inline]
     pub(super) fn felt(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize) -> f64 {
         let asked = || self.asked_by(q, spot, s, band);
-        let total = match self.crowd.get() {
-            Some(crowd) => crowd.contribution(q.path, spot.p, asked),
+        let total = match self.batch.get() {
+            Some(batch) => batch.contribution(q.path, spot.p, asked),
             None => self.first_felt(&asked()),
         };
         // The number of quanta is a power of two.
@@ -128,7 +128,7 @@ impl Group {
         }
     }
 
-    /// The same in quanta as long as there is no crowd.
+    /// The same in quanta as long as there is no batch.
     #[inline(never)]
     fn first_felt(&self, asked: &GroupQuery) -> i64 {
         let GroupQuery { q, s, p, .. } = *asked;
@@ -137,15 +137,15 @@ impl Group {
         if runs == 0 {
             0
         } else if self.asked.often() {
-            let crowd = self.crowd.get_or_init(|| self.crowd(asked));
-            crowd.contribution(q.path, p, || *asked)
+            let batch = self.batch.get_or_init(|| self.batch(asked));
+            batch.contribution(q.path, p, || *asked)
         } else {
             scan::felt(asked, self.members.len(), runs)
         }
     }
 
     /// Its members at the present time.
-    fn crowd(&self, asked: &GroupQuery) -> Box<Batch> {
+    fn batch(&self, asked: &GroupQuery) -> Box<Batch> {
         let order = self.order.get_or_init(|| {
             // Those that are released within the step stay last.
             let born_s = &asked.s.born_s[self.members.clone()];

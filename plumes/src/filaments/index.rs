@@ -1,12 +1,12 @@
-//! Finds the filaments that contribute at a point: groups in the order of release, scanned or divided into leaves.
+//! Finds the filaments that contribute at a point: groups in the order of release, scanned or divided into packets.
 //!
 //! *Source*: none.
 //!
-//! *Parameters*: see `group` and `crowd`; speed in `benches/filaments.rs`.
+//! *Parameters*: see `group` and `batch`; speed in `benches/filaments.rs`.
 //!
 //! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
-//! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or made a crowd
-//! (`crowd`) once it is asked often; then the bounds of all groups of the band are looked at together, too. The bounds
+//! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or made a batch
+//! (`batch`) once it is asked often; then the bounds of all groups of the band are looked at together, too. The bounds
 //! hold for the whole step that the filaments take. All ways of searching give the same sum to the last bit (`felt`),
 //! so answers do not depend on earlier questions, and a viewer that asks too changes nothing.
 

@@ -1,4 +1,4 @@
-//! The filaments of a leaf on their way through a step: where they are at a moment, over which bed, and how large.
+//! The filaments of a packet on their way through a step: where they are at a moment, over which bed, and how large.
 //!
 //! See `bands` for the way and `size` for the size.
 //!
@@ -6,22 +6,22 @@
 
 use super::bands::{Moment, Span};
 use super::lookup::Lookup;
-use super::packet::{LANES, LEAF, Packet64, eights};
+use super::packet::{LANES, PACKET_64, Packet64, eights};
 use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
 use crate::flow::ground::NearGround;
 use crate::simd::dispatch::InstructionSet;
 
-/// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
+/// Up to [`PACKET_64`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]
 pub(super) struct MovingPacket {
     /// East, north, up.
-    start: [[f32; LEAF]; 3],
-    end: [[f32; LEAF]; 3],
-    born_s: [f64; LEAF],
+    start: [[f32; PACKET_64]; 3],
+    end: [[f32; PACKET_64]; 3],
+    born_s: [f64; PACKET_64],
     /// Variance by which each is wider for its own entrainment, m², of a buoyant release.
-    grown_m2: Option<[f32; LEAF]>,
+    grown_m2: Option<[f32; PACKET_64]>,
     ground: NearGround,
     count: usize,
 }
@@ -29,9 +29,9 @@ pub(super) struct MovingPacket {
 impl Default for MovingPacket {
     fn default() -> Self {
         Self {
-            start: [[0.0; LEAF]; 3],
-            end: [[0.0; LEAF]; 3],
-            born_s: [f64::NEG_INFINITY; LEAF],
+            start: [[0.0; PACKET_64]; 3],
+            end: [[0.0; PACKET_64]; 3],
+            born_s: [f64::NEG_INFINITY; PACKET_64],
             grown_m2: None,
             ground: NearGround::default(),
             count: 0,
@@ -53,16 +53,16 @@ impl MovingPacket {
         }
         gather(&mut self.born_s, &s.born_s, members.iter().map(at));
         if let Some(rise) = &s.rise {
-            let grown = self.grown_m2.get_or_insert([0.0; LEAF]);
+            let grown = self.grown_m2.get_or_insert([0.0; PACKET_64]);
             gather(grown, &rise.grown_m2, members.iter().map(at));
         }
         self.ground = lookup.ground;
     }
 
     /// The part of its way that each has gone at a moment, and how many are released.
-    fn parts(&self, moment: &Moment) -> ([f32; LEAF], usize) {
+    fn parts(&self, moment: &Moment) -> ([f32; PACKET_64], usize) {
         let Moment { span, now_s, part } = *moment;
-        let mut parts = [part; LEAF];
+        let mut parts = [part; PACKET_64];
         let mut count = self.count;
         // The newest filaments come last.
         for l in (0..self.count).rev() {
@@ -78,24 +78,24 @@ impl MovingPacket {
         (parts, count)
     }
 
-    /// Puts those that are released at a moment into a leaf, not [sealed](Packet64::seal) yet.
-    pub(super) fn fill(&self, path: InstructionSet, size: &Size, moment: &Moment, leaf: &mut Packet64) {
+    /// Puts those that are released at a moment into a packet, not [sealed](Packet64::seal) yet.
+    pub(super) fn fill(&self, path: InstructionSet, size: &Size, moment: &Moment, packet: &mut Packet64) {
         let (parts, count) = self.parts(moment);
-        leaf.count = count;
+        packet.count = count;
         let way = MotionInputs { moving: self, parts, size, now_s: moment.now_s };
         match path {
-            InstructionSet::Portable => fill(&way, leaf),
+            InstructionSet::Portable => fill(&way, packet),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { fill_avx2(&way, leaf) },
+            InstructionSet::Avx2 => unsafe { fill_avx2(&way, packet) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { fill_avx512(&way, leaf) },
+            InstructionSet::Avx512 => unsafe { fill_avx512(&way, packet) },
         }
     }
 }
 
-fn gather<T: Copy>(to: &mut [T; LEAF], of: &[T], members: impl Iterator<Item = usize>) {
+fn gather<T: Copy>(to: &mut [T; PACKET_64], of: &[T], members: impl Iterator<Item = usize>) {
     for (to, m) in to.iter_mut().zip(members) {
         *to = of[m];
     }
@@ -105,21 +105,21 @@ fn gather<T: Copy>(to: &mut [T; LEAF], of: &[T], members: impl Iterator<Item = u
 struct MotionInputs<'a> {
     moving: &'a MovingPacket,
     /// The part of its way that each filament has gone.
-    parts: [f32; LEAF],
+    parts: [f32; PACKET_64],
     size: &'a Size,
     now_s: f64,
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn fill_avx2(way: &MotionInputs, leaf: &mut Packet64) {
-    fill(way, leaf);
+fn fill_avx2(way: &MotionInputs, packet: &mut Packet64) {
+    fill(way, packet);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn fill_avx512(way: &MotionInputs, leaf: &mut Packet64) {
-    fill(way, leaf);
+fn fill_avx512(way: &MotionInputs, packet: &mut Packet64) {
+    fill(way, packet);
 }
 
 /// A coordinate when a part of the way is gone.
@@ -132,32 +132,32 @@ pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
 /// Places, beds and sizes, eight at a time; what is in empty places does not count.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
-fn fill(way: &MotionInputs, leaf: &mut Packet64) {
+fn fill(way: &MotionInputs, packet: &mut Packet64) {
     let MotionInputs { moving: m, parts, size, now_s } = way;
-    for from in eights(leaf.count) {
-        let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z];
+    for from in eights(packet.count) {
+        let places = [&mut packet.x, &mut packet.y, &mut packet.z];
         for (d, to) in places.into_iter().enumerate() {
             for l in from..from + LANES {
                 to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
             }
         }
         for l in from..from + LANES {
-            leaf.bed[l] = m.ground.z(leaf.x[l], leaf.y[l]);
+            packet.bed[l] = m.ground.z(packet.x[l], packet.y[l]);
         }
         for l in from..from + LANES {
-            let (z, bed) = (leaf.z[l], leaf.bed[l]);
-            leaf.z[l] = if z > bed { z } else { bed };
+            let (z, bed) = (packet.z[l], packet.bed[l]);
+            packet.z[l] = if z > bed { z } else { bed };
         }
         for l in from..from + LANES {
-            leaf.h[l] = size.horizontal(now_s - m.born_s[l]);
+            packet.h[l] = size.horizontal(now_s - m.born_s[l]);
         }
         if let Some(grown) = &m.grown_m2 {
             for l in from..from + LANES {
-                leaf.h[l] = widened(leaf.h[l], grown[l]);
+                packet.h[l] = widened(packet.h[l], grown[l]);
             }
         }
         for l in from..from + LANES {
-            leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);
+            packet.v[l] = size.vertical(packet.h[l], packet.bed[l]);
         }
     }
 }
@@ -170,7 +170,7 @@ mod tests {
     use nalgebra::Vector2;
     use world::terrain::Terrain;
 
-    /// A leaf on its way from one place to another, the last filaments released within the step.
+    /// A packet on its way from one place to another, the last filaments released within the step.
     fn moving() -> MovingPacket {
         let mut new = MovingPacket {
             ground: Ground::new(&Terrain::Level { depth_m: 5.0 }).near(Vector2::zeros()),
@@ -186,7 +186,7 @@ mod tests {
         new
     }
 
-    fn add(mut to: [[f32; LEAF]; 3], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 3] {
+    fn add(mut to: [[f32; PACKET_64]; 3], l: usize, p: [f32; 3]) -> [[f32; PACKET_64]; 3] {
         for (axis, v) in to.iter_mut().zip(p) {
             axis[l] = v;
         }
@@ -202,15 +202,15 @@ mod tests {
             let part = span.part(now_s);
             let moment = Moment { span, now_s, part };
             for path in InstructionSet::all() {
-                let mut leaf = Packet64::default();
-                moving.fill(path, &size, &moment, &mut leaf);
-                assert_eq!(leaf.count, released, "{path:?} at {now_s}");
+                let mut packet = Packet64::default();
+                moving.fill(path, &size, &moment, &mut packet);
+                assert_eq!(packet.count, released, "{path:?} at {now_s}");
                 for l in 0..released {
                     let from_s = moving.born_s[l].max(0.0);
                     let part = Span { from_s, to_s }.part(now_s);
                     let on = |d: usize| on_way(moving.start[d][l], moving.end[d][l], part);
-                    assert_eq!([leaf.x[l], leaf.y[l], leaf.z[l]], [on(0), on(1), on(2)]);
-                    assert_eq!(leaf.h[l], size.horizontal(now_s - moving.born_s[l]));
+                    assert_eq!([packet.x[l], packet.y[l], packet.z[l]], [on(0), on(1), on(2)]);
+                    assert_eq!(packet.h[l], size.horizontal(now_s - moving.born_s[l]));
                 }
             }
         }

@@ -24,16 +24,16 @@ const WITHIN_CUT: f64 = 0.998_865_98;
 /// are high could there be more.
 pub(super) const MOST: f32 = 281_474_976_710_656.0;
 
-/// Filaments in a leaf.
-pub(super) const LEAF: usize = 32;
+/// Filaments in a packet.
+pub(super) const PACKET_64: usize = 32;
 
 /// Filaments that are worked out at a time.
 pub(super) const LANES: usize = 8;
 
-/// The first places of the eights in which so many filaments are. The compiler sees that all eight are in the leaf.
+/// The first places of the eights in which so many filaments are. The compiler sees that all eight are in the packet.
 #[inline(always)]
 pub(super) fn eights(count: usize) -> impl Iterator<Item = usize> {
-    (0..count.div_ceil(LANES).min(LEAF / LANES)).map(|n| LANES * n)
+    (0..count.div_ceil(LANES).min(PACKET_64 / LANES)).map(|n| LANES * n)
 }
 
 /// Concentration at the centre of a filament of `kg` with horizontal and vertical sizes (m), kg/m³.
@@ -45,15 +45,15 @@ pub(super) fn peak(kg: f64, [horizontal, vertical]: [f64; 2]) -> f64 {
 /// Neighbouring filaments in arrays of fixed length; empty places have no mass.
 #[derive(Clone, Debug)]
 pub(super) struct Packet64 {
-    pub(super) x: [f32; LEAF],
-    pub(super) y: [f32; LEAF],
-    pub(super) z: [f32; LEAF],
-    pub(super) bed: [f32; LEAF],
+    pub(super) x: [f32; PACKET_64],
+    pub(super) y: [f32; PACKET_64],
+    pub(super) z: [f32; PACKET_64],
+    pub(super) bed: [f32; PACKET_64],
     /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths. Until it is sealed: the sizes.
-    pub(super) h: [f32; LEAF],
-    pub(super) v: [f32; LEAF],
+    pub(super) h: [f32; PACKET_64],
+    pub(super) v: [f32; PACKET_64],
     /// Concentration at the centre, in quanta.
-    pub(super) peak: [f32; LEAF],
+    pub(super) peak: [f32; PACKET_64],
     pub(super) count: usize,
     /// Greatest vertical reach, m; highest bed, m; least depth, m.
     reach: f32,
@@ -63,13 +63,13 @@ pub(super) struct Packet64 {
 impl Default for Packet64 {
     fn default() -> Self {
         Self {
-            x: [0.0; LEAF],
-            y: [0.0; LEAF],
-            z: [0.0; LEAF],
-            bed: [-1.0; LEAF],
-            h: [1.0; LEAF],
-            v: [1.0; LEAF],
-            peak: [0.0; LEAF],
+            x: [0.0; PACKET_64],
+            y: [0.0; PACKET_64],
+            z: [0.0; PACKET_64],
+            bed: [-1.0; PACKET_64],
+            h: [1.0; PACKET_64],
+            v: [1.0; PACKET_64],
+            peak: [0.0; PACKET_64],
             count: 0,
             reach: 0.0,
             highest_bed: f32::MIN,
@@ -125,76 +125,76 @@ impl Packet64 {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn seal_avx2(leaf: &mut Packet64, kg: f64) {
-    seal(leaf, kg);
+fn seal_avx2(packet: &mut Packet64, kg: f64) {
+    seal(packet, kg);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn seal_avx512(leaf: &mut Packet64, kg: f64) {
-    seal(leaf, kg);
+fn seal_avx512(packet: &mut Packet64, kg: f64) {
+    seal(packet, kg);
 }
 
 /// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
 #[inline(always)]
-fn seal(leaf: &mut Packet64, kg: f64) {
+fn seal(packet: &mut Packet64, kg: f64) {
     let peak_of_one = peak(kg, [1.0; 2]) as f32;
     let (mut tallest, mut highest) = ([0.0_f32; LANES], [f32::MIN; LANES]);
-    for from in eights(leaf.count) {
+    for from in eights(packet.count) {
         for l in 0..LANES {
             let n = from + l;
-            let used = n < leaf.count;
-            let sh = if used { leaf.h[n] } else { 1.0 };
-            let sv = if used { leaf.v[n] } else { 1.0 };
+            let used = n < packet.count;
+            let sh = if used { packet.h[n] } else { 1.0 };
+            let sv = if used { packet.v[n] } else { 1.0 };
             let tall = if used { sv } else { 0.0 };
-            let bed = if used { leaf.bed[n] } else { f32::MIN };
+            let bed = if used { packet.bed[n] } else { f32::MIN };
             tallest[l] = if tall > tallest[l] { tall } else { tallest[l] };
             highest[l] = if bed > highest[l] { bed } else { highest[l] };
-            leaf.h[n] = 1.0 / (16.0 * sh * sh);
-            leaf.v[n] = 1.0 / (16.0 * sv * sv);
+            packet.h[n] = 1.0 / (16.0 * sh * sh);
+            packet.v[n] = 1.0 / (16.0 * sv * sv);
             let peak = peak_of_one / (sh * sh * sv);
             let peak = if peak < MOST { peak } else { MOST };
-            leaf.peak[n] = if used { peak } else { 0.0 };
+            packet.peak[n] = if used { peak } else { 0.0 };
         }
     }
-    leaf.reach = CUT_SIGMAS * tallest.into_iter().fold(0.0, f32::max);
-    leaf.highest_bed = highest.into_iter().fold(f32::MIN, f32::max);
+    packet.reach = CUT_SIGMAS * tallest.into_iter().fold(0.0, f32::max);
+    packet.highest_bed = highest.into_iter().fold(f32::MIN, f32::max);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn sum_avx2(leaf: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
-    sum(leaf, images, p)
+fn sum_avx2(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
+    sum(packet, images, p)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(leaf: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
-    sum(leaf, images, p)
+fn sum_avx512(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
+    sum(packet, images, p)
 }
 
 #[inline(always)]
-fn sum(leaf: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
+fn sum(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
     match images {
-        [_, _, true] => sum_with::<true, true, true>(leaf, p),
-        [true, true, _] => sum_with::<true, true, false>(leaf, p),
-        [true, false, _] => sum_with::<true, false, false>(leaf, p),
-        [false, true, _] => sum_with::<false, true, false>(leaf, p),
-        [false, false, _] => sum_with::<false, false, false>(leaf, p),
+        [_, _, true] => sum_with::<true, true, true>(packet, p),
+        [true, true, _] => sum_with::<true, true, false>(packet, p),
+        [true, false, _] => sum_with::<true, false, false>(packet, p),
+        [false, true, _] => sum_with::<false, true, false>(packet, p),
+        [false, false, _] => sum_with::<false, false, false>(packet, p),
     }
 }
 
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
-fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(leaf: &Packet64, p: [f32; 3]) -> i64 {
-    let mut felt = [0.0; LEAF];
-    let used = leaf.count.next_multiple_of(LANES).min(LEAF);
+fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(packet: &Packet64, p: [f32; 3]) -> i64 {
+    let mut felt = [0.0; PACKET_64];
+    let used = packet.count.next_multiple_of(LANES).min(PACKET_64);
     for n in 0..used {
-        let at = [leaf.x[n], leaf.y[n], leaf.z[n], leaf.bed[n]];
-        felt[n] = felt_by::<SURFACE, BED, AGAIN>(at, [leaf.h[n], leaf.v[n], leaf.peak[n]], p);
+        let at = [packet.x[n], packet.y[n], packet.z[n], packet.bed[n]];
+        felt[n] = felt_by::<SURFACE, BED, AGAIN>(at, [packet.h[n], packet.v[n], packet.peak[n]], p);
     }
     let mut whole = Whole::default();
-    for from in eights(leaf.count) {
+    for from in eights(packet.count) {
         whole.add(&felt, from);
     }
     whole.sum()
@@ -285,29 +285,29 @@ mod tests {
 
     #[test]
     fn all_versions_give_the_same_bits() {
-        let mut leaf = Packet64::default();
+        let mut packet = Packet64::default();
         for n in 0..30 {
             let a = n as f32;
-            (leaf.x[n], leaf.y[n], leaf.z[n]) = (0.1 * a, -0.07 * a, -1.0 - 0.05 * a);
-            leaf.bed[n] = -4.0 + 0.01 * a;
-            (leaf.h[n], leaf.v[n]) = (0.5 + 0.1 * a, 0.3 + 0.04 * a);
+            (packet.x[n], packet.y[n], packet.z[n]) = (0.1 * a, -0.07 * a, -1.0 - 0.05 * a);
+            packet.bed[n] = -4.0 + 0.01 * a;
+            (packet.h[n], packet.v[n]) = (0.5 + 0.1 * a, 0.3 + 0.04 * a);
         }
-        leaf.count = 30;
-        let open = leaf.clone();
-        leaf.seal(InstructionSet::Portable, 1e6);
+        packet.count = 30;
+        let open = packet.clone();
+        packet.seal(InstructionSet::Portable, 1e6);
         for path in InstructionSet::all() {
             let mut sealed = open.clone();
             sealed.seal(path, 1e6);
-            assert_eq!(format!("{sealed:?}"), format!("{leaf:?}"), "{path:?}");
+            assert_eq!(format!("{sealed:?}"), format!("{packet:?}"), "{path:?}");
         }
         for n in 0..1000 {
             let a = n as f32 * 0.01;
             let p = [a - 3.0, 2.0 - a, -0.004 * a];
-            let portable = leaf.concentration(InstructionSet::Portable, p);
+            let portable = packet.concentration(InstructionSet::Portable, p);
             for path in InstructionSet::all() {
-                assert_eq!(leaf.concentration(path, p), portable, "{path:?}");
+                assert_eq!(packet.concentration(path, p), portable, "{path:?}");
             }
         }
-        assert!(leaf.concentration(InstructionSet::Portable, [1.0, -1.0, -1.5]) > 1000);
+        assert!(packet.concentration(InstructionSet::Portable, [1.0, -1.0, -1.5]) > 1000);
     }
 }

@@ -80,7 +80,7 @@ pub struct Plume {
     pub(super) turned_back: u64,
     pub(super) index: Index,
     pub(super) threads: Option<Arc<rayon::ThreadPool>>,
-    pub(super) desk: OwnScratch,
+    pub(super) scratch: OwnScratch,
 }
 
 /// Where a plume moves its filaments. It holds nothing from one step to the next, so a copy of a plume has a new one.
@@ -138,7 +138,7 @@ impl Plume {
             turned_back: 0,
             index: Index::default(),
             threads: None,
-            desk: OwnScratch::default(),
+            scratch: OwnScratch::default(),
         })
     }
 

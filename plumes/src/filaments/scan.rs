@@ -5,7 +5,7 @@
 
 use super::contribution::{GroupQuery, PresentMembers};
 use super::moving_packet::{MovingPacket, on_way};
-use super::packet::LEAF;
+use super::packet::PACKET_64;
 use super::run_bounds::{RUN, RUNS};
 use crate::simd::dispatch::InstructionSet;
 use crate::simd::movemask::{self, LaneMask, Movemask, mark};
@@ -50,7 +50,7 @@ pub(super) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
 fn sum(asked: &GroupQuery, near: &Near) -> i64 {
     let GroupQuery { s, q, from, .. } = asked;
     let (mut moving, mut present) = (MovingPacket::default(), PresentMembers::default());
-    let (mut some, mut count, mut total) = ([0; LEAF], 0, 0);
+    let (mut some, mut count, mut total) = ([0; PACKET_64], 0, 0);
     let mut add = |some: &[u16]| {
         moving.take(s, q.lookup, *from, some);
         present.work_out(&moving, asked);
@@ -62,7 +62,7 @@ fn sum(asked: &GroupQuery, near: &Near) -> i64 {
             some[count] = (run * RUN) as u16 + left.trailing_zeros() as u16;
             left &= left - 1;
             count += 1;
-            if count == LEAF {
+            if count == PACKET_64 {
                 add(&some);
                 count = 0;
             }

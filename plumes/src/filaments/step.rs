@@ -180,7 +180,7 @@ impl Plume {
             key: step_key(self.keys[n], self.steps),
             span: self.bands.span(band),
         };
-        let swept = sweep.over(store, range, threads, &mut self.desk.0);
+        let swept = sweep.over(store, range, threads, &mut self.scratch.0);
         self.turned_back += swept.turned;
         for column in swept.columns {
             self.sampled.note(column);

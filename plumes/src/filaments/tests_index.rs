@@ -4,7 +4,7 @@ use super::bands::Bands;
 use super::domain::Domain;
 use super::index::{Index, Question};
 use super::lookup::Lookup;
-use super::packet::{LEAF, Packet64};
+use super::packet::{PACKET_64, Packet64};
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::{FlowGrid, GridShape};
@@ -62,19 +62,19 @@ impl Scene {
         let moment = self.bands.moment(0, now_s);
         let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
-        let leaf = |part: &[(usize, [f32; 3])]| {
-            let mut leaf = Packet64::default();
+        let packet = |part: &[(usize, [f32; 3])]| {
+            let mut packet = Packet64::default();
             for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
-                (leaf.x[n], leaf.y[n], leaf.z[n]) = (p[0], p[1], p[2]);
-                (leaf.h[n], leaf.v[n]) = (sh, s.size.vertical(sh, -6.0));
-                leaf.bed[n] = -6.0;
+                (packet.x[n], packet.y[n], packet.z[n]) = (p[0], p[1], p[2]);
+                (packet.h[n], packet.v[n]) = (sh, s.size.vertical(sh, -6.0));
+                packet.bed[n] = -6.0;
             }
-            leaf.count = part.len();
-            leaf.seal(InstructionSet::Portable, s.filament_kg * QUANTA);
-            leaf
+            packet.count = part.len();
+            packet.seal(InstructionSet::Portable, s.filament_kg * QUANTA);
+            packet
         };
-        there.chunks(LEAF).map(leaf).collect()
+        there.chunks(PACKET_64).map(packet).collect()
     }
 }
 
@@ -135,7 +135,7 @@ fn answers_do_not_depend_on_what_was_asked_before() {
 }
 
 #[test]
-fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
+fn batches_answer_as_scans_do_with_every_path_and_over_any_bed() {
     let area = Area { centre: Vector2::new(55.0, 0.0), length_m: 110.0, width_m: 60.0, axis: Heading::from_deg(90.0) };
     let steep = Terrain::sloping_over(&area, Heading::from_deg(70.0), 0.5, 9.0);
     let (flat, deep) = (Terrain::Level { depth_m: 1.2 }, Terrain::Level { depth_m: 6.0 });
@@ -156,10 +156,10 @@ fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
                     let size = f64::from(s.size.horizontal(now_s - s.born_s[of]));
                     let mut p = Vector3::from_fn(|d, _| f64::from(at[d]) + size * r.normal());
                     p.z = p.z.clamp(bed.bed_z(p.x, p.y), 0.0);
-                    let crowd = scene.at(&index, path, now_s, &p);
+                    let batch = scene.at(&index, path, now_s, &p);
                     let scan = scene.at(&fresh(), InstructionSet::Portable, now_s, &p);
-                    assert_eq!(crowd.to_bits(), scan.to_bits(), "{path:?} {n} {k}");
-                    hits += usize::from(crowd > 0.0);
+                    assert_eq!(batch.to_bits(), scan.to_bits(), "{path:?} {n} {k}");
+                    hits += usize::from(batch > 0.0);
                 }
             }
             assert!(hits > 200, "{n}: {hits}");

@@ -41,7 +41,7 @@ impl Plume {
             room: _,
             index: _,
             // Nothing stays in it from step to step.
-            desk: _,
+            scratch: _,
         } = self;
         assert!(
             (0..=bands.last()).all(|band| bands.span(band).to_s <= *now_s),
