@@ -8,6 +8,7 @@
 
 mod narrow;
 
+pub use crate::ranges::shown;
 pub use narrow::UNIT;
 
 use crate::ranges::{Finite, Fraction, NonNegative, Positive};
@@ -84,13 +85,6 @@ impl<T: LimitedValue> LimitedValue for (T, T, T) {
     fn limited((a, b, c): Self::Raw, range: &Range) -> Result<Self, String> {
         Ok((T::limited(a, range)?, T::limited(b, range)?, T::limited(c, range)?))
     }
-}
-
-/// A number as a person would write it.
-#[must_use]
-pub fn shown(v: f64) -> String {
-    let size = v.abs();
-    if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{v:e}") } else { format!("{v}") }
 }
 
 macro_rules! limits {
@@ -303,6 +297,7 @@ mod tests {
         assert_eq!(size(1e200), "must be from 0.001 to 1000000 m, got 1e200");
         assert_eq!(size(5e-324), "must be from 0.001 to 1000000 m, got 5e-324");
         assert_eq!(size(-1.0), "must be > 0, got -1");
+        assert_eq!(size(-2e274), "must be > 0, got -2e274");
         assert_eq!(size(0.0), "must be > 0, got 0");
         assert_eq!(size(f64::INFINITY), "must be > 0, got inf");
     }

@@ -12,6 +12,13 @@ pub const SMALLEST: f64 = 1e-18;
 /// Largest number that a file may give; its powers do not overflow. Physics narrows many ranges: see [`crate::limits`].
 pub const LARGEST: f64 = 1e18;
 
+/// A number as a person would write it.
+#[must_use]
+pub fn shown(v: f64) -> String {
+    let size = v.abs();
+    if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{v:e}") } else { format!("{v}") }
+}
+
 macro_rules! ranged {
     ($($(#[$doc:meta])* $name:ident: $says:literal, $bounds:literal, $schema:tt, |$v:ident| $ok:expr, |$w:ident| $within:expr;)*) => {$(
         $(#[$doc])*
@@ -44,7 +51,7 @@ macro_rules! ranged {
             type Error = String;
             fn try_from($v: f64) -> Result<Self, String> {
                 if !($ok) {
-                    return Err(format!(concat!($says, ", got {}"), $v));
+                    return Err(format!(concat!($says, ", got {}"), shown($v)));
                 }
                 let $w = $v;
                 if $within { Ok(Self($v)) } else { Err(format!(concat!($bounds, ", got {:e}"), $v)) }
