@@ -37,7 +37,7 @@ pub struct Plant {
     pub drives: Vec<PlantDrive>,
     /// Greatest speed ahead through the water, m/s.
     pub top_speed_m_s: f64,
-    /// Who steers it.
+    /// What steers it.
     pub pilot: PilotSpec,
 }
 

@@ -125,7 +125,7 @@ fn finished(
 }
 
 fn replay<O: Observer>(lanes: &mut Lanes<O>, recorded: &RecordedRun) -> Result<(), RunError> {
-    let told = Replay::new(recorded.told.clone());
+    let told = Replay::new(recorded.exchanges.clone());
     if let Some((trial, _)) = lanes.newest() {
         for robot in trial.controlled() {
             trial.control(&robot, told.clone())?;
@@ -146,7 +146,7 @@ fn compared(recorded: &RecordedRun, ended: &RunEnd) -> Exit {
         same if same == version => String::new(),
         other => format!(" (recorded with version {other}, this is {version})"),
     };
-    let asked = recorded.told.len();
+    let asked = recorded.exchanges.len();
     match &recorded.result {
         Some((digest, _)) if *digest == ended.digest => {
             say::line(format_args!("the same run: digest {digest}, {asked} answers from outside{other}"));

@@ -96,9 +96,9 @@ impl RunObserver {
 
     /// Says what came of a question, unless it is as the time before.
     fn tell(&mut self, exchange: &Exchange) {
-        let name = exchange.heard.name();
+        let name = exchange.response.name();
         if self.heard.insert(exchange.robot.clone(), name) != Some(name) {
-            let why = match &exchange.heard {
+            let why = match &exchange.response {
                 Response::Nonsense(why) => format!(": {why}"),
                 _ => String::new(),
             };

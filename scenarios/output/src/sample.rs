@@ -176,7 +176,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 })),
                 keeps_height: true,
                 actuators: Actuation::default(),
-                heard: Default::default(),
+                readings: Default::default(),
                 chemical: Some(ChemicalReading { volts: 5.0 * of_full_scale, of_full_scale, detected: in_plume }),
                 detected: in_plume,
                 behaviour,

@@ -38,7 +38,7 @@ impl Controller for Function {
     }
 }
 
-/// Who decides for a machine.
+/// The controller of a machine.
 pub(crate) enum Decider {
     /// A function of Python: the question as a text in, the answer as a text out.
     Function(Py<PyAny>),

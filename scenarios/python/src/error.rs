@@ -141,7 +141,7 @@ impl FirstError {
 
     /// Takes an answer that the machine could not carry out for an exception of the controller that gave it.
     pub(crate) fn look_at(&self, told: &Exchange) {
-        if let Response::Nonsense(why) = &told.heard {
+        if let Response::Nonsense(why) = &told.response {
             let (robot, number) = (&told.robot, told.number);
             let said = format!("the answer of {robot} to question {number}: {why}");
             self.keep(PyValueError::new_err(said));

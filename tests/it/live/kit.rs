@@ -106,7 +106,7 @@ pub(super) fn frame(step: u64) -> Frame {
         command: Some(Command::Steer(Setpoint { heading, water_speed_m_s: 2.0, vertical })),
         keeps_height: true,
         actuators: Actuation::default(),
-        heard: NewestReadings { ranging: Some(super::readings::ping_ahead()), ..NewestReadings::default() },
+        readings: NewestReadings { ranging: Some(super::readings::ping_ahead()), ..NewestReadings::default() },
         shown: Shown {
             zone: Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0),
             layers: vec![

@@ -50,18 +50,18 @@ fn told(step: u64) -> Frame {
     let mut frame = frame(step);
     let robot = &mut frame.robots[0];
     let v_body_m_s = Vector3::new(1.5, 0.0, 0.25);
-    robot.heard.dvl = at(DvlReading { v_body_m_s, valid: true });
-    robot.heard.adcp = at(AdcpReading { v_body_m_s, above_m: 1.0, valid: true });
-    robot.heard.attitude = at(AttitudeReading {
+    robot.readings.dvl = at(DvlReading { v_body_m_s, valid: true });
+    robot.readings.adcp = at(AdcpReading { v_body_m_s, above_m: 1.0, valid: true });
+    robot.readings.attitude = at(AttitudeReading {
         heading: Heading::from_deg(90.0),
         roll_rad: 0.0,
         pitch_rad: 0.0,
         rates_rad_s: Vector3::z(),
     });
-    robot.heard.depth = at(DepthReading { depth_m: 10.0 });
-    robot.heard.altimeter = at(AltimeterReading { altitude_m: 2.5, valid: true });
+    robot.readings.depth = at(DepthReading { depth_m: 10.0 });
+    robot.readings.altimeter = at(AltimeterReading { altitude_m: 2.5, valid: true });
     let beam = |dir_B, echo_m| Beam { dir_B, echo_m };
-    robot.heard.ranging = at(RangeScan {
+    robot.readings.ranging = at(RangeScan {
         p_BS: Vector3::new(0.8, 0.0, 0.0),
         max_m: 40.0,
         beams: [beam(Vector3::x(), Some(12.0)), beam(Vector3::y(), None)].into(),

@@ -16,7 +16,7 @@ const AT_ONCE: usize = 24;
 /// most these and what was being written.
 const WAITING: usize = 2;
 
-/// Who gathers.
+/// The thread that gathers results.
 pub(super) enum GatherWorker {
     /// The run's own thread.
     Here(Box<Gatherer>),

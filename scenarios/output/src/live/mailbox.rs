@@ -136,7 +136,7 @@ impl Mailbox {
             // Detections, spikes and readings are events: they must survive when their state is replaced.
             for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
                 robot.detected |= before.detected;
-                robot.heard.fill(&before.heard);
+                robot.readings.fill(&before.readings);
             }
             for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
                 let spikes = &mut gantry.decision.working.spike;
@@ -282,13 +282,13 @@ mod tests {
         let mut detected = frame(0);
         detected.robots[0].detected = true;
         detected.gantries[0].decision.working.spike[0] = true;
-        detected.robots[0].heard.depth = Some(TimedReading { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
+        detected.robots[0].readings.depth = Some(TimedReading { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].decision.working.spike[0]);
-        let depth = sent.robots[0].heard.depth.as_ref();
+        let depth = sent.robots[0].readings.depth.as_ref();
         assert_eq!(depth.map(|d| (d.t_s, d.value.depth_m)), Some((0.5, 3.0)));
     }
 

@@ -132,7 +132,7 @@ pub(super) mod tests {
             command: None,
             keeps_height: true,
             actuators: Actuation::default(),
-            heard: Default::default(),
+            readings: Default::default(),
             chemical: None,
             detected: false,
             behaviour: Behaviour::Find,

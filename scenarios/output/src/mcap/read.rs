@@ -35,7 +35,7 @@ pub struct RecordedRun {
     /// Digest and ticks of the run; `None` if the recording broke off.
     pub result: Option<(String, u64)>,
     /// What searchers outside the program were asked and answered.
-    pub told: Vec<Exchange>,
+    pub exchanges: Vec<Exchange>,
 }
 
 /// Why a recording cannot be read.
@@ -135,7 +135,7 @@ impl Reading {
             }
             Record::Message { header, data } if self.asked.contains(&header.channel_id) => {
                 let told = cdr_text(&data).ok_or("an answer in it is not text")?;
-                run.told.push(read_consultation(told)?);
+                run.exchanges.push(read_consultation(told)?);
             }
             Record::Metadata(about) => match about.name.as_str() {
                 "run" => {

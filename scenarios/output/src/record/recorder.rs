@@ -199,7 +199,7 @@ impl Recorder {
         if let Some(c) = r.chemical {
             put("chemical", MessageKind::Float64, &float64(c.volts))?;
         }
-        if let Some(TimedReading { t_s, value: scan }) = &r.heard.ranging {
+        if let Some(TimedReading { t_s, value: scan }) = &r.readings.ranging {
             let cloud = echo_cloud(nanoseconds(*t_s), id, scan);
             put("ranging", MessageKind::PointCloud2, &cloud)?;
         }

@@ -130,7 +130,7 @@ impl Group {
                 }
                 let answer = Response::Answer(mind.answer(rules, agent, own));
                 let told = shared.answer(*place, &agent.id, answer);
-                if let Some(Response::Nonsense(why)) = told.map(|t| t.heard) {
+                if let Some(Response::Nonsense(why)) = told.map(|t| t.response) {
                     return Err(format!("{} cannot do that: {why}", agent.id));
                 }
             }

@@ -72,7 +72,7 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Vec<(
             }),
         );
     }
-    if let Some(TimedReading { t_s, value: scan }) = &r.heard.ranging {
+    if let Some(TimedReading { t_s, value: scan }) = &r.readings.ranging {
         let echoes: Vec<_> = scan.echoes_B().map(|p| [p.x, p.y, p.z]).collect();
         say(
             "ranging",

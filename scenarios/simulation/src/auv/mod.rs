@@ -81,7 +81,7 @@ pub struct Mapping {
 #[derive(Component, Clone, Debug, Default)]
 pub(crate) struct Log {
     /// What the other instruments reported.
-    heard: NewestReadings,
+    readings: NewestReadings,
     /// Newest chemical reading; it stays until there is another.
     chemical: Option<ChemicalReading>,
     /// Whether there was a detection.

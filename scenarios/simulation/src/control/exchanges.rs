@@ -253,5 +253,5 @@ pub(crate) fn put_in(world: &mut World, question: OpenQuestion, mut heard: Respo
             Response::Nonsense(_) => &mut own.nonsense,
         } += 1;
     }
-    Exchange { robot: question.robot, number: question.number, step: question.step, t_s: question.t_s, heard }
+    Exchange { robot: question.robot, number: question.number, step: question.step, t_s: question.t_s, response: heard }
 }

@@ -95,7 +95,7 @@ pub struct Exchange {
     /// Mission time, s.
     pub t_s: f64,
     /// What came back.
-    pub heard: Response,
+    pub response: Response,
 }
 
 /// Whoever decides for a robot or gantry whose strategy is `External`.

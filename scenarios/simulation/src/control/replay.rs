@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 #[must_use]
 pub fn consultation_json(told: &Exchange) -> Value {
     let mut said = json!({
-        "robot": told.robot, "number": told.number, "step": told.step, "t_s": told.t_s, "cause": told.heard.name(),
+        "robot": told.robot, "number": told.number, "step": told.step, "t_s": told.t_s, "cause": told.response.name(),
     });
-    match &told.heard {
+    match &told.response {
         Response::Answer(answer) => said["answer"] = answer_json(answer),
         Response::Nonsense(why) => said["why"] = json!(why),
         _ => {}
@@ -37,7 +37,7 @@ pub fn read_consultation(text: &str) -> Result<Exchange, String> {
         "nonsense" => Response::Nonsense(words("why")?.to_string()),
         other => return Err(format!("unknown cause {other:?}")),
     };
-    Ok(Exchange { robot: words("robot")?.to_string(), number, step, t_s, heard })
+    Ok(Exchange { robot: words("robot")?.to_string(), number, step, t_s, response: heard })
 }
 
 /// A controller that repeats what a robot was told in another run of the same scenario and seed.
@@ -67,6 +67,6 @@ impl Controller for Replay {
     fn answer(&mut self, question: &Question) -> Response {
         let key = (question.robot.clone(), question.number);
         let told = self.told.get(&key).filter(|told| told.step == question.step);
-        told.map_or(Response::Absent, |told| told.heard.clone())
+        told.map_or(Response::Absent, |told| told.response.clone())
     }
 }

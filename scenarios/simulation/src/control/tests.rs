@@ -88,7 +88,7 @@ fn a_strategy_of_this_program_gives_the_same_digest_from_outside() {
     assert_eq!(ended.digest, inside.digest);
     assert_eq!((ended.outcome, ended.steps), (inside.outcome, inside.steps));
     assert_eq!(told.len() as u64, ended.steps, "asked in every step");
-    assert!(told.iter().all(|t| t.heard.name() == "answered"));
+    assert!(told.iter().all(|t| t.response.name() == "answered"));
 
     // Written and read again, the answers make the same run.
     let read = told.iter().map(|t| {
@@ -138,7 +138,7 @@ fn stopping_at_the_questions_changes_nothing() {
         };
         let heard = controller.answer(question);
         let told = trial.answer("auv0", heard.clone(), &mut Unwatched).expect("it asked");
-        assert_eq!(told.heard.name(), "answered");
+        assert_eq!(told.response.name(), "answered");
         assert_eq!(trial.answer("auv0", heard, &mut Unwatched), None, "once");
     }
     assert_eq!(trial.ended().digest, ended.digest);
@@ -171,8 +171,8 @@ fn what_cannot_be_carried_out_is_nonsense_and_told() {
     });
     assert!(told.len() >= wrong.len(), "{}", told.len());
     for (told, (text, why)) in told.iter().zip(wrong) {
-        let Response::Nonsense(said) = &told.heard else {
-            panic!("{text} is nonsense, but: {:?}", told.heard);
+        let Response::Nonsense(said) = &told.response else {
+            panic!("{text} is nonsense, but: {:?}", told.response);
         };
         assert!(said.contains(why), "{text}: {said}");
     }
@@ -195,10 +195,10 @@ fn nothing_that_is_not_a_number_comes_in() {
         })
     };
     let told = trial.answer("auv0", order(f64::NAN, 0.0), &mut Unwatched);
-    assert_eq!(told.expect("it asked").heard.name(), "nonsense");
+    assert_eq!(told.expect("it asked").response.name(), "nonsense");
     trial.until_asked(&mut Unwatched);
     let told = trial.answer("auv0", order(1.0, f64::INFINITY), &mut Unwatched);
-    assert_eq!(told.expect("it asked").heard.name(), "nonsense");
+    assert_eq!(told.expect("it asked").response.name(), "nonsense");
 }
 
 #[test]

@@ -27,7 +27,7 @@ pub struct RobotFrame {
     /// What the vehicle's drives are set to.
     pub actuators: Actuation,
     /// What its other instruments reported since the previous frame.
-    pub heard: NewestReadings,
+    pub readings: NewestReadings,
     /// Newest chemical reading.
     pub chemical: Option<ChemicalReading>,
     /// Whether there was a detection since the previous frame.

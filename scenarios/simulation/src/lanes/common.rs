@@ -53,7 +53,7 @@ pub(super) struct LaneParts {
     progress: Progress,
 }
 
-/// Who is in a world.
+/// The machines of a world, by kind.
 #[derive(Default)]
 struct Rosters {
     robots: Option<Robots>,

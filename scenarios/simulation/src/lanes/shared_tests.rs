@@ -37,7 +37,7 @@ fn digest(shared: &mut Shared, place: usize, mut open: Vec<(usize, Question)>) -
     loop {
         for (place, question) in &open {
             let told = shared.answer(*place, "auv0", answer(question));
-            assert_eq!(told.expect("it asked").heard.name(), "answered");
+            assert_eq!(told.expect("it asked").response.name(), "answered");
         }
         open = shared.until_asked();
         if shared.standing(place) != Standing::Going {

@@ -102,7 +102,7 @@ impl LatchedTopics {
             of.add(topic, odometry.cdr());
             tf.push(transform(t_ns, MAP, child, pose));
         }
-        readings::add_readings(of, &r.heard);
+        readings::add_readings(of, &r.readings);
         if let Some(c) = r.chemical {
             of.add(&topics::CHEMICAL, float64(c.volts));
         }

@@ -125,7 +125,7 @@ pub(super) fn log((id, truth, estimate, readings, ..): &RobotEnd, clock: &Clock,
     (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));
     let ping = readings.sidescan.as_ref();
     (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, name, p, estimate)));
-    log.heard.hear(t_s, readings);
+    log.readings.hear(t_s, readings);
     if let Some(reading) = readings.chemical {
         log.chemical = Some(reading);
         log.detected |= reading.detected;

@@ -49,7 +49,7 @@ pub(crate) fn picture(
             command: Some(*command),
             keeps_height: briefing.able.dives && briefing.able.holds_depth,
             actuators: *set,
-            heard: std::mem::take(&mut log.heard),
+            readings: std::mem::take(&mut log.readings),
             chemical: log.chemical,
             detected: std::mem::take(&mut log.detected),
             behaviour: decision.behaviour,
