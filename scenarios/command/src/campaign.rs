@@ -22,14 +22,6 @@ use studies::campaign::{
 
 /// Runs one of its subcommands.
 pub(super) fn campaign(command: &CampaignCommand) -> Exit {
-    match command {
-        CampaignCommand::Plan(_) | CampaignCommand::Status(_) | CampaignCommand::Merge(_) => {
-            stop::begin();
-        }
-        CampaignCommand::Run(_) | CampaignCommand::Report(_) | CampaignCommand::Rerun(_) => {
-            stop::listen();
-        }
-    }
     let done = match command {
         CampaignCommand::Plan(args) => plan(args),
         CampaignCommand::Run(args) => run_share(args),

@@ -85,19 +85,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Exit {
-    // The others leave their work in order, and say so before a signal can come.
-    if !matches!(
-        command,
-        Command::Run(_)
-            | Command::Rerun(_)
-            | Command::Listen(_)
-            | Command::Campaign(_)
-            | Command::Reproduce(_)
-            | Command::Statistics(_)
-            | Command::ScoreVision(_)
-    ) {
-        stop::begin();
-    }
+    stop::begin();
     match command {
         Command::Run(args) => run::run(&args),
         Command::Rerun(args) => rerun::rerun(&args),

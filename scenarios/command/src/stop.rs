@@ -25,6 +25,5 @@ pub(super) fn begin() {
 /// From now on the first such signal sets this flag, and a second one ends the process.
 pub(super) fn listen() -> &'static AtomicBool {
     LISTENED.store(true, Ordering::Relaxed);
-    begin();
     &STOP
 }
