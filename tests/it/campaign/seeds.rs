@@ -6,6 +6,7 @@ use rheotaxis::scenario::set_value;
 use std::fs;
 use std::path::Path;
 use studies::campaign::RunRow;
+use world::seeds::key;
 
 fn with_seeds(dir: &Path, file: &str, seeds: &str) {
     let text = fs::read_to_string(dir.join("c.ron")).unwrap();
@@ -53,4 +54,26 @@ fn a_row_is_the_run_of_its_seed_digest_and_all() {
     assert!(page.contains("<td>slow</td><td>robots[0].strategy.speed_m_s=1.2</td>"));
     let manifest = fs::read_to_string(dir.join("other/campaign.json")).unwrap();
     assert!(manifest.contains("\"seeds\": \"seeds 101 to 102\""), "{manifest}");
+}
+
+#[test]
+fn hashed_seeds_are_others_under_each_condition() {
+    let folder = folder(2, "30", "1");
+    let dir = folder.path();
+    with_seeds(dir, "hashed.ron", "seeds: Hashed(seed: 7, count: 2)");
+    let (rows, said) = ran(dir, "hashed.ron", "hashed");
+    assert_eq!(said, "");
+    for row in &rows {
+        let condition = format!("condition {}", row.run / 4);
+        assert_eq!(row.seed, key(7, &condition, &format!("seed {}", row.seed_index)));
+    }
+    // A folder whose manifest lacks what only people read is gone on with.
+    let manifest = dir.join("hashed/campaign.json");
+    let mut json: serde_json::Value = serde_json::from_str(&fs::read_to_string(&manifest).unwrap()).unwrap();
+    for field in ["seeds", "sealed"] {
+        json.as_object_mut().unwrap().remove(field);
+    }
+    fs::write(&manifest, json.to_string()).unwrap();
+    ends(dir, 0, &["run", "hashed.ron", "--out", "hashed", "--quiet"]);
+    ends(dir, 0, &["status", "hashed"]);
 }
