@@ -27,6 +27,7 @@ use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::num::NonZeroU32;
 use world::catalogue::Entry;
@@ -37,32 +38,25 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "CloverleafParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: how often all leaves are flown.
+    #[default(NonZeroU32::new(2).expect("2 is not zero"))]
     pub repetitions: NonZeroU32,
     /// Leaves, 3 to 8.
+    #[default(NonZeroU32::new(4).expect("4 is not zero"))]
     pub leaves: NonZeroU32,
     /// Length of a leaf's sides, m.
+    #[default(Positive::new(16.0))]
     pub leaf_m: Positive,
     /// Turning radius of the vehicle, m. The leaves must have room for it.
+    #[default(Positive::new(15.0))]
     pub turn_radius_m: Positive,
     /// A leaf's corner counts as reached within this distance, m.
+    #[default(Positive::new(5.0))]
     pub arrive_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            repetitions: NonZeroU32::new(2).expect("2 is not zero"),
-            leaves: NonZeroU32::new(4).expect("4 is not zero"),
-            leaf_m: Positive::new(16.0),
-            turn_radius_m: Positive::new(15.0),
-            arrive_m: Positive::new(5.0),
-        }
-    }
 }
 
 impl Listed for Params {

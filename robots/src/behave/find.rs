@@ -24,6 +24,7 @@ use crate::places::{edges, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
 use world::catalogue::Entry;
@@ -46,22 +47,19 @@ pub enum From {
 }
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "ZigZagParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Where the search begins.
+    #[default(From::Here)]
     pub start: From,
     /// Angle off the cross-flow direction, °, less than 90.
+    #[default(NonNegative::new(20.0))]
     pub off_across_deg: NonNegative,
     /// An edge counts as reached at this distance, m.
+    #[default(Positive::new(20.0))]
     pub edge_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { start: From::Here, off_across_deg: NonNegative::new(20.0), edge_m: Positive::new(20.0) }
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,6 +23,7 @@ use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroU32;
 use world::catalogue::Entry;
@@ -33,32 +34,25 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "BowtieParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: bowties at a point.
+    #[default(NonZeroU32::new(2).expect("2 is not zero"))]
     pub repetitions: NonZeroU32,
     /// The centre of the first bowtie lies this far up-flow of the point, m.
+    #[default(NonNegative::new(10.0))]
     pub lead_m: NonNegative,
     /// Angle between a line and up-flow, °.
+    #[default(Positive::new(15.0))]
     pub angle_deg: Positive,
     /// Width explored on either side, across the flow, m.
+    #[default(Positive::new(13.0))]
     pub half_width_m: Positive,
     /// Least radius of the closing turns, m.
+    #[default(NonNegative::new(5.0))]
     pub turn_radius_m: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            repetitions: NonZeroU32::new(2).expect("2 is not zero"),
-            lead_m: NonNegative::new(10.0),
-            angle_deg: Positive::new(15.0),
-            half_width_m: Positive::new(13.0),
-            turn_radius_m: NonNegative::new(5.0),
-        }
-    }
 }
 
 impl Listed for Params {

@@ -17,6 +17,7 @@ use crate::handoff::{Lcdp, Manoeuvre, Observation, Side, detects};
 use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -24,20 +25,16 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "CounterTurnParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// The plume counts as lost after this time without a detection, s.
+    #[default(Positive::new(5.0))]
     pub lambda_s: Positive,
     /// Angle to up-flow, °, less than 90.
+    #[default(NonNegative::new(20.0))]
     pub beta_deg: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { lambda_s: Positive::new(5.0), beta_deg: NonNegative::new(20.0) }
-    }
 }
 
 impl Listed for Params {

@@ -24,6 +24,7 @@ use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
@@ -33,41 +34,37 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "UpAcrossParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// L_u: distance up-flow of the point, m.
+    #[default(NonNegative::new(18.0))]
     pub up_m: NonNegative,
     /// L_c: distance across the flow from the point, m.
+    #[default(NonNegative::new(18.0))]
     pub across_m: NonNegative,
     /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,
     /// How long it first waits where it is for the plume to come back, s; more than 0 needs a vehicle that hovers.
     #[serde(with = "world::limits::response_s")]
+    #[default(NonNegative::new(0.0))]
     pub wait_s: NonNegative,
 }
 
 /// Shrinking near the source.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Near {
     /// How many of the newest last detection points are considered, at least 2.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub points: NonZeroUsize,
     /// If the points extend at least this far along the flow, nothing shrinks, m.
+    #[default(Positive::new(36.0))]
     pub far_m: Positive,
     /// Least share of L_u and L_c.
+    #[default(Fraction::new(0.6))]
     pub least: Fraction,
-}
-
-impl Default for Near {
-    fn default() -> Self {
-        Self {
-            points: NonZeroUsize::new(3).expect("3 is not zero"),
-            far_m: Positive::new(36.0),
-            least: Fraction::new(0.6),
-        }
-    }
 }
 
 impl Near {
@@ -79,17 +76,6 @@ impl Near {
         let along = points[first..].iter().map(|p| p.in_flow(up_flow).x);
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         ((high - low) / self.far_m.get()).clamp(self.least.get(), 1.0)
-    }
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            up_m: NonNegative::new(18.0),
-            across_m: NonNegative::new(18.0),
-            near: None,
-            wait_s: NonNegative::new(0.0),
-        }
     }
 }
 

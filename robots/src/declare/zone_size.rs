@@ -17,6 +17,7 @@ use crate::error::RobotError;
 use crate::handoff::Lcdp;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::math;
 use world::ranges::{Fraction, Positive};
@@ -36,28 +37,21 @@ pub enum ZoneSize {
 }
 
 /// Parameters of a size that follows the scatter of the points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSize {
     /// Share of the points scattered around the source that the zone is to hold, 0 < coverage < 1.
+    #[default(Fraction::new(0.95))]
     pub coverage: Fraction,
     /// Number of newest points from which the scatter is estimated.
+    #[default(NonZeroUsize::new(12).expect("12 is not zero"))]
     pub look_back: NonZeroUsize,
     /// Least radius, m.
+    #[default(Positive::new(2.0))]
     pub least_m: Positive,
     /// Greatest radius, m.
+    #[default(Positive::new(15.0))]
     pub most_m: Positive,
-}
-
-impl Default for AdaptiveSize {
-    fn default() -> Self {
-        Self {
-            coverage: Fraction::new(0.95),
-            look_back: NonZeroUsize::new(12).expect("12 is not zero"),
-            least_m: Positive::new(2.0),
-            most_m: Positive::new(15.0),
-        }
-    }
 }
 
 impl AdaptiveSize {

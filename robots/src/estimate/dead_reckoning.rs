@@ -18,26 +18,23 @@ use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::clock::Clock;
 use world::math;
 use world::ranges::{Fraction, NonNegative};
 
 /// Parameters of dead reckoning.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeadReckoningSpec {
     /// Share of the distance to a fix by which the position jumps.
+    #[default(Fraction::new(1.0))]
     pub fix_gain: Fraction,
     /// Time constant of the flow's low-pass filter, s.
+    #[default(NonNegative::new(10.0))]
     pub flow_filter_s: NonNegative,
     /// Take the flow only from the vehicle's own water layer, which a CTD tells.
     pub layer_aware: Option<LayerAwareSpec>,
-}
-
-impl Default for DeadReckoningSpec {
-    fn default() -> Self {
-        Self { fix_gain: Fraction::new(1.0), flow_filter_s: NonNegative::new(10.0), layer_aware: None }
-    }
 }
 
 /// State of dead reckoning.

@@ -6,20 +6,16 @@ use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::clock::Clock;
 use world::units::Heading;
 
 /// Which estimator, with its parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum EstimatorSpec {
     /// Compass, Doppler log and long-baseline jumps.
+    #[default]
     DeadReckoning(DeadReckoningSpec),
-}
-
-impl Default for EstimatorSpec {
-    fn default() -> Self {
-        Self::DeadReckoning(DeadReckoningSpec::default())
-    }
 }
 
 impl EstimatorSpec {

@@ -17,6 +17,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::BTreeMap;
 use world::math;
 use world::ranges::Positive;
@@ -26,21 +27,18 @@ use world::ranges::Positive;
 const SMOOTH_S: f64 = 1.0;
 
 /// Parameters of the layer test.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerAwareSpec {
     /// Two densities farther apart than this belong to different layers, kg/m³.
+    #[default(Positive::new(0.5))]
     pub differs_kg_m3: Positive,
     /// Height of a bin of the profile, m.
+    #[default(Positive::new(0.25))]
     pub bin_m: Positive,
     /// A bin not visited for this long is forgotten, s.
+    #[default(Positive::new(3600.0))]
     pub memory_s: Positive,
-}
-
-impl Default for LayerAwareSpec {
-    fn default() -> Self {
-        Self { differs_kg_m3: Positive::new(0.5), bin_m: Positive::new(0.25), memory_s: Positive::new(3600.0) }
-    }
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -22,6 +22,7 @@ use super::terms::LEAST;
 use crate::error::RobotError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
@@ -41,47 +42,38 @@ pub enum Repeats {
 }
 
 /// How far the map doubts its model of the plume.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DoubtSpec {
     /// Chance ν that dye is missed where the model is sure of it: gaps in the plume, or a plume beside its modelled
     /// place.
+    #[default(Fraction::new(0.0))]
     pub missed: Fraction,
     /// Correlation time τ, s: readings within this time count once. 0: each update is independent of the one before.
+    #[default(NonNegative::new(0.0))]
     pub correlation_s: NonNegative,
     /// How readings within τ count.
+    #[default(Repeats::Tempered)]
     pub repeats: Repeats,
     /// Standard deviation of a position fix in each horizontal axis, m, as its instrument states it: an error that all
     /// readings until the next fix share. 0: the believed position is true.
+    #[default(NonNegative::new(0.0))]
     pub fix_m: NonNegative,
     /// Standard deviation of the rate at which the believed position drifts away between two fixes, in each horizontal
     /// axis, m/s. The mission begins where the vehicle believes it does.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.0))]
     pub drift_m_s: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the whole way behind the vehicle from the measured
     /// one, m/s: an error that all releases share. 0: the measured flow is true.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.0))]
     pub flow_m_s: NonNegative,
     /// Possible strengths of the source: releases in each release period, all equally likely before the mission. None
     /// given: one, as in the papers. At most 9, each from 0.01 to 100.
     pub strengths: Vec<Positive>,
     /// Time for which that error lasts, s: what is known of it is forgotten at this rate. Not given: for the mission.
     pub flow_lasts_s: Option<Positive>,
-}
-
-impl Default for DoubtSpec {
-    fn default() -> Self {
-        Self {
-            missed: Fraction::new(0.0),
-            correlation_s: NonNegative::new(0.0),
-            repeats: Repeats::Tempered,
-            fix_m: NonNegative::new(0.0),
-            drift_m_s: NonNegative::new(0.0),
-            flow_m_s: NonNegative::new(0.0),
-            strengths: Vec::new(),
-            flow_lasts_s: None,
-        }
-    }
 }
 
 /// The same, ready for updates.

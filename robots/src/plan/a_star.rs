@@ -21,6 +21,7 @@ use crate::error::RobotError;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -37,33 +38,26 @@ pub enum Cost {
 }
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "AStarParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Which costs.
+    #[default(Cost::Metric)]
     pub cost: Cost,
     /// Turning radius for which the path is smoothed, m; the vehicle's own if that is greater.
     #[serde(with = "world::limits::turn_m")]
+    #[default(Positive::new(12.0))]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
+    #[default(NonNegative::new(2.0))]
     pub clearance_weight: NonNegative,
     /// Clearance beyond the hull's own at which nothing is added any more, m.
+    #[default(NonNegative::new(4.0))]
     pub clearance_m: NonNegative,
     /// Cost of a metre up or down, in horizontal metres; from 1 to 20.
+    #[default(Positive::new(3.0))]
     pub climb: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            cost: Cost::Metric,
-            turn_radius_m: Positive::new(12.0),
-            clearance_weight: NonNegative::new(2.0),
-            clearance_m: NonNegative::new(4.0),
-            climb: Positive::new(3.0),
-        }
-    }
 }
 
 impl Listed for Params {

@@ -20,6 +20,7 @@ use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::cost::{Cost, Part};
 use world::limits::shown;
@@ -39,32 +40,25 @@ const STEPS: f64 = 8.0;
 const STEP_S: f64 = 300e-9;
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "PotentialFieldParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Slope of the attraction.
+    #[default(Positive::new(1.0))]
     pub pull: Positive,
     /// Within this distance of the goal the attraction is a bowl, m.
+    #[default(Positive::new(5.0))]
     pub near_m: Positive,
     /// Strength of the repulsion, η.
+    #[default(Positive::new(20.0))]
     pub push: Positive,
     /// Reach of the repulsion, ρ₀, m.
+    #[default(Positive::new(10.0))]
     pub push_m: Positive,
     /// Step of the descent, m.
+    #[default(Positive::new(0.5))]
     pub step_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            pull: Positive::new(1.0),
-            near_m: Positive::new(5.0),
-            push: Positive::new(20.0),
-            push_m: Positive::new(10.0),
-            step_m: Positive::new(0.5),
-        }
-    }
 }
 
 impl Params {

@@ -21,6 +21,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -41,35 +42,28 @@ pub enum Look {
 }
 
 /// Parameters of the current profiler.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AdcpSpec {
     /// Direction in which it looks.
+    #[default(Look::Up)]
     pub look: Look,
     /// Readings per second, Hz.
+    #[default(Positive::new(1.0))]
     pub rate_hz: Positive,
     /// Range without measurement, m.
+    #[default(NonNegative::new(0.75))]
     pub dead_zone_m: NonNegative,
     /// Length of the cell beyond it, m.
+    #[default(Positive::new(0.5))]
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.02))]
     pub noise_m_s: NonNegative,
     /// Angle between the beams and the axis, degrees, below 60.
+    #[default(Finite::new(20.0))]
     pub beam_angle_deg: Finite,
-}
-
-impl Default for AdcpSpec {
-    fn default() -> Self {
-        Self {
-            look: Look::Up,
-            rate_hz: Positive::new(1.0),
-            dead_zone_m: NonNegative::new(0.75),
-            cell_m: Positive::new(0.5),
-            noise_m_s: NonNegative::new(0.02),
-            beam_angle_deg: Finite::new(20.0),
-        }
-    }
 }
 
 impl Listed for AdcpSpec {

@@ -17,6 +17,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -25,30 +26,23 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the altimeter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AltimeterSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(5.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.02))]
     pub noise_m: NonNegative,
     /// Least range, m.
+    #[default(NonNegative::new(0.3))]
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(30.0))]
     pub max_range_m: Positive,
-}
-
-impl Default for AltimeterSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(5.0),
-            noise_m: NonNegative::new(0.02),
-            min_range_m: NonNegative::new(0.3),
-            max_range_m: Positive::new(30.0),
-        }
-    }
 }
 
 impl Listed for AltimeterSpec {

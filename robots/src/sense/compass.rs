@@ -15,6 +15,7 @@ use crate::handoff::AttitudeReading;
 use crate::handoff::Readings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -23,31 +24,24 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the compass.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CompassSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(25.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the heading noise, degrees.
+    #[default(NonNegative::new(0.3))]
     pub noise_deg: NonNegative,
     /// Standard deviation of the heading bias, drawn once per run, degrees.
+    #[default(NonNegative::new(1.0))]
     pub bias_deg: NonNegative,
     /// Standard deviation of the noise of roll and pitch, degrees.
+    #[default(NonNegative::new(0.2))]
     pub tilt_noise_deg: NonNegative,
     /// Standard deviation of the noise of each rate, degrees/s.
+    #[default(NonNegative::new(0.1))]
     pub gyro_noise_deg_s: NonNegative,
-}
-
-impl Default for CompassSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(25.0),
-            noise_deg: NonNegative::new(0.3),
-            bias_deg: NonNegative::new(1.0),
-            tilt_noise_deg: NonNegative::new(0.2),
-            gyro_noise_deg_s: NonNegative::new(0.1),
-        }
-    }
 }
 
 impl Listed for CompassSpec {

@@ -19,6 +19,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -29,21 +30,18 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the CTD.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CtdSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Time constant of its response, s.
+    #[default(NonNegative::new(0.1))]
     pub response_s: NonNegative,
     /// Standard deviation of the noise, kg/m³.
+    #[default(NonNegative::new(0.01))]
     pub noise_kg_m3: NonNegative,
-}
-
-impl Default for CtdSpec {
-    fn default() -> Self {
-        Self { rate_hz: Positive::new(10.0), response_s: NonNegative::new(0.1), noise_kg_m3: NonNegative::new(0.01) }
-    }
 }
 
 impl Listed for CtdSpec {

@@ -14,6 +14,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -23,20 +24,16 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the depth sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DepthSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(25.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.01))]
     pub noise_m: NonNegative,
-}
-
-impl Default for DepthSpec {
-    fn default() -> Self {
-        Self { rate_hz: Positive::new(25.0), noise_m: NonNegative::new(0.01) }
-    }
 }
 
 impl Listed for DepthSpec {

@@ -21,6 +21,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -29,33 +30,26 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the Doppler log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DvlSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(5.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.004))]
     pub noise_m_s: NonNegative,
     /// Standard deviation of the relative scale error, drawn once per run.
+    #[default(NonNegative::new(0.002))]
     pub scale_error: NonNegative,
     /// Least range to the bed for bottom lock, m.
+    #[default(NonNegative::new(0.5))]
     pub min_altitude_m: NonNegative,
     /// Greatest range to the bed for bottom lock, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(30.0))]
     pub max_altitude_m: Positive,
-}
-
-impl Default for DvlSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(5.0),
-            noise_m_s: NonNegative::new(0.004),
-            scale_error: NonNegative::new(0.002),
-            min_altitude_m: NonNegative::new(0.5),
-            max_altitude_m: Positive::new(30.0),
-        }
-    }
 }
 
 impl Listed for DvlSpec {

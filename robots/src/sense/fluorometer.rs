@@ -19,6 +19,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
@@ -30,37 +31,30 @@ use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
 /// Parameters of the fluorometer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FluorometerSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Concentration at full scale, µg/L.
+    #[default(Positive::new(10.0))]
     pub full_scale_ug_l: Positive,
     /// Output at full scale, V.
+    #[default(Positive::new(5.0))]
     pub full_scale_v: Positive,
     /// Detection threshold, as a share of full scale.
+    #[default(Fraction::new(0.04))]
     pub threshold: Fraction,
     /// Time constant of the first-order response, s.
+    #[default(NonNegative::new(0.2))]
     pub response_s: NonNegative,
     /// Standard deviation of the output noise, V.
+    #[default(NonNegative::new(0.02))]
     pub noise_v: NonNegative,
     /// Bits of the converter.
+    #[default(12)]
     pub adc_bits: u8,
-}
-
-impl Default for FluorometerSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(10.0),
-            full_scale_ug_l: Positive::new(10.0),
-            full_scale_v: Positive::new(5.0),
-            threshold: Fraction::new(0.04),
-            response_s: NonNegative::new(0.2),
-            noise_v: NonNegative::new(0.02),
-            adc_bits: 12,
-        }
-    }
 }
 
 impl Listed for FluorometerSpec {

@@ -17,6 +17,7 @@ use crate::handoff::Readings;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -25,22 +26,19 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the long baseline.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LblSpec {
     /// Time between two fixes, s.
+    #[default(Positive::new(30.0))]
     pub period_s: Positive,
     /// Standard deviation of east and of north, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(5.0))]
     pub noise_m: NonNegative,
     /// Share of fixes that fail.
+    #[default(Fraction::new(0.3))]
     pub dropout: Fraction,
-}
-
-impl Default for LblSpec {
-    fn default() -> Self {
-        Self { period_s: Positive::new(30.0), noise_m: NonNegative::new(5.0), dropout: Fraction::new(0.3) }
-    }
 }
 
 impl Listed for LblSpec {

@@ -20,6 +20,7 @@ use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
 use world::math;
@@ -27,34 +28,27 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// Parameters of the probes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProbesSpec {
     /// Scans per second, Hz.
+    #[default(Positive::new(20.0))]
     pub rate_hz: Positive,
     /// Output in clean water and at full scale, V.
+    #[default([Finite::new(-5.0), Finite::new(5.0)])]
     pub range_v: [Finite; 2],
     /// Concentration at the top of the range, kg/m³.
+    #[default(Positive::new(4.7))]
     pub full_scale_kg_m3: Positive,
     /// Standard deviation of the output noise, V.
+    #[default(NonNegative::new(0.004))]
     pub noise_v: NonNegative,
     /// Bits of the converter over the range.
+    #[default(12)]
     pub adc_bits: u8,
     /// Time constant of the first-order response, s.
+    #[default(NonNegative::new(0.0))]
     pub response_s: NonNegative,
-}
-
-impl Default for ProbesSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(20.0),
-            range_v: [Finite::new(-5.0), Finite::new(5.0)],
-            full_scale_kg_m3: Positive::new(4.7),
-            noise_v: NonNegative::new(0.004),
-            adc_bits: 12,
-            response_s: NonNegative::new(0.0),
-        }
-    }
 }
 
 /// The probes of a head, scanned together.

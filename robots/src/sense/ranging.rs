@@ -19,6 +19,7 @@ use crate::handoff::{Beam, RangeScan};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::cost::{Cost, Part, Times};
@@ -39,45 +40,38 @@ const BED_STEP: (f64, u32) = (0.5, 20);
 const BEAM_S: [f64; 3] = [0.5e-6, 0.15e-6, 30e-9];
 
 /// Parameters of the ranging.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RangingSpec {
     /// Pings per second, Hz.
+    #[default(Positive::new(2.0))]
     pub rate_hz: Positive,
     /// Beams side by side.
+    #[default(41)]
     pub beams: u32,
     /// Angle from the outermost beam on the left to the outermost on the right, °, at most 360.
+    #[default(NonNegative::new(120.0))]
     pub width_deg: NonNegative,
     /// Rows of beams, one above the other.
+    #[default(1)]
     pub rows: u32,
     /// Angle from the lowest row to the highest, °, at most 180.
+    #[default(NonNegative::new(20.0))]
     pub height_deg: NonNegative,
     /// Least range, m.
+    #[default(NonNegative::new(0.5))]
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(40.0))]
     pub max_range_m: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.1))]
     pub noise_m: NonNegative,
     /// Share of the beams that drop out.
+    #[default(Fraction::new(0.02))]
     pub dropout: Fraction,
-}
-
-impl Default for RangingSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(2.0),
-            beams: 41,
-            width_deg: NonNegative::new(120.0),
-            rows: 1,
-            height_deg: NonNegative::new(20.0),
-            min_range_m: NonNegative::new(0.5),
-            max_range_m: Positive::new(40.0),
-            noise_m: NonNegative::new(0.1),
-            dropout: Fraction::new(0.02),
-        }
-    }
 }
 
 impl Listed for RangingSpec {

@@ -30,6 +30,7 @@ use crate::handoff::SidescanPing;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::LN_10;
 use std::sync::Arc;
 use world::catalogue::Entry;
@@ -54,49 +55,41 @@ const SAMPLE_S: [f64; 2] = [0.2e-6, 0.1e-6];
 const PASSES_BYTES: f64 = 5e6;
 
 /// Parameters of the sidescan sonar.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SidescanSpec {
     /// Pings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Greatest slant range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(20.0))]
     pub range_m: Positive,
     /// Samples on a side, nearest to farthest.
+    #[default(400)]
     pub samples: u32,
     /// Width of the beam along the track, °.
+    #[default(Positive::new(0.6))]
     pub beam_deg: Positive,
     /// Width of the beam in the vertical, to half of the one-way power, °.
+    #[default(Positive::new(50.0))]
     pub aperture_deg: Positive,
     /// Angle of the beam's axis below the horizontal, °.
+    #[default(NonNegative::new(20.0))]
     pub tilt_deg: NonNegative,
     /// Backscatter strength of a square metre of bed at a grazing angle of 90°, dB.
     #[serde(with = "world::limits::level_db")]
+    #[default(Finite::new(-27.0))]
     pub bed_db: Finite,
     /// Backscatter strength whose echo from the greatest range equals the noise, dB.
     #[serde(with = "world::limits::level_db")]
+    #[default(Finite::new(-60.0))]
     pub floor_db: Finite,
     /// Absorption, dB/m.
+    #[default(NonNegative::new(0.17))]
     pub absorption_db_m: NonNegative,
     /// Whether it pings all the time, not only while the vehicle surveys.
     pub always: bool,
-}
-
-impl Default for SidescanSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(10.0),
-            range_m: Positive::new(20.0),
-            samples: 400,
-            beam_deg: Positive::new(0.6),
-            aperture_deg: Positive::new(50.0),
-            tilt_deg: NonNegative::new(20.0),
-            bed_db: Finite::new(-27.0),
-            floor_db: Finite::new(-60.0),
-            absorption_db_m: NonNegative::new(0.17),
-            always: false,
-        }
-    }
 }
 
 impl Listed for SidescanSpec {

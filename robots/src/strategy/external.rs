@@ -20,28 +20,26 @@ use crate::handoff::{
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::Positive;
 use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the strategy.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExternalSpec {
     /// Simulated time between two questions, s; at least one step.
+    #[default(Positive::new(1.0))]
     pub period_s: Positive,
     /// How long the run waits for an answer, s of real time.
     #[serde(with = "world::limits::answer_s")]
+    #[default(Positive::new(1.0))]
     pub deadline_s: Positive,
     /// What the robot does without an answer.
+    #[default(OnLate::Hold)]
     pub on_late: OnLate,
-}
-
-impl Default for ExternalSpec {
-    fn default() -> Self {
-        Self { period_s: Positive::new(1.0), deadline_s: Positive::new(1.0), on_late: OnLate::Hold }
-    }
 }
 
 /// What a robot does when an answer is late, absent or of no use.

@@ -14,14 +14,16 @@ use crate::handoff::GantryLayout;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::{Fraction, Positive};
 
 /// The tracker's units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabSpec {
     /// Step (along the stream, across it), m.
+    #[default([Positive::new(0.1), Positive::new(0.05)])]
     pub step_m: [Positive; 2],
     /// The full sweep.
     pub sweep: SweepSpec,
@@ -40,10 +42,12 @@ pub struct CrabSpec {
     /// Decision unit, stopping.
     pub stop: StopSpec,
     /// Blocked motions in a row before it gives up.
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub blocked_limit: NonZeroUsize,
     /// Travel up-stream from where the head starts that the tracker uses, m; without it, all of the machine's.
     pub travel_m: Option<Positive>,
     /// What the up-stream end of the travel means.
+    #[default(AtEnd::Fails)]
     pub at_end: AtEnd,
 }
 
@@ -54,25 +58,6 @@ pub enum AtEnd {
     Fails,
     /// The head stops there, as it does where the rule of stopping says so.
     Stops,
-}
-
-impl Default for CrabSpec {
-    fn default() -> Self {
-        Self {
-            step_m: [Positive::new(0.1), Positive::new(0.05)],
-            sweep: SweepSpec::default(),
-            threshold: ThresholdSpec::default(),
-            predictor: PredictorSpec::default(),
-            history: HistorySpec::default(),
-            advance: AdvanceSpec::default(),
-            contrast: ContrastSpec::default(),
-            speed: PaceSpec::default(),
-            stop: StopSpec::default(),
-            blocked_limit: NonZeroUsize::new(6).expect("6 is not zero"),
-            travel_m: None,
-            at_end: AtEnd::Fails,
-        }
-    }
 }
 
 impl CrabSpec {

@@ -19,6 +19,7 @@ use super::data::{Spike, StepRecord, Tally};
 use crate::handoff::MAX_PROBES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// Where a step's average begins.
@@ -40,21 +41,18 @@ pub enum Over {
 }
 
 /// Parameters of the unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HistorySpec {
     /// Weight of a centre probe's spike; a steering probe's is 1.
+    #[default(Positive::new(2.0))]
     pub centre_weight: Positive,
     /// Where a step's average begins.
+    #[default(Since::Decision)]
     pub since: Since,
     /// Over what it is taken.
+    #[default(Over::Time)]
     pub over: Over,
-}
-
-impl Default for HistorySpec {
-    fn default() -> Self {
-        Self { centre_weight: Positive::new(2.0), since: Since::Decision, over: Over::Time }
-    }
 }
 
 /// The unit.

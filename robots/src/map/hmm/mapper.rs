@@ -29,6 +29,7 @@ use crate::map::watch::MapObservation;
 use crate::map::workings::Workings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use world::area::Area;
@@ -43,7 +44,7 @@ use world::seeds::Stream;
 const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmmSpec {
     /// The cells.
@@ -51,8 +52,10 @@ pub struct HmmSpec {
     /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Step of the chain, s.
+    #[default(Positive::new(1.0))]
     pub step_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
+    #[default(Fraction::new(1e-6))]
     pub false_detection: Fraction,
     /// How far the map doubts its model.
     pub doubt: DoubtSpec,
@@ -60,24 +63,10 @@ pub struct HmmSpec {
     /// likely meets it; not given: never.
     pub odour_every_s: Option<Positive>,
     /// Number of steps from cell to cell in that path; at most 500.
+    #[default(30)]
     pub walk_steps: u32,
     /// In a map of space, keep for each level the flow last measured there.
     pub sheared: bool,
-}
-
-impl Default for HmmSpec {
-    fn default() -> Self {
-        Self {
-            grid: GridSpec::default(),
-            trajectory: TrajectorySpec::default(),
-            step_s: Positive::new(1.0),
-            false_detection: Fraction::new(1e-6),
-            doubt: DoubtSpec::default(),
-            odour_every_s: None,
-            walk_steps: 30,
-            sheared: false,
-        }
-    }
 }
 
 /// The parameter (name and value) that spreads odour too far along an axis, and its greatest legal value for cells of

@@ -11,18 +11,21 @@ use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::{Finite, Positive};
 use world::registry::Listed;
 
 /// Composition and parameters; every default is the paper's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AmpSpec {
     /// Speed over ground, m/s (section 6: 2).
+    #[default(Positive::new(2.0))]
     pub speed_m_s: Positive,
     /// Altitude or depth (section 6: 2 m above the bed in the single-source mission).
+    #[default(VerticalSpec::Altitude(Positive::new(2.0)))]
     pub vertical: VerticalSpec,
     /// Destination before the search; without it the search begins at once.
     pub start_at: Option<StartAt>,
@@ -37,34 +40,17 @@ pub struct AmpSpec {
     /// The declaration rule.
     pub declare: DeclareSpec,
     /// Length of the lost-points list (section 5.3: 6).
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub lost_points: NonZeroUsize,
     /// Most last detection points for the SIZ rules; a full queue forgets the oldest (Tian et al. 2013 keep all:
     /// 1000).
+    #[default(LCDPS)]
     pub lcdps: NonZeroUsize,
     /// What happens to lost points and last detection points when a navigation fix moves the vehicle (default: they
     /// stay).
     pub fixes: FixMove,
     /// What follows the declaration.
     pub after_declaration: AfterDeclaration,
-}
-
-impl Default for AmpSpec {
-    fn default() -> Self {
-        Self {
-            speed_m_s: Positive::new(2.0),
-            vertical: VerticalSpec::Altitude(Positive::new(2.0)),
-            start_at: None,
-            find: FindSpec::default(),
-            track_in: TrackInSpec::default(),
-            track_out: TrackOutSpec::default(),
-            reacquire: ReacquireSpec::default(),
-            declare: DeclareSpec::default(),
-            lost_points: NonZeroUsize::new(6).expect("6 is not zero"),
-            lcdps: LCDPS,
-            fixes: FixMove::default(),
-            after_declaration: AfterDeclaration::default(),
-        }
-    }
 }
 
 impl Listed for AmpSpec {

@@ -14,24 +14,21 @@ use crate::memory::PlumeMemory;
 use crate::vision::{Verifier, VerifierSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// Parameters of looking at last detection points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EyesSpec {
     /// The camera takes a picture within this distance of the newest LCDP, m.
+    #[default(Positive::new(8.0))]
     pub within_m: Positive,
     /// Time between two pictures, s.
+    #[default(Positive::new(1.0))]
     pub period_s: Positive,
     /// The test that a picture must pass.
     pub verifier: VerifierSpec,
-}
-
-impl Default for EyesSpec {
-    fn default() -> Self {
-        Self { within_m: Positive::new(8.0), period_s: Positive::new(1.0), verifier: VerifierSpec::default() }
-    }
 }
 
 /// State of looking at last detection points.

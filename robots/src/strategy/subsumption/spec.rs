@@ -13,6 +13,7 @@ use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -155,19 +156,14 @@ pub enum LayerSpec {
 }
 
 /// Maintain-Plume.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaintainSpec {
     /// In the plume.
     pub track_in: TrackInSpec,
     /// After λ s without a detection (Pang 2009); `None`: Track-Out is the rest of λ, as in Tian et al. 2013.
+    #[default(Some(TrackOutSpec::default()))]
     pub track_out: Option<TrackOutSpec>,
-}
-
-impl Default for MaintainSpec {
-    fn default() -> Self {
-        Self { track_in: TrackInSpec::default(), track_out: Some(TrackOutSpec::default()) }
-    }
 }
 
 /// Go-Home; it has no parameters.
