@@ -18,7 +18,7 @@
 //! been free for `give_up_s`; otherwise turning away and the destination could take turns for ever. Echoes within 1 m
 //! of the charted bed count as the bed. A navigation fix moves the remembered echoes with the vehicle.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -92,12 +92,7 @@ impl SoftAvoid {
     /// [`RobotError::Invalid`] if the distances contradict each other.
     pub fn new(params: &Params, bed: Terrain) -> Result<Self, RobotError> {
         let (near, heed) = (params.near_m.get(), params.heed_m.get());
-        if near >= heed {
-            return Err(RobotError::Invalid {
-                field: "avoid.near_m".into(),
-                problem: format!("must be less than heed_m, {heed}, got {near}"),
-            });
-        }
+        require(near < heed, "avoid.near_m", format!("must be less than heed_m, {heed}, got {near}"))?;
         Ok(Self { params: params.clone(), bed, echoes: VecDeque::new(), side: None, turning: None })
     }
 

@@ -93,10 +93,8 @@ impl Cloverleaf {
     /// # Errors
     /// [`RobotError::Invalid`] if there are too few or too many leaves, or if they are too short to be flown.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("reacquire.Cloverleaf.{field}"),
-            problem,
-        };
+        let invalid =
+            |field: &str, problem: String| RobotError::invalid(format!("reacquire.Cloverleaf.{field}"), problem);
         let leaves = params.leaves.get();
         if !(3..=8).contains(&leaves) {
             return Err(invalid("leaves", format!("must be 3 to 8, got {leaves}")));

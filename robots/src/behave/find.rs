@@ -17,7 +17,7 @@
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use crate::places::{edges, inside};
@@ -104,12 +104,11 @@ impl ZigZag {
     /// # Errors
     /// [`RobotError::Invalid`] if the angle does not lead across the flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.off_across_deg.get() >= 90.0 {
-            return Err(RobotError::Invalid {
-                field: "find.ZigZag.off_across_deg".into(),
-                problem: format!("must be < 90, got {}", params.off_across_deg.get()),
-            });
-        }
+        require(
+            params.off_across_deg.get() < 90.0,
+            "find.ZigZag.off_across_deg",
+            format!("must be < 90, got {}", params.off_across_deg.get()),
+        )?;
         Ok(Self {
             start: params.start,
             off_rad: params.off_across_deg.get().to_radians(),

@@ -60,7 +60,7 @@ impl TimeTable {
     /// # Errors
     /// [`RobotError::Invalid`] if the times of the rows do not grow or reach past the end.
     pub fn new(params: &TimeTableParams) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid { field: "strategy.OpenLoop.table".into(), problem };
+        let invalid = |problem: String| RobotError::invalid("strategy.OpenLoop.table", problem);
         if params.table.is_empty() {
             return Err(invalid("is empty; give at least one row".into()));
         }

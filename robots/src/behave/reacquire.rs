@@ -86,8 +86,7 @@ impl Bowtie {
     /// # Errors
     /// [`RobotError::Invalid`] if the lines have no length left, or if the angle does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("reacquire.Bowtie.{field}"), problem };
+        let invalid = |field: &str, problem: String| RobotError::invalid(format!("reacquire.Bowtie.{field}"), problem);
         let angle = params.angle_deg.get();
         if angle >= 90.0 {
             return Err(invalid("angle_deg", format!("must be < 90, got {angle}")));

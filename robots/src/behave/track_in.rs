@@ -12,7 +12,7 @@
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation, Side, detects};
 use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
@@ -64,12 +64,11 @@ impl CounterTurn {
     /// # Errors
     /// [`RobotError::Invalid`] if β does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.beta_deg.get() >= 90.0 {
-            return Err(RobotError::Invalid {
-                field: "track_in.CounterTurn.beta_deg".into(),
-                problem: format!("must be < 90, got {}", params.beta_deg.get()),
-            });
-        }
+        require(
+            params.beta_deg.get() < 90.0,
+            "track_in.CounterTurn.beta_deg",
+            format!("must be < 90, got {}", params.beta_deg.get()),
+        )?;
         Ok(Self {
             lambda_s: params.lambda_s.get(),
             beta_rad: params.beta_deg.get().to_radians(),

@@ -18,7 +18,7 @@
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
@@ -112,12 +112,11 @@ impl UpAcross {
     /// # Errors
     /// [`RobotError::Invalid`] if the extent of a single point is asked for.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.near.as_ref().is_some_and(|n| n.points.get() < 2) {
-            return Err(RobotError::Invalid {
-                field: "track_out.UpAcross.near.points".into(),
-                problem: "must be at least 2, got 1".into(),
-            });
-        }
+        require(
+            !params.near.as_ref().is_some_and(|n| n.points.get() < 2),
+            "track_out.UpAcross.near.points",
+            "must be at least 2, got 1",
+        )?;
         Ok(Self {
             up_m: params.up_m.get(),
             across_m: params.across_m.get(),

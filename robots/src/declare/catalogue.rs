@@ -4,7 +4,7 @@ use super::along_flow::AlongFlow;
 use super::siz_f::SizF;
 use super::siz_t::SizT;
 use super::{credible_area, sure, unchanged};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Belief, Declaration, Evidence, Lcdp, Zone};
 use crate::memory::PlumeMemory;
 use nalgebra::{Vector2, Vector3};
@@ -76,12 +76,11 @@ pub trait DeclareParams: Spec {
             Points::Lcdps => (lcdps, "lcdps"),
         };
         let points = self.needs();
-        if points > most {
-            return Err(RobotError::Invalid {
-                field: format!("declare.{}.points", self.entry().name),
-                problem: format!("must be at most {list}, {most}, got {points}: it would never declare"),
-            });
-        }
+        require(
+            points <= most,
+            format!("declare.{}.points", self.entry().name),
+            format!("must be at most {list}, {most}, got {points}: it would never declare"),
+        )?;
         self.check_own()
     }
 }

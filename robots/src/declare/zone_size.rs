@@ -90,9 +90,8 @@ impl ZoneSize {
         let Self::Adaptive(a) = self else {
             return Ok(());
         };
-        let invalid = |name: &str, problem: String| {
-            Err(RobotError::Invalid { field: format!("{field}.Adaptive.{name}"), problem })
-        };
+        let invalid =
+            |name: &str, problem: String| Err(RobotError::invalid(format!("{field}.Adaptive.{name}"), problem));
         let coverage = a.coverage.get();
         if coverage <= 0.0 || coverage >= 1.0 {
             return invalid(

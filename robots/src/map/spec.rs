@@ -209,5 +209,5 @@ impl TrajectorySpec {
 
 /// A setup error of a mapper.
 pub(super) fn invalid(field: &str, problem: &str) -> RobotError {
-    RobotError::Invalid { field: format!("map.{field}"), problem: problem.to_string() }
+    RobotError::invalid(format!("map.{field}"), problem)
 }

@@ -97,9 +97,11 @@ impl AStar {
     /// # Errors
     /// [`RobotError::Invalid`] if a weight is beyond what the costs can hold.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let wrong = |field: &str, says: &str, got: f64| RobotError::Invalid {
-            field: format!("strategy.MapAndPlan.planner.AStar.{field}"),
-            problem: format!("must be {says}, got {got}"),
+        let wrong = |field: &str, says: &str, got: f64| {
+            RobotError::invalid(
+                format!("strategy.MapAndPlan.planner.AStar.{field}"),
+                format!("must be {says}, got {got}"),
+            )
         };
         let (weight, climb) = (params.clearance_weight.get(), params.climb.get());
         if weight > 3.9 {

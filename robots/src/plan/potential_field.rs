@@ -15,7 +15,7 @@
 
 use super::catalogue::PlannerParams;
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -75,14 +75,14 @@ impl Params {
         if step >= least {
             return Ok(());
         }
-        Err(RobotError::Invalid {
-            field: "strategy.MapAndPlan.planner.PotentialField.step_m".into(),
-            problem: format!(
+        Err(RobotError::invalid(
+            "strategy.MapAndPlan.planner.PotentialField.step_m",
+            format!(
                 "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
                 shown(least),
                 shown(step)
             ),
-        })
+        ))
     }
 }
 
@@ -128,12 +128,11 @@ impl PotentialField {
     /// [`RobotError::Invalid`] if a step is longer than the distances that it has to resolve.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let (step, reach) = (params.step_m.get(), params.push_m.get());
-        if step > reach / 2.0 {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.planner.PotentialField.step_m".into(),
-                problem: format!("must be at most half of push_m, {reach} m, got {step}"),
-            });
-        }
+        require(
+            step <= reach / 2.0,
+            "strategy.MapAndPlan.planner.PotentialField.step_m",
+            format!("must be at most half of push_m, {reach} m, got {step}"),
+        )?;
         Ok(Self { params: params.clone() })
     }
 

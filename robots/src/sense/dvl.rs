@@ -12,10 +12,10 @@
 //! beyond 60° of tilt). The velocity is that of the body's origin: the part caused by the instrument's place and the
 //! vehicle's rotation is removed with the gyros, as vehicles do, here without the small noise of the gyros.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::tools::EchoTarget;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::DvlReading;
 use crate::handoff::Readings;
 use nalgebra::Vector3;
@@ -23,11 +23,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the Doppler log.
 #[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -75,12 +74,10 @@ impl Sensor for Dvl {
 /// A Doppler log on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Dvl {
-    every: Every,
-    p_BS: Vector3<f64>,
-    noise_m_s: f64,
+    spec: DvlSpec,
+    at: Sampler,
     scale: f64,
     lock_m: std::ops::RangeInclusive<f64>,
-    rng: Stream,
 }
 
 impl Dvl {
@@ -90,32 +87,24 @@ impl Dvl {
     /// If the rate does not fit the step, or if the range is empty.
     pub fn new(spec: &DvlSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let lock_m = spec.min_altitude_m.get()..=spec.max_altitude_m.get();
-        if lock_m.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "sensors.dvl.max_altitude_m".into(),
-                problem: format!("must be at least min_altitude_m, {} m", lock_m.start()),
-            });
-        }
-        let mut rng = on.stream("dvl");
-        let scale = 1.0 + spec.scale_error.get() * rng.normal();
-        Ok(Self {
-            every: on.every("sensors.dvl.rate_hz", spec.rate_hz.get())?,
-            p_BS,
-            noise_m_s: spec.noise_m_s.get(),
-            scale,
-            lock_m,
-            rng,
-        })
+        require(
+            !lock_m.is_empty(),
+            "sensors.dvl.max_altitude_m",
+            format!("must be at least min_altitude_m, {} m", lock_m.start()),
+        )?;
+        let mut at = Sampler::new("dvl", spec.rate_hz, p_BS, on)?;
+        let scale = 1.0 + spec.scale_error.get() * at.rng.normal();
+        Ok(Self { spec: spec.clone(), at, scale, lock_m })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &EchoTarget) -> Option<DvlReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
         // Drawn also without lock, so that a lost ping does not change later numbers.
-        let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
-        let p = truth.pose.point(self.p_BS);
+        let noise = super::tools::normal3(&mut self.at.rng, self.spec.noise_m_s.get());
+        let p = self.at.place(truth);
         let down = truth.pose.R_WB * -Vector3::z();
         let valid = super::tools::range_down(below, &p, &down).is_some_and(|range| self.lock_m.contains(&range));
         let v_body_m_s = if valid { truth.v_WB_B * self.scale + noise } else { Vector3::zeros() };

@@ -10,7 +10,7 @@
 //! left out.
 
 use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
 use crate::handoff::LblFix;
 use crate::handoff::Readings;
@@ -65,8 +65,7 @@ impl Sensor for Lbl {
 #[derive(Clone, Debug)]
 pub struct Lbl {
     every: Every,
-    noise_m: f64,
-    dropout: f64,
+    spec: LblSpec,
     rng: Stream,
 }
 
@@ -76,13 +75,8 @@ impl Lbl {
     /// # Errors
     /// If the period is shorter than a step.
     pub fn new(spec: &LblSpec, on: &OnBoard) -> Result<Self, RobotError> {
-        let rate_hz = 1.0 / spec.period_s.get();
-        Ok(Self {
-            every: on.every("sensors.lbl.period_s", rate_hz)?,
-            noise_m: spec.noise_m.get(),
-            dropout: spec.dropout.get(),
-            rng: on.stream("lbl"),
-        })
+        let every = on.every("sensors.lbl.period_s", 1.0 / spec.period_s.get())?;
+        Ok(Self { every, spec: spec.clone(), rng: on.stream("lbl") })
     }
 
     /// The fix of this step, if one is due and succeeds. The first is due one period after the start: the vehicle
@@ -92,9 +86,9 @@ impl Lbl {
             return None;
         }
         // All numbers are drawn for a failed fix too, so that the share of failures changes no later numbers.
-        let heard = self.rng.uniform() >= self.dropout;
+        let heard = self.rng.uniform() >= self.spec.dropout.get();
         let (east, north) = (self.rng.normal(), self.rng.normal());
-        heard.then(|| LblFix { position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.noise_m })
+        heard.then(|| LblFix { position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.spec.noise_m.get() })
     }
 }
 

@@ -15,7 +15,7 @@
 //! and far less than the smallest scale of a simulated plume, so averaging over it would change nothing.
 
 use super::on_board::OnBoard;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -81,20 +81,14 @@ impl Probes {
     /// If there are none or too many, if the rate does not fit the step, if the range is empty or if the converter
     /// has no or too many bits.
     pub fn new(spec: &ProbesSpec, names: &[String], on: &OnBoard) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid { field: format!("probes{field}"), problem };
-        if names.is_empty() || names.len() > MAX_PROBES {
-            let n = names.len();
-            return Err(invalid("", format!("a head carries 1 to {MAX_PROBES} probes, got {n}")));
-        }
-        if !(1..=24).contains(&spec.adc_bits) {
-            let problem = format!("must be from 1 to 24, got {}", spec.adc_bits);
-            return Err(invalid(".adc_bits", problem));
-        }
+        let n = names.len();
+        let fits = (1..=MAX_PROBES).contains(&n);
+        require(fits, "probes", format!("a head carries 1 to {MAX_PROBES} probes, got {n}"))?;
+        let bits = spec.adc_bits;
+        require((1..=24).contains(&bits), "probes.adc_bits", format!("must be from 1 to 24, got {bits}"))?;
         let [bottom_v, top_v] = spec.range_v.map(Finite::get);
-        if top_v <= bottom_v {
-            let problem = format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
-            return Err(invalid(".range_v", problem));
-        }
+        let problem = format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
+        require(top_v > bottom_v, "probes.range_v", problem)?;
         let every = on.every("probes.rate_hz", spec.rate_hz.get())?;
         let tau_periods = spec.response_s.get() / every.period_s(on.dt_s);
         let channel = |name: &String| Channel { rng: on.stream(&format!("probe {name}")), latest: None };

@@ -21,10 +21,10 @@
 //! track, and the bed is smooth without ripples. The ping is instantaneous: in the 27 ms to 20 m and back a vehicle
 //! at 2 m/s moves 5 cm.
 
-use super::on_board::OnBoard;
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::sidescan_fan::Fan;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Readings;
 use crate::handoff::SidescanPing;
 use nalgebra::Vector3;
@@ -34,14 +34,13 @@ use smart_default::SmartDefault;
 use std::f64::consts::LN_10;
 use std::sync::Arc;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
 use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 use world::terrain::Terrain;
 
 /// Most samples on a side.
@@ -128,8 +127,7 @@ impl Sensor for Sidescan {
 /// A sidescan sonar on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Sidescan {
-    every: Every,
-    p_BS: Vector3<f64>,
+    at: Sampler,
     fan: Fan,
     /// Noise of each sample, and the reference of 0 dB, as backscatter strengths.
     noise: Vec<f64>,
@@ -137,7 +135,6 @@ pub struct Sidescan {
     always: bool,
     /// Strength of each sample of the present side, before speckle.
     echo: Vec<f64>,
-    rng: Stream,
 }
 
 impl Sidescan {
@@ -146,30 +143,23 @@ impl Sidescan {
     /// # Errors
     /// If the rate does not fit range or step, or if the beam is out of range.
     pub fn new(spec: &SidescanSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.sidescan.{field}"), problem };
-        if spec.samples == 0 || spec.samples > MOST {
-            let problem = format!("must be from 1 to {MOST}, got {}", spec.samples);
-            return Err(wrong("samples", problem));
-        }
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("sensors.sidescan.{field}"), problem);
+        let samples = spec.samples;
+        must((1..=MOST).contains(&samples), "samples", format!("must be from 1 to {MOST}, got {samples}"))?;
         for (field, angle, most) in [
             ("beam_deg", spec.beam_deg.get(), 20.0),
             ("aperture_deg", spec.aperture_deg.get(), 180.0),
             ("tilt_deg", spec.tilt_deg.get(), 90.0),
         ] {
-            if angle > most {
-                return Err(wrong(field, format!("must be at most {most}, got {angle}")));
-            }
+            must(angle <= most, field, format!("must be at most {most}, got {angle}"))?;
         }
         let (range_m, rate_hz) = (spec.range_m.get(), spec.rate_hz.get());
         let most_hz = SOUND_M_S / (2.0 * range_m);
-        if rate_hz > most_hz {
-            let problem = format!(
-                "an echo from {range_m} m takes longer than the time between two pings; at most {most_hz:.1} Hz"
-            );
-            return Err(wrong("rate_hz", problem));
-        }
-        let n = spec.samples as usize;
+        let problem =
+            format!("an echo from {range_m} m takes longer than the time between two pings; at most {most_hz:.1} Hz");
+        must(rate_hz <= most_hz, "rate_hz", problem)?;
+        let n = samples as usize;
         let floor = from_db(spec.floor_db.get());
         let noise = |k: usize| {
             let r = (k as f64 + 0.5) / n as f64 * range_m;
@@ -177,8 +167,7 @@ impl Sidescan {
             floor * part * part * part * from_db(2.0 * spec.absorption_db_m.get() * (r - range_m))
         };
         Ok(Self {
-            every: on.every("sensors.sidescan.rate_hz", rate_hz)?,
-            p_BS,
+            at: Sampler::new("sidescan", spec.rate_hz, p_BS, on)?,
             fan: Fan {
                 range_m,
                 samples: n,
@@ -191,7 +180,6 @@ impl Sidescan {
             floor,
             always: spec.always,
             echo: vec![0.0; n],
-            rng: on.stream("sidescan"),
         })
     }
 
@@ -204,23 +192,23 @@ impl Sidescan {
         terrain: &Terrain,
         surveying: bool,
     ) -> Option<SidescanPing> {
-        if !self.every.due(clock) || !(surveying || self.always) {
+        if !self.at.due(clock) || !(surveying || self.always) {
             return None;
         }
+        let (from, p_BS) = (self.at.place(truth), self.at.p_BS);
         let mut side = |port: bool| -> Arc<[f32]> {
             self.echo.fill(0.0);
-            let from = truth.pose.point(self.p_BS);
             (self.fan).sound(&from, &truth.pose.R_WB, port, obstacles, terrain, &mut self.echo);
             let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
                 // Echo and noise are sums of many waves of random phase, so the intensity of their sum is
                 // exponential.
-                let speckle = -math::ln(1.0 - self.rng.uniform());
+                let speckle = -math::ln(1.0 - self.at.rng.uniform());
                 let level = ((echo + noise) * speckle / self.floor).max(1e-15);
                 (10.0 / LN_10 * math::ln(level)) as f32
             });
             heard.collect()
         };
-        Some(SidescanPing { p_BS: self.p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
+        Some(SidescanPing { p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
     }
 }
 

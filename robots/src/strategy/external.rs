@@ -77,10 +77,10 @@ impl StrategyParams for ExternalSpec {
             OnLate::Hold => Late::Hold,
             OnLate::Abort => Late::Abort,
             OnLate::Fallback(spec) if spec.consulted().is_some() => {
-                return Err(RobotError::Invalid {
-                    field: "strategy.on_late".into(),
-                    problem: "must be a strategy of this program, got External".into(),
-                });
+                return Err(RobotError::invalid(
+                    "strategy.on_late",
+                    "must be a strategy of this program, got External",
+                ));
             }
             OnLate::Fallback(spec) => Late::Fallback(spec.build(setting)?),
         };

@@ -14,7 +14,7 @@ use super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
 use super::wishes::Wishes;
 use crate::behave::Stride;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Vertical,
 };
@@ -116,12 +116,7 @@ impl Inspect {
     /// # Errors
     /// [`RobotError::Invalid`] without places, or if the survey's parts contradict each other.
     pub fn new(spec: &InspectSpec) -> Result<Self, RobotError> {
-        if spec.places.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "strategy.places".into(),
-                problem: "must have at least 1 place, got 0".into(),
-            });
-        }
+        require(!spec.places.is_empty(), "strategy.places", "must have at least 1 place, got 0")?;
         spec.survey.check("strategy.survey")?;
         let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
         let vertical = spec.vertical.into();

@@ -9,7 +9,7 @@
 
 use super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::wishes::Wishes;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -54,9 +54,7 @@ impl Listed for RouteSpec {
 
 impl StrategyParams for RouteSpec {
     fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        if self.points.is_empty() {
-            return Err(RobotError::Invalid { field: "points".into(), problem: "must name at least one place".into() });
-        }
+        require(!self.points.is_empty(), "points", "must name at least one place")?;
         Ok(Box::new(Route::new(self)))
     }
 

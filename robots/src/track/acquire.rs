@@ -33,7 +33,7 @@ impl Acquisition {
     /// # Errors
     /// [`RobotError::Invalid`] if the machine has no two probes that are apart across the stream, or too many probes.
     pub fn new(layout: &GantryLayout) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid { field: "tracker.probes".into(), problem };
+        let invalid = |problem: String| RobotError::invalid("tracker.probes", problem);
         let n = layout.probes.len();
         if !(2..=MAX_PROBES).contains(&n) {
             return Err(invalid(format!("bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}")));

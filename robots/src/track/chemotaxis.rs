@@ -14,7 +14,7 @@
 use super::acquire::Acquisition;
 use super::command::MotionCommand;
 use super::spec::{GantryStrategy, GantryStrategyParams};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -86,16 +86,11 @@ impl Chemotaxis {
     pub fn new(spec: &ChemotaxisSpec, layout: &GantryLayout) -> Result<Self, RobotError> {
         for (i, step) in spec.step_m.iter().enumerate() {
             let [least, greatest] = layout.travel_m[i];
-            if step.get() > greatest - least {
-                return Err(RobotError::Invalid {
-                    field: format!("tracker.Chemotaxis.step_m.{i}"),
-                    problem: format!(
-                        "must be at most {}, the gantry's travel in m, got {}",
-                        greatest - least,
-                        step.get()
-                    ),
-                });
-            }
+            require(
+                step.get() <= greatest - least,
+                format!("tracker.Chemotaxis.step_m.{i}"),
+                format!("must be at most {}, the gantry's travel in m, got {}", greatest - least, step.get()),
+            )?;
         }
         Ok(Self {
             acquisition: Acquisition::new(layout)?,

@@ -9,7 +9,7 @@ use super::predictor::PredictorSpec;
 use super::steer::{self, ContrastSpec};
 use super::stop::{self, StopSpec};
 use super::threshold::{HalfMean, ThresholdSpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::GantryLayout;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -87,10 +87,10 @@ impl CrabSpec {
             if value <= most {
                 return Ok(());
             }
-            Err(RobotError::Invalid {
-                field: format!("tracker.Crab.{field}"),
-                problem: format!("must be at most {most}, the gantry's {what}, got {value}"),
-            })
+            Err(RobotError::invalid(
+                format!("tracker.Crab.{field}"),
+                format!("must be at most {most}, the gantry's {what}, got {value}"),
+            ))
         };
         let [along, across] = layout.travel_m;
         let [step_f, step_l] = self.step_m.map(Positive::get);
@@ -101,24 +101,22 @@ impl CrabSpec {
             let all = along[1] - along[0];
             most("travel_m", travel_m.get(), all, "travel along the stream in m")?;
         }
-        if self.history.over == Over::Time && matches!(self.predictor, PredictorSpec::Trend(_)) {
-            return Err(RobotError::Invalid {
-                field: "tracker.Crab.predictor".into(),
-                problem: "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean".into(),
-            });
-        }
+        require(
+            self.history.over != Over::Time || !matches!(self.predictor, PredictorSpec::Trend(_)),
+            "tracker.Crab.predictor",
+            "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean",
+        )?;
         let span = self.sweep.span_m.get();
         most("sweep.span_m", span, width, "travel across the stream in m")?;
         let [max_f, max_l] = layout.max_speed_m_s;
         let (speeds_f, speeds_l) = match &self.speed {
             PaceSpec::Fixed(p) => (vec![("forward_m_s", p.forward_m_s)], vec![("left_m_s", p.left_m_s)]),
             PaceSpec::Adaptive(p) => {
-                if p.least_m_s > p.most_m_s {
-                    return Err(RobotError::Invalid {
-                        field: "tracker.Crab.speed.least_m_s".into(),
-                        problem: format!("must not exceed most_m_s, {}", p.most_m_s.get()),
-                    });
-                }
+                require(
+                    p.least_m_s <= p.most_m_s,
+                    "tracker.Crab.speed.least_m_s",
+                    format!("must not exceed most_m_s, {}", p.most_m_s.get()),
+                )?;
                 let across =
                     vec![("left_m_s", p.left_m_s), ("sweep_m_s", p.sweep_m_s), ("reacquire_m_s", p.reacquire_m_s)];
                 (vec![("most_m_s", p.most_m_s)], across)
@@ -132,18 +130,12 @@ impl CrabSpec {
         }
         if let StopSpec::Experience(p) = &self.stop {
             let n = p.points.get();
-            if n > KEPT {
-                return Err(RobotError::Invalid {
-                    field: "tracker.Crab.stop.points".into(),
-                    problem: format!("must be from 1 to {KEPT}, got {n}"),
-                });
-            }
-            if p.least_hz > p.most_hz {
-                return Err(RobotError::Invalid {
-                    field: "tracker.Crab.stop.least_hz".into(),
-                    problem: format!("must not exceed most_hz, {}", p.most_hz.get()),
-                });
-            }
+            require(n <= KEPT, "tracker.Crab.stop.points", format!("must be from 1 to {KEPT}, got {n}"))?;
+            require(
+                p.least_hz <= p.most_hz,
+                "tracker.Crab.stop.least_hz",
+                format!("must not exceed most_hz, {}", p.most_hz.get()),
+            )?;
         }
         let middle = (across[0] + across[1]) / 2.0;
         Ok(Rules {

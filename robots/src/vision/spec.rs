@@ -1,7 +1,7 @@
 //! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns, and of the verification of a
 //! source by a picture.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
@@ -74,7 +74,7 @@ impl ColourSpec {
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
         match self.fault() {
             None => Ok(()),
-            Some((field, problem)) => Err(RobotError::Invalid { field: format!("{path}.{field}"), problem }),
+            Some((field, problem)) => Err(RobotError::invalid(format!("{path}.{field}"), problem)),
         }
     }
 
@@ -167,12 +167,11 @@ impl VerifierSpec {
         ];
         for (field, least, most, name) in most {
             let (least, most) = (least.get(), most.get());
-            if least > most {
-                return Err(RobotError::Invalid {
-                    field: format!("{path}.{field}"),
-                    problem: format!("must be above 0 and at most {name}{most}, got {least}"),
-                });
-            }
+            require(
+                least <= most,
+                format!("{path}.{field}"),
+                format!("must be above 0 and at most {name}{most}, got {least}"),
+            )?;
         }
         Ok(())
     }

@@ -16,7 +16,7 @@
 
 use super::bands::{GREEN, Spectrum, each, spread};
 use super::waters;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
@@ -61,16 +61,11 @@ impl Clarity {
         let (pure_a, pure_b) = waters::pure();
         let least = pure_a[GREEN] + pure_b[GREEN];
         let c = CONTRAST / spec.visibility_m.get();
-        if c < least {
-            return Err(RobotError::Invalid {
-                field: "optics.clarity.visibility_m".into(),
-                problem: format!(
-                    "must be at most {:.1}, that of pure sea water, got {}",
-                    CONTRAST / least,
-                    spec.visibility_m.get()
-                ),
-            });
-        }
+        require(
+            c >= least,
+            "optics.clarity.visibility_m",
+            format!("must be at most {:.1}, that of pure sea water, got {}", CONTRAST / least, spec.visibility_m.get()),
+        )?;
         let (a, b) = waters::of_attenuation(c);
         let absorption = spec.absorption_per_m.map_or(a, spread);
         let scattering = spec.scattering_per_m.map_or(b, spread);

@@ -17,7 +17,7 @@
 
 use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -76,12 +76,7 @@ impl Light {
     /// If the sun is higher than the zenith.
     pub fn new(spec: &LightSpec, clarity: &Clarity) -> Result<Self, RobotError> {
         let elevation = spec.sun_elevation_deg.get();
-        if elevation > 90.0 {
-            return Err(RobotError::Invalid {
-                field: "optics.light.sun_elevation_deg".into(),
-                problem: format!("must be from 0 to 90, got {elevation}"),
-            });
-        }
+        require(elevation <= 90.0, "optics.light.sun_elevation_deg", format!("must be from 0 to 90, got {elevation}"))?;
         let (up, flat) = math::sin_cos(elevation.to_radians());
         let flat_in = flat / INDEX;
         let mu = (1.0 - flat_in * flat_in).sqrt();

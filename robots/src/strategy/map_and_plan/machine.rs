@@ -16,7 +16,7 @@ use super::pilot::Pilot;
 use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
@@ -67,20 +67,17 @@ impl MapAndPlan {
     /// # Errors
     /// [`RobotError::Invalid`] if the robot keeps no map, or if parameters contradict each other.
     pub fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
-        if !setting.maps {
-            return Err(RobotError::Invalid {
-                field: "strategy".into(),
-                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
-                    Pomdp()"
-                    .into(),
-            });
-        }
-        if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
-            return Err(RobotError::Invalid {
-                field: "strategy.after_declaration".into(),
-                problem: "MapAndPlan flies no survey; use GoHome or Stop".into(),
-            });
-        }
+        require(
+            setting.maps,
+            "strategy",
+            "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
+                    Pomdp()",
+        )?;
+        require(
+            !matches!(spec.after_declaration, AfterDeclaration::Survey(_)),
+            "strategy.after_declaration",
+            "MapAndPlan flies no survey; use GoHome or Stop",
+        )?;
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
         Ok(Self {
             speed_m_s,

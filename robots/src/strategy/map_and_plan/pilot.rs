@@ -10,7 +10,7 @@
 
 use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
 use crate::plan::{Follow, FreeSpace, NoPath, Path, PathStart, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
@@ -62,24 +62,18 @@ pub(super) struct Pilot {
 impl Pilot {
     pub(super) fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
         let planner = spec.planner.build()?;
-        if spec.planner.plane_only() && !spec.room.plane() {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.planner.AStar.cost".into(),
-                problem: "the paper's costs are for a room of the plane; use Metric, or room: Plane()".into(),
-            });
-        }
+        require(
+            !spec.planner.plane_only() || spec.room.plane(),
+            "strategy.MapAndPlan.planner.AStar.cost",
+            "the paper's costs are for a room of the plane; use Metric, or room: Plane()",
+        )?;
         spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
         let mut room = FreeSpace::new(cells, spec.hull_m.get(), spec.planner.reach().1);
         room.chart(&setting.chart, &setting.bed, &|x, y| level(vertical, &setting.bed, x, y));
         let lattice = room.lattice();
-        if !(0..lattice.len()).any(|cell| room.free(cell)) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room".into(),
-                problem: NoPath::Full.to_string(),
-            });
-        }
+        require((0..lattice.len()).any(|cell| room.free(cell)), "strategy.MapAndPlan.room", NoPath::Full.to_string())?;
         Ok(Self {
             revision: room.revision().clone(),
             room,

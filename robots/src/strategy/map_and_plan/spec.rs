@@ -7,7 +7,7 @@ use super::evade::EvadeSpec;
 use super::machine::MapAndPlan;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{BeliefGrid, Need, Setting};
 use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
@@ -144,27 +144,21 @@ impl RoomSpec {
         let depth_m = if self.plane() { 1.0 } else { setting.bed.deepest_m() };
         let all: f64 = counts.iter().product();
         // Written so that it also refuses a number that is not finite.
-        if !(all <= MOST_CELLS) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room".into(),
-                problem: format!("would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"),
-            });
-        }
+        require(
+            all <= MOST_CELLS,
+            "strategy.MapAndPlan.room",
+            format!("would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"),
+        )?;
         let n = counts.map(|c| c as usize);
         let cells = BeliefGrid::over(&setting.area, 0.0, depth_m, n);
         let axes = if self.plane() { 2 } else { 3 };
         let (low, high) =
             (cells.cell_m[..axes].iter()).fold((f64::INFINITY, 0.0_f64), |(l, h), c| (c.min(l), c.max(h)));
-        if !(high <= FLATTEST * low) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room.cell_m".into(),
-                problem: format!(
-                    "must have sides that differ at most {FLATTEST}-fold, got {} and {} m",
-                    shown(low),
-                    shown(high)
-                ),
-            });
-        }
+        require(
+            high <= FLATTEST * low,
+            "strategy.MapAndPlan.room.cell_m",
+            format!("must have sides that differ at most {FLATTEST}-fold, got {} and {} m", shown(low), shown(high)),
+        )?;
         Ok(cells)
     }
 

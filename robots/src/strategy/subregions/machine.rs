@@ -15,7 +15,7 @@ use super::super::spec::Strategy;
 use super::edge::{Plume, crossing};
 use super::rectangles::areas;
 use super::spec::{EdgeSpec, Entry, SubregionsSpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Setting,
@@ -74,12 +74,7 @@ impl Subregions {
     /// [`RobotError::Invalid`] if a region makes no sense, or if its strategy cannot be built.
     pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
         let areas = areas(&spec.regions, &setting.area)?;
-        if spec.search.has_regions() {
-            return Err(RobotError::Invalid {
-                field: "search".into(),
-                problem: "subregions cannot have subregions".into(),
-            });
-        }
+        require(!spec.search.has_regions(), "search", "subregions cannot have subregions")?;
         let search = |area: &Area| {
             let setting = Setting { area: *area, ..setting.clone() };
             spec.search.build(&setting).map_err(within_search)
@@ -298,7 +293,7 @@ fn down_flow_corner(area: &Area, up_flow: Heading) -> Vector2<f64> {
 fn within_search(error: RobotError) -> RobotError {
     match error {
         RobotError::Invalid { field, problem } => {
-            RobotError::Invalid { field: format!("search.{}", field.trim_start_matches("strategy.")), problem }
+            RobotError::invalid(format!("search.{}", field.trim_start_matches("strategy.")), problem)
         }
         other => other,
     }

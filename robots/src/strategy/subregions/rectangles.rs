@@ -62,7 +62,7 @@ fn rectangle(k: usize, r: &RectangleSpec, whole: &Area) -> Result<Area, RobotErr
 }
 
 fn invalid(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid { field: field.into(), problem }
+    RobotError::invalid(field, problem)
 }
 
 #[cfg(test)]

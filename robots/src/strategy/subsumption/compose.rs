@@ -52,7 +52,7 @@ const ABOVE: &[(Kind, Kind, &str)] = &[
 ];
 
 fn wrong(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid { field: format!("strategy.Subsumption.{field}"), problem }
+    RobotError::invalid(format!("strategy.Subsumption.{field}"), problem)
 }
 
 /// The order of the layers, after checking it.

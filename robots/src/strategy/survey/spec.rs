@@ -164,8 +164,7 @@ impl SurveySpec {
     /// # Errors
     /// Names the field below `path` and the legal values.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
-        let wrong =
-            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
+        let wrong = |field: &str, problem: String| Err(RobotError::invalid(format!("{path}.{field}"), problem));
         let offsets = [
             ("sidescan", self.sidescan.as_ref().map(|p| &p.offsets_m)),
             ("camera", self.camera.as_ref().map(|p| &p.offsets_m)),

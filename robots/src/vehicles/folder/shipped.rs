@@ -99,10 +99,10 @@ pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Fold
 fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotError> {
     let Some(shipped) = ShippedVehicle::named(name) else {
         let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
-        return Err(RobotError::Invalid {
-            field: "vehicle".into(),
-            problem: format!("no vehicle \"{name}\" comes with the program; there are {}", names.join(", ")),
-        });
+        return Err(RobotError::invalid(
+            "vehicle",
+            format!("no vehicle \"{name}\" comes with the program; there are {}", names.join(", ")),
+        ));
     };
     Ok(BuiltIn { shipped, reader })
 }

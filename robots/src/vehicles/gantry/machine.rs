@@ -12,7 +12,7 @@ use super::super::urdf_parts::UrdfText;
 use super::drive::Drive;
 use super::frame::{self, Frame};
 use super::spec::{CrabGantrySpec, GantrySpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{GantryDecision, GantryLayout, JointReadings};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
@@ -45,7 +45,7 @@ impl Gantry {
     pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
         let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
-        let invalid = |field: &str, problem: String| RobotError::Invalid { field: field.into(), problem };
+        let invalid = |field: &str, problem: String| RobotError::invalid(field, problem);
         if spec.settle_m.get() < spec.encoder_m.get() {
             return Err(invalid(
                 "settle_m",
@@ -83,13 +83,10 @@ impl Gantry {
         if self.spec.position_gain_per_s.get() <= most {
             return Ok(());
         }
-        Err(RobotError::Invalid {
-            field: "position_gain_per_s".into(),
-            problem: format!(
-                "must be at most {most} 1/s at a step of {dt_s} s, got {}",
-                self.spec.position_gain_per_s.get()
-            ),
-        })
+        Err(RobotError::invalid(
+            "position_gain_per_s",
+            format!("must be at most {most} 1/s at a step of {dt_s} s, got {}", self.spec.position_gain_per_s.get()),
+        ))
     }
 
     /// The body for the physics, with its base at `base` (x up-stream, y to the left, z = 0 on the bed) and the head
@@ -100,12 +97,11 @@ impl Gantry {
     pub fn body_spec(&self, id: &str, base: &Pose, start_m: Vector2<f64>) -> Result<GantryBodySpec, RobotError> {
         let travel_m = self.travel_m();
         for (k, [low, high]) in travel_m.into_iter().enumerate() {
-            if !(low..=high).contains(&start_m[k]) {
-                return Err(RobotError::Invalid {
-                    field: format!("start.{}", ["forward_m", "left_m"][k]),
-                    problem: format!("must be from {low} to {high} m, got {}", start_m[k]),
-                });
-            }
+            require(
+                (low..=high).contains(&start_m[k]),
+                format!("start.{}", ["forward_m", "left_m"][k]),
+                format!("must be from {low} to {high} m, got {}", start_m[k]),
+            )?;
         }
         let axis = |k: usize| {
             let slide = &self.frame.slides[k];

@@ -60,8 +60,7 @@ impl AddUpSpec {
             ("reject_at", self.reject_at, 1.0, 20.0),
             ("contrast_left", self.contrast_left, 0.05, 0.95),
         ];
-        let wrong =
-            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
+        let wrong = |field: &str, problem: String| Err(RobotError::invalid(format!("{path}.{field}"), problem));
         for (field, value, least, most) in ranges {
             let value = value.get();
             if !(least..=most).contains(&value) {
