@@ -20,7 +20,7 @@
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
@@ -93,23 +93,21 @@ impl Cloverleaf {
     /// # Errors
     /// [`RobotError::Invalid`] if there are too few or too many leaves, or if they are too short to be flown.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid =
-            |field: &str, problem: String| RobotError::invalid(format!("reacquire.Cloverleaf.{field}"), problem);
+        let must = |holds: bool, field: &str, problem: String| {
+            require(holds, format!("reacquire.Cloverleaf.{field}"), problem)
+        };
         let leaves = params.leaves.get();
-        if !(3..=8).contains(&leaves) {
-            return Err(invalid("leaves", format!("must be 3 to 8, got {leaves}")));
-        }
+        must((3..=8).contains(&leaves), "leaves", format!("must be 3 to 8, got {leaves}"))?;
         let least_m = params.turn_radius_m.get() / math::tan(half_leaf(leaves));
-        if params.leaf_m.get() < least_m {
-            return Err(invalid(
-                "leaf_m",
-                format!(
-                    "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
-                    params.turn_radius_m.get(),
-                    params.leaf_m.get()
-                ),
-            ));
-        }
+        must(
+            params.leaf_m.get() >= least_m,
+            "leaf_m",
+            format!(
+                "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
+                params.turn_radius_m.get(),
+                params.leaf_m.get()
+            ),
+        )?;
         Ok(Self {
             repetitions: params.repetitions.get(),
             leaves,

@@ -16,7 +16,7 @@
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
@@ -86,22 +86,20 @@ impl Bowtie {
     /// # Errors
     /// [`RobotError::Invalid`] if the lines have no length left, or if the angle does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::invalid(format!("reacquire.Bowtie.{field}"), problem);
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("reacquire.Bowtie.{field}"), problem);
         let angle = params.angle_deg.get();
-        if angle >= 90.0 {
-            return Err(invalid("angle_deg", format!("must be < 90, got {angle}")));
-        }
+        must(angle < 90.0, "angle_deg", format!("must be < 90, got {angle}"))?;
         let across_m = params.half_width_m.get() - 2.0 * params.turn_radius_m.get();
-        if across_m <= 0.0 {
-            return Err(invalid(
-                "half_width_m",
-                format!(
-                    "must be > twice turn_radius_m = {}, got {}",
-                    params.turn_radius_m.get(),
-                    params.half_width_m.get()
-                ),
-            ));
-        }
+        must(
+            across_m > 0.0,
+            "half_width_m",
+            format!(
+                "must be > twice turn_radius_m = {}, got {}",
+                params.turn_radius_m.get(),
+                params.half_width_m.get()
+            ),
+        )?;
         Ok(Self {
             angle_rad: angle.to_radians(),
             half_length_m: across_m / math::sin(angle.to_radians()),

@@ -13,7 +13,7 @@
 //! points scattered normally in both directions as they are across the flow: r = σ √(-2 ln(1 - coverage)). Here σ =
 //! 1.4826 times the median absolute deviation of y_flow, and at least the error of a navigation fix along an axis.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Lcdp;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,18 +90,19 @@ impl ZoneSize {
         let Self::Adaptive(a) = self else {
             return Ok(());
         };
-        let invalid =
-            |name: &str, problem: String| Err(RobotError::invalid(format!("{field}.Adaptive.{name}"), problem));
+        let must =
+            |holds: bool, name: &str, problem: String| require(holds, format!("{field}.Adaptive.{name}"), problem);
         let coverage = a.coverage.get();
-        if coverage <= 0.0 || coverage >= 1.0 {
-            return invalid(
-                "coverage",
-                format!("must be > 0 and < 1, got {coverage}: no circle holds nothing, or all"),
-            );
-        }
-        if a.most_m.get() < a.least_m.get() {
-            return invalid("most_m", format!("must be >= least_m = {}, got {}", a.least_m.get(), a.most_m.get()));
-        }
+        must(
+            coverage > 0.0 && coverage < 1.0,
+            "coverage",
+            format!("must be > 0 and < 1, got {coverage}: no circle holds nothing, or all"),
+        )?;
+        must(
+            a.most_m.get() >= a.least_m.get(),
+            "most_m",
+            format!("must be >= least_m = {}, got {}", a.least_m.get(), a.most_m.get()),
+        )?;
         Ok(())
     }
 }

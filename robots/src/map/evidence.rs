@@ -17,7 +17,7 @@
 //! counts once in τ. Klotz has one chance for all trials; here that of the moment, so that the chain's own share of
 //! detections follows L with a lag of τ. The defaults ν = 0 and τ = 0 give the papers' rules.
 
-use super::spec::invalid;
+use super::spec::must;
 use super::terms::LEAST;
 use crate::error::RobotError;
 use schemars::JsonSchema;
@@ -99,23 +99,16 @@ impl Evidence {
     /// [`RobotError::Invalid`] if ε would let a belief vanish, or if ν leaves readings without any meaning.
     pub(super) fn new(epsilon: Fraction, doubt: &DoubtSpec, period_s: f64) -> Result<Self, RobotError> {
         let (epsilon, missed) = (epsilon.get(), doubt.missed.get());
-        if !(epsilon > 0.0 && epsilon < 1.0) {
-            let problem = format!("must be greater than 0 and less than 1, got {epsilon}");
-            return Err(invalid("false_detection", &problem));
-        }
-        if missed >= 1.0 {
-            return Err(invalid("doubt.missed", &format!("must be less than 1, got {missed}")));
-        }
-        if doubt.strengths.len() > MOST_STRENGTHS {
-            let problem = format!("must be at most {MOST_STRENGTHS}, got {}", doubt.strengths.len());
-            return Err(invalid("doubt.strengths", &problem));
-        }
+        let problem = format!("must be greater than 0 and less than 1, got {epsilon}");
+        must(epsilon > 0.0 && epsilon < 1.0, "false_detection", problem)?;
+        must(missed < 1.0, "doubt.missed", format!("must be less than 1, got {missed}"))?;
+        let problem = format!("must be at most {MOST_STRENGTHS}, got {}", doubt.strengths.len());
+        must(doubt.strengths.len() <= MOST_STRENGTHS, "doubt.strengths", problem)?;
         let (least, most) = STRENGTHS;
         let strengths = doubt.strengths.iter().map(|s| s.get());
-        if let Some(odd) = strengths.clone().find(|s| !(least..=most).contains(s)) {
-            let problem = format!("must be from {least} to {most} each, got {odd}");
-            return Err(invalid("doubt.strengths", &problem));
-        }
+        let odd = strengths.clone().find(|s| !(least..=most).contains(s));
+        let problem = format!("must be from {least} to {most} each, got {}", odd.unwrap_or_default());
+        must(odd.is_none(), "doubt.strengths", problem)?;
         let tau_s = doubt.correlation_s.get();
         Ok(Self {
             epsilon,

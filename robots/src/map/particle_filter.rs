@@ -22,7 +22,7 @@ use super::evidence::{DoubtSpec, mixed};
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
 use super::shifts::Shifts;
-use super::spec::{GridSpec, TrajectorySpec, invalid};
+use super::spec::{GridSpec, TrajectorySpec, must};
 use super::watch::MapObservation;
 use super::workings::Workings;
 use crate::error::RobotError;
@@ -130,12 +130,11 @@ impl ParticleFilter {
         let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
         let mut with =
             Workings::new(grid, &spec.trajectory, periods, spec.false_detection, &spec.doubt, spec.grid.places)?;
-        if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
-            return Err(invalid(
-                "particles",
-                &format!("must be from {} to {}, got {}", PARTICLES.0, PARTICLES.1, spec.particles),
-            ));
-        }
+        must(
+            (PARTICLES.0..=PARTICLES.1).contains(&spec.particles),
+            "particles",
+            format!("must be from {} to {}, got {}", PARTICLES.0, PARTICLES.1, spec.particles),
+        )?;
         // The belief is that of the particles, whatever they believe of navigation.
         let cells = with.belief.belief().grid.clone();
         with.belief = LogBelief::uniform(&cells);

@@ -1,7 +1,7 @@
 //! Parameters common to all mappers: the grid, and the model of how dye travels.
 
 use super::flow_history::FlowHistory;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::BeliefGrid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -51,20 +51,14 @@ impl GridSpec {
     pub fn build(&self, area: &Area) -> Result<BeliefGrid, RobotError> {
         let n = [self.along, self.across, self.vertical];
         for (name, count) in ["along", "across", "vertical"].into_iter().zip(n) {
-            if count == 0 {
-                return Err(invalid(&format!("grid.{name}"), "must be at least 1, got 0"));
-            }
+            must(count != 0, format!("grid.{name}"), "must be at least 1, got 0")?;
         }
-        if self.places.is_multiple_of(2) || self.places > MOST_PLACES {
-            let problem = format!("must be odd and from 1 to {MOST_PLACES}, got {}", self.places);
-            return Err(invalid("grid.places", &problem));
-        }
+        let problem = format!("must be odd and from 1 to {MOST_PLACES}, got {}", self.places);
+        must(!self.places.is_multiple_of(2) && self.places <= MOST_PLACES, "grid.places", problem)?;
         let cells = self.cells() * f64::from(self.places * self.places);
-        if cells > MOST_CELLS {
-            let got = if cells < 1e12 { format!("{cells}") } else { shown(cells) };
-            let what = if self.places == 1 { "cells" } else { "places" };
-            return Err(invalid("grid", &format!("must have at most {MOST_CELLS} {what}, got {got}")));
-        }
+        let got = if cells < 1e12 { format!("{cells}") } else { shown(cells) };
+        let what = if self.places == 1 { "cells" } else { "places" };
+        must(cells <= MOST_CELLS, "grid", format!("must have at most {MOST_CELLS} {what}, got {got}"))?;
         let top = self.top_depth_m.get();
         let bottom = match self.bottom_depth_m {
             Some(b) if b.get() > top => b.get(),
@@ -141,13 +135,11 @@ impl TrajectorySpec {
     pub fn check(&self) -> Result<(), RobotError> {
         let (h, unit) = (self.lookback_s.get(), self.release_period_s.get());
         let releases = h / unit;
-        if !(1.0..=MOST_RELEASES).contains(&releases) {
-            return Err(invalid(
-                "trajectory.lookback_s",
-                &format!("must hold from 1 to {MOST_RELEASES} releases, {unit} s apart, got {releases}"),
-            ));
-        }
-        Ok(())
+        must(
+            (1.0..=MOST_RELEASES).contains(&releases),
+            "trajectory.lookback_s",
+            format!("must hold from 1 to {MOST_RELEASES} releases, {unit} s apart, got {releases}"),
+        )
     }
 
     /// Checks that a look-back in steps of `period_s`, given as `field`, can be remembered.
@@ -156,16 +148,12 @@ impl TrajectorySpec {
     /// [`RobotError::Invalid`] with the least legal step.
     pub(super) fn holds(&self, field: &str, period_s: f64) -> Result<(), RobotError> {
         let h = self.lookback_s.get();
-        let steps = h / period_s;
-        if steps <= MOST_RELEASES {
-            return Ok(());
-        }
         let problem = format!(
             "must be at least {} to look back {h} s in {MOST_RELEASES} steps, got {}",
             shown(h / MOST_RELEASES),
             shown(period_s)
         );
-        Err(invalid(field, &problem))
+        must(h / period_s <= MOST_RELEASES, field, problem)
     }
 
     /// An empty history of the flow, with a mark every `period_s`.
@@ -205,6 +193,11 @@ impl TrajectorySpec {
     pub fn sigmas(&self) -> [f64; 3] {
         [self.sigma_x_m_rts, self.sigma_y_m_rts, self.sigma_z_m_rts].map(Positive::get)
     }
+}
+
+/// What must hold for a field of a mapper.
+pub(super) fn must(holds: bool, field: impl std::fmt::Display, problem: impl Into<String>) -> Result<(), RobotError> {
+    require(holds, format!("map.{field}"), problem)
 }
 
 /// A setup error of a mapper.

@@ -17,7 +17,7 @@ use super::ends::Ends;
 use super::paper_cost::FiveMoves;
 use super::search::{Costs, Search};
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach, smooth};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -97,19 +97,12 @@ impl AStar {
     /// # Errors
     /// [`RobotError::Invalid`] if a weight is beyond what the costs can hold.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let wrong = |field: &str, says: &str, got: f64| {
-            RobotError::invalid(
-                format!("strategy.MapAndPlan.planner.AStar.{field}"),
-                format!("must be {says}, got {got}"),
-            )
+        let must = |holds: bool, field: &str, says: &str, got: f64| {
+            require(holds, format!("strategy.MapAndPlan.planner.AStar.{field}"), format!("must be {says}, got {got}"))
         };
         let (weight, climb) = (params.clearance_weight.get(), params.climb.get());
-        if weight > 3.9 {
-            return Err(wrong("clearance_weight", "from 0 to 3.9", weight));
-        }
-        if !(1.0..=20.0).contains(&climb) {
-            return Err(wrong("climb", "from 1 to 20", climb));
-        }
+        must(weight <= 3.9, "clearance_weight", "from 0 to 3.9", weight)?;
+        must((1.0..=20.0).contains(&climb), "climb", "from 1 to 20", climb)?;
         let soft_m = params.clearance_m.get();
         let costs = Costs { climb, weight, soft_m };
         Ok(Self {

@@ -72,17 +72,12 @@ impl Params {
         let sides = cells.cell_m[..axes].iter();
         let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
         let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
-        if step >= least {
-            return Ok(());
-        }
-        Err(RobotError::invalid(
-            "strategy.MapAndPlan.planner.PotentialField.step_m",
-            format!(
-                "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
-                shown(least),
-                shown(step)
-            ),
-        ))
+        let problem = format!(
+            "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
+            shown(least),
+            shown(step)
+        );
+        require(step >= least, "strategy.MapAndPlan.planner.PotentialField.step_m", problem)
     }
 }
 

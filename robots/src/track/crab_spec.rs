@@ -84,13 +84,8 @@ impl CrabSpec {
     /// [`RobotError::Invalid`] if steps, sweep or speeds exceed what the machine has.
     pub(super) fn rules(&self, layout: &GantryLayout) -> Result<Rules, RobotError> {
         let most = |field: &str, value: f64, most: f64, what: &str| {
-            if value <= most {
-                return Ok(());
-            }
-            Err(RobotError::invalid(
-                format!("tracker.Crab.{field}"),
-                format!("must be at most {most}, the gantry's {what}, got {value}"),
-            ))
+            let problem = format!("must be at most {most}, the gantry's {what}, got {value}");
+            require(value <= most, format!("tracker.Crab.{field}"), problem)
         };
         let [along, across] = layout.travel_m;
         let [step_f, step_l] = self.step_m.map(Positive::get);

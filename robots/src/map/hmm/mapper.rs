@@ -23,7 +23,7 @@ use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
 use crate::map::releases::Gatherer;
-use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
+use crate::map::spec::{GridSpec, TrajectorySpec, invalid, must};
 use crate::map::terms::Terms;
 use crate::map::watch::MapObservation;
 use crate::map::workings::Workings;
@@ -154,13 +154,9 @@ impl Hmm {
     pub fn new(spec: &HmmSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
         spec.trajectory.holds("step_s", step_s)?;
-        if h < step_s {
-            return Err(invalid("step_s", &format!("must be at most trajectory.lookback_s, {h}, got {step_s}")));
-        }
-        if spec.walk_steps > MOST_WALK {
-            let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
-            return Err(invalid("walk_steps", &problem));
-        }
+        must(h >= step_s, "step_s", format!("must be at most trajectory.lookback_s, {h}, got {step_s}"))?;
+        let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
+        must(spec.walk_steps <= MOST_WALK, "walk_steps", problem)?;
         let trajectory = &spec.trajectory;
         // The chain's steps are independent: a lasting error of the flow spreads odour as it does in the long run.
         let strayed =
@@ -168,11 +164,9 @@ impl Hmm {
         let [x, y, z] = trajectory.sigmas();
         let sigmas = [(x * x + strayed).sqrt(), (y * y + strayed).sqrt(), z];
         let with = Workings::new(grid, trajectory, [step_s; 2], spec.false_detection, &spec.doubt, spec.grid.places)?;
-        if with.places > 1 && spec.odour_every_s.is_some() {
-            let problem =
-                format!("must not be given with grid.places {}: odour is shown for one place in a cell", with.places);
-            return Err(invalid("odour_every_s", &problem));
-        }
+        let problem =
+            format!("must not be given with grid.places {}: odour is shown for one place in a cell", with.places);
+        must(with.places <= 1 || spec.odour_every_s.is_none(), "odour_every_s", problem)?;
         let (grid, places) = (with.grid.clone(), with.places as f64);
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
         // A single layer keeps everything.

@@ -8,7 +8,7 @@ use super::plume_map::PlumeMap;
 use super::spec::{LayerSpec, SubsumptionSpec};
 use crate::behave::{GoHome, SoftAvoid};
 use crate::declare::DeclareSpec;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Setting;
 
 fn kind(layer: &LayerSpec) -> Kind {
@@ -71,10 +71,12 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         (Kind::Find, "nothing would move the vehicle before the first detection"),
         (Kind::Maintain, "detections would have no effect"),
     ] {
-        if place(kind).is_none() {
-            let name = kind.variant();
-            return Err(wrong("layers", format!("there is no {name}: {why}; add {name}(...)")));
-        }
+        let name = kind.variant();
+        require(
+            place(kind).is_some(),
+            "strategy.Subsumption.layers",
+            format!("there is no {name}: {why}; add {name}(...)"),
+        )?;
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
         let problem = "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";

@@ -1,6 +1,6 @@
 //! Parameters of the time after a declaration.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Need;
 use crate::survey::DetectSpec;
 use crate::vision::VerifierSpec;
@@ -164,15 +164,15 @@ impl SurveySpec {
     /// # Errors
     /// Names the field below `path` and the legal values.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
-        let wrong = |field: &str, problem: String| Err(RobotError::invalid(format!("{path}.{field}"), problem));
+        let must = |holds: bool, field: &str, problem: String| require(holds, format!("{path}.{field}"), problem);
         let offsets = [
             ("sidescan", self.sidescan.as_ref().map(|p| &p.offsets_m)),
             ("camera", self.camera.as_ref().map(|p| &p.offsets_m)),
         ];
         for (part, offsets) in offsets {
-            if let Some(n) = offsets.map(Vec::len).filter(|n| *n == 0 || *n > MOST_LINES) {
+            if let Some(n) = offsets.map(Vec::len) {
                 let problem = format!("must have from 1 to {MOST_LINES} lines, got {n}");
-                return wrong(&format!("{part}.offsets_m"), problem);
+                must((1..=MOST_LINES).contains(&n), &format!("{part}.offsets_m"), problem)?;
             }
         }
         let (sonar, eyes) = (self.sidescan.is_some(), self.camera.is_some());
@@ -182,17 +182,13 @@ impl SurveySpec {
             Verify::Either => sonar || eyes,
             Verify::Both => sonar && eyes,
         };
-        if !flown {
-            let problem =
-                format!("{:?} needs passes that are not flown: add them, or choose another `verify`", self.verify);
-            return wrong("verify", problem);
-        }
+        let problem =
+            format!("{:?} needs passes that are not flown: add them, or choose another `verify`", self.verify);
+        must(flown, "verify", problem)?;
         match &self.camera {
             Some(c) => {
-                if c.held_pictures > MOST_HELD {
-                    let problem = format!("must be from 0 to {MOST_HELD}, got {}", c.held_pictures);
-                    return wrong("camera.held_pictures", problem);
-                }
+                let problem = format!("must be from 0 to {MOST_HELD}, got {}", c.held_pictures);
+                must(c.held_pictures <= MOST_HELD, "camera.held_pictures", problem)?;
                 c.verifier.check(&format!("{path}.camera.verifier"))?;
                 c.add_up.as_ref().map_or(Ok(()), |a| a.check(&format!("{path}.camera.add_up"), c.altitude_m.get()))
             }

@@ -1,6 +1,6 @@
 //! Parameters of adding up the pictures of a place.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
@@ -60,27 +60,19 @@ impl AddUpSpec {
             ("reject_at", self.reject_at, 1.0, 20.0),
             ("contrast_left", self.contrast_left, 0.05, 0.95),
         ];
-        let wrong = |field: &str, problem: String| Err(RobotError::invalid(format!("{path}.{field}"), problem));
+        let must = |holds: bool, field: &str, problem: String| require(holds, format!("{path}.{field}"), problem);
         for (field, value, least, most) in ranges {
             let value = value.get();
-            if !(least..=most).contains(&value) {
-                return wrong(field, format!("must be from {least} to {most}, got {value}"));
-            }
+            must((least..=most).contains(&value), field, format!("must be from {least} to {most}, got {value}"))?;
         }
         let least = self.least_altitude_m.get();
-        if !(0.5..=altitude_m).contains(&least) {
-            let range = format!("must be from 0.5 to the camera's altitude_m, {altitude_m}");
-            return wrong("least_altitude_m", format!("{range}, got {least}"));
-        }
+        let range = format!("must be from 0.5 to the camera's altitude_m, {altitude_m}");
+        must((0.5..=altitude_m).contains(&least), "least_altitude_m", format!("{range}, got {least}"))?;
         let clearance = self.clearance_m.get();
-        if !(0.2..=least).contains(&clearance) {
-            let range = format!("must be from 0.2 to least_altitude_m, {least}");
-            return wrong("clearance_m", format!("{range}, got {clearance}"));
-        }
-        if !(1..=32).contains(&self.most_lines) {
-            let range = "must be from 1 to 32";
-            return wrong("most_lines", format!("{range}, got {}", self.most_lines));
-        }
+        let range = format!("must be from 0.2 to least_altitude_m, {least}");
+        must((0.2..=least).contains(&clearance), "clearance_m", format!("{range}, got {clearance}"))?;
+        let range = "must be from 1 to 32";
+        must((1..=32).contains(&self.most_lines), "most_lines", format!("{range}, got {}", self.most_lines))?;
         Ok(())
     }
 }
