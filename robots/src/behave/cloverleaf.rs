@@ -76,11 +76,7 @@ impl BehaviourParams for Params {
 /// State of the behaviour.
 #[derive(Clone, Debug)]
 pub struct Cloverleaf {
-    repetitions: u32,
-    leaves: u32,
-    leaf_m: f64,
-    turn_radius_m: f64,
-    arrive_m: f64,
+    params: Params,
     /// Corners started since it was entered.
     begun: u32,
     /// Direction of the first line: down-flow turned by half a leaf; and the sense of the turns.
@@ -109,11 +105,7 @@ impl Cloverleaf {
             ),
         )?;
         Ok(Self {
-            repetitions: params.repetitions.get(),
-            leaves,
-            leaf_m: params.leaf_m.get(),
-            turn_radius_m: params.turn_radius_m.get(),
-            arrive_m: params.arrive_m.get(),
+            params: params.clone(),
             begun: 0,
             first: Heading::from_deg(0.0),
             turn: Side::Right,
@@ -126,8 +118,8 @@ impl Cloverleaf {
         if number == self.corners() {
             return self.centre;
         }
-        let way = (number / 2) % self.leaves;
-        let round = TAU * f64::from(way) / f64::from(self.leaves);
+        let way = (number / 2) % self.params.leaves.get();
+        let round = TAU * f64::from(way) / f64::from(self.params.leaves.get());
         let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m(seen);
         let from_centre = if number.is_multiple_of(2) { -along } else { along };
         inside(&seen.area, self.centre + from_centre, MARGIN_M)
@@ -136,16 +128,17 @@ impl Cloverleaf {
     /// Length of a leaf's sides, m: with room for the vehicle's own turns.
     fn leaf_m(&self, seen: &Observation) -> f64 {
         let own_m = seen.able.turning_radius_m;
-        if own_m > self.turn_radius_m {
-            self.leaf_m.max(own_m / math::tan(half_leaf(self.leaves)))
+        let leaf_m = self.params.leaf_m.get();
+        if own_m > self.params.turn_radius_m.get() {
+            leaf_m.max(own_m / math::tan(half_leaf(self.params.leaves.get())))
         } else {
-            self.leaf_m
+            leaf_m
         }
     }
 
     /// Number of corners in all repetitions, with the one that leads back along the last leaf's second side.
     fn corners(&self) -> u32 {
-        (2 * self.leaves).saturating_mul(self.repetitions).saturating_add(1)
+        (2 * self.params.leaves.get()).saturating_mul(self.params.repetitions.get()).saturating_add(1)
     }
 }
 
@@ -164,7 +157,7 @@ impl Behave for Cloverleaf {
             return Stride::Keep;
         }
         let number = self.begun;
-        if number.is_multiple_of(2 * self.leaves) && number + 1 < self.corners() {
+        if number.is_multiple_of(2 * self.params.leaves.get()) && number + 1 < self.corners() {
             let Some(point) = memory.lcdps.newest() else {
                 return Stride::Over;
             };
@@ -175,7 +168,7 @@ impl Behave for Cloverleaf {
                 // The first line leads from the vehicle's side to the other; the turns then close this leaf.
                 self.turn = Side::from_rightward((seen.estimate.position - self.centre).dot(&right));
             }
-            let half = half_leaf(self.leaves);
+            let half = half_leaf(self.params.leaves.get());
             self.first = up_flow.opposite().turned(self.turn.sign() * half);
         }
         if number > self.corners() {
@@ -183,7 +176,10 @@ impl Behave for Cloverleaf {
             return Stride::Over;
         }
         self.begun += 1;
-        Stride::Start(Manoeuvre::GoToPoint { point: self.corner(number, seen), radius_m: Some(self.arrive_m) })
+        Stride::Start(Manoeuvre::GoToPoint {
+            point: self.corner(number, seen),
+            radius_m: Some(self.params.arrive_m.get()),
+        })
     }
 }
 

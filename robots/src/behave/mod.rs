@@ -5,7 +5,6 @@ mod behaviour;
 mod catalogue;
 mod cloverleaf;
 mod find;
-mod go_home;
 mod go_to;
 mod open_loop;
 mod reacquire;
@@ -20,7 +19,6 @@ pub use catalogue::{
 };
 pub use cloverleaf::{Cloverleaf, Params as CloverleafParams};
 pub use find::{Params as ZigZagParams, ZigZag};
-pub use go_home::GoHome;
 pub use go_to::GoTo;
 pub use open_loop::{TimeTable, TimeTableParams, TimeTableRow};
 pub use reacquire::{Bowtie, Params as BowtieParams};

@@ -100,10 +100,7 @@ impl BehaviourParams for Params {
 /// State of the behaviour.
 #[derive(Clone, Debug)]
 pub struct UpAcross {
-    up_m: f64,
-    across_m: f64,
-    near: Option<Near>,
-    wait_s: f64,
+    params: Params,
     waits_until_s: Option<f64>,
     begun: bool,
 }
@@ -117,14 +114,7 @@ impl UpAcross {
             "track_out.UpAcross.near.points",
             "must be at least 2, got 1",
         )?;
-        Ok(Self {
-            up_m: params.up_m.get(),
-            across_m: params.across_m.get(),
-            near: params.near.clone(),
-            wait_s: params.wait_s.get(),
-            waits_until_s: None,
-            begun: false,
-        })
+        Ok(Self { params: params.clone(), waits_until_s: None, begun: false })
     }
 }
 
@@ -138,10 +128,11 @@ impl Behave for UpAcross {
         if self.begun {
             return if arrived { Stride::Over } else { Stride::Keep };
         }
-        if self.wait_s > 0.0 && seen.able.hovers {
+        let wait_s = self.params.wait_s.get();
+        if wait_s > 0.0 && seen.able.hovers {
             match self.waits_until_s {
                 None => {
-                    self.waits_until_s = Some(seen.t_s + self.wait_s);
+                    self.waits_until_s = Some(seen.t_s + wait_s);
                     return Stride::Start(Manoeuvre::Hold {
                         point: seen.estimate.position,
                         heading: Some(memory.up_flow_or_nose(seen)),
@@ -158,10 +149,10 @@ impl Behave for UpAcross {
             return Stride::Over;
         };
         let right = up_flow.turned(FRAC_PI_2).unit();
-        let near = self.near.as_ref();
+        let near = self.params.near.as_ref();
         let share = near.map_or(1.0, |n| n.share(memory.lcdps.all(), up_flow));
-        let across = memory.leaves.other().sign() * self.across_m * share;
-        let point = from.position + up_flow.unit() * (self.up_m * share) + right * across;
+        let across = memory.leaves.other().sign() * self.params.across_m.get() * share;
+        let point = from.position + up_flow.unit() * (self.params.up_m.get() * share) + right * across;
         let point = inside(&seen.area, point, MARGIN_M);
         // A vehicle that goes sideways keeps its nose, and what it smells with, up-flow.
         Stride::Start(if seen.able.sideways {

@@ -15,6 +15,7 @@
 use super::Start;
 use super::layers::{LayerAwareSpec, LayerWatch};
 use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
+use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -38,10 +39,9 @@ pub struct DeadReckoningSpec {
 }
 
 /// State of dead reckoning.
-#[derive(Clone, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct DeadReckoning {
-    fix_gain: f64,
-    flow_filter_s: f64,
+    spec: DeadReckoningSpec,
     dt_s: f64,
     position: Vector2<f64>,
     depth_m: f64,
@@ -66,8 +66,7 @@ impl DeadReckoning {
         let attitude =
             Attitude { heading: start.heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() };
         Self {
-            fix_gain: spec.fix_gain.get(),
-            flow_filter_s: spec.flow_filter_s.get(),
+            spec: spec.clone(),
             dt_s,
             position: start.position,
             depth_m: start.depth_m,
@@ -99,7 +98,7 @@ impl DeadReckoning {
         }
         let before = self.position;
         if let Some(fix) = readings.lbl {
-            self.position += (fix.position - self.position) * self.fix_gain;
+            self.position += (fix.position - self.position) * self.spec.fix_gain.get();
         }
         self.measure_flow(clock.t_s(), readings, &R_WB);
         assert!(
@@ -120,12 +119,7 @@ impl DeadReckoning {
 
     fn take_in(&mut self, readings: &Readings) {
         if let Some(a) = readings.attitude {
-            self.attitude = Attitude {
-                heading: a.heading,
-                roll_rad: a.roll_rad,
-                pitch_rad: a.pitch_rad,
-                rates_rad_s: a.rates_rad_s,
-            };
+            self.attitude = a;
             self.R_WB = self.attitude.R_WB();
         }
         if let Some(dvl) = readings.dvl {
@@ -152,9 +146,10 @@ impl DeadReckoning {
             return;
         }
         let measured = (R_WB * (self.v_ground_body + adcp.v_body_m_s)).xy();
+        let filter_s = self.spec.flow_filter_s.get();
         let believed = match self.flow {
-            Some((before, since_s)) if self.flow_filter_s > 0.0 => {
-                let keep = math::exp(-(t_s - since_s) / self.flow_filter_s);
+            Some((before, since_s)) if filter_s > 0.0 => {
+                let keep = math::exp(-(t_s - since_s) / filter_s);
                 measured + (before - measured) * keep
             }
             _ => measured,
@@ -167,15 +162,15 @@ impl DeadReckoning {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, LblFix};
+    use crate::handoff::{AdcpReading, AltimeterReading, Attitude, DepthReading, DvlReading, LblFix};
     use world::units::Heading;
 
     fn start() -> Start {
         Start { position: Vector2::new(150.0, -500.0), heading: Heading::from_deg(0.0), depth_m: 3.0 }
     }
 
-    fn attitude(heading: Heading, roll_rad: f64, pitch_rad: f64) -> AttitudeReading {
-        AttitudeReading { heading, roll_rad, pitch_rad, rates_rad_s: Vector3::zeros() }
+    fn attitude(heading: Heading, roll_rad: f64, pitch_rad: f64) -> Attitude {
+        Attitude { heading, roll_rad, pitch_rad, rates_rad_s: Vector3::zeros() }
     }
 
     fn dvl(v: Vector3<f64>) -> DvlReading {

@@ -1,13 +1,11 @@
 //! The estimator that a scenario chose.
 
 use super::{DeadReckoning, DeadReckoningSpec};
-use crate::handoff::{Estimate, Need, Readings};
-use bevy_ecs::prelude::Component;
+use crate::handoff::Need;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
-use world::clock::Clock;
 use world::units::Heading;
 
 /// Which estimator, with its parameters.
@@ -35,6 +33,13 @@ impl EstimatorSpec {
         }
         needs
     }
+
+    /// The estimator, which begins at `start` and steps by `dt_s`.
+    #[must_use]
+    pub fn build(&self, start: Start, dt_s: f64) -> DeadReckoning {
+        let Self::DeadReckoning(spec) = self;
+        DeadReckoning::new(spec, start, dt_s)
+    }
 }
 
 /// What the vehicle knows of its state at launch.
@@ -46,30 +51,6 @@ pub struct Start {
     pub heading: Heading,
     /// Depth below the still surface, m.
     pub depth_m: f64,
-}
-
-/// State of an estimator.
-#[derive(Component, Clone, Debug)]
-pub enum Estimator {
-    /// Compass, Doppler log and long-baseline jumps.
-    DeadReckoning(Box<DeadReckoning>),
-}
-
-impl Estimator {
-    /// An estimator that begins at `start` and steps by `dt_s`.
-    #[must_use]
-    pub fn new(spec: &EstimatorSpec, start: Start, dt_s: f64) -> Self {
-        match spec {
-            EstimatorSpec::DeadReckoning(s) => Self::DeadReckoning(Box::new(DeadReckoning::new(s, start, dt_s))),
-        }
-    }
-
-    /// The estimate at the clock's time, after the readings of this step.
-    pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
-        match self {
-            Self::DeadReckoning(e) => e.step(clock, readings),
-        }
-    }
 }
 
 #[cfg(test)]

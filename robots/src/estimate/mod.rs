@@ -9,5 +9,5 @@ mod with_instruments;
 
 pub use catalogue::CATALOGUE;
 pub use dead_reckoning::{DeadReckoning, DeadReckoningSpec};
-pub use estimator::{Estimator, EstimatorSpec, Start};
+pub use estimator::{EstimatorSpec, Start};
 pub use layers::LayerAwareSpec;

@@ -175,7 +175,7 @@ pub struct PictureEvidence {
 pub const UP_FLOW_EDGE: &str = "up_flow_edge";
 
 /// A declared source, or the place at which a plume was traced out of a subregion.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Declaration {
     /// Number among the robot's declarations, from 0. A later declaration of the same number replaces the earlier
     /// one: it is the same source after an inspection.
@@ -205,18 +205,7 @@ impl Declaration {
     /// The first declaration of a mission without subregions, before any inspection.
     #[must_use]
     pub fn first(t_s: f64, position: Vector2<f64>, rule: &'static str) -> Self {
-        Self {
-            number: 0,
-            t_s,
-            position,
-            z_m: None,
-            rule,
-            region: None,
-            verdict: Verdict::Unchecked,
-            surveyed: None,
-            looked: None,
-            evidence: None,
-        }
+        Self { t_s, position, rule, ..Self::default() }
     }
 
     /// Whether it marks where a plume crosses a subregion's up-flow edge: the source is beyond the edge, not there.

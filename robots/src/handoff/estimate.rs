@@ -7,7 +7,7 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use world::area::Area;
 use world::units::Heading;
 
-/// Believed attitude.
+/// Attitude, as read or believed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attitude {
     /// Heading.

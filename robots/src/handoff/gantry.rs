@@ -124,7 +124,7 @@ impl GantryBehaviour {
 }
 
 /// What a gantry's searcher asks for.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct GantryDecision {
     /// What it is doing.
     pub behaviour: GantryBehaviour,

@@ -47,8 +47,8 @@ pub use pictures::{Picture, SidescanPing};
 pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};
 pub use readings::{
-    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading,
-    LblFix, RangeScan, Readings,
+    AdcpReading, AltimeterReading, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading, LblFix, RangeScan,
+    Readings,
 };
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};

@@ -1,10 +1,9 @@
 //! What the instruments reported in this tick; `None` if one did not report.
 
-use super::{Picture, SidescanPing};
+use super::{Attitude, Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
-use world::units::Heading;
 
 /// Chemical sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,19 +34,6 @@ pub struct AdcpReading {
     pub above_m: f64,
     /// False if the cell reaches beyond the surface or the bed.
     pub valid: bool,
-}
-
-/// Compass and inertial unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttitudeReading {
-    /// Compass heading.
-    pub heading: Heading,
-    /// Roll, right side down positive, rad.
-    pub roll_rad: f64,
-    /// Pitch, nose *up* positive, rad.
-    pub pitch_rad: f64,
-    /// Angular rates in body axes (FLU), rad/s.
-    pub rates_rad_s: Vector3<f64>,
 }
 
 /// Pressure sensor.
@@ -120,7 +106,7 @@ pub struct Readings {
     /// Water track, the cell used for the flow.
     pub adcp: Option<AdcpReading>,
     /// Compass and inertial unit.
-    pub attitude: Option<AttitudeReading>,
+    pub attitude: Option<Attitude>,
     /// Depth.
     pub depth: Option<DepthReading>,
     /// Density at the vehicle.

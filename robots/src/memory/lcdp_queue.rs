@@ -56,12 +56,6 @@ impl LcdpQueue {
         self.points.last().copied()
     }
 
-    /// All points, most up-flow first in the present flow.
-    #[must_use]
-    pub fn by_flow(&self, up_flow: Heading) -> Vec<Lcdp> {
-        most_up_flow_first(&self.points, up_flow)
-    }
-
     /// Forgets the points within a distance of a place.
     pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
         (self.points).retain(|p| (p.position - place).norm() > within_m);
@@ -103,8 +97,8 @@ mod tests {
     #[test]
     fn turns_with_the_flow_and_keeps_its_times() {
         let q = queue(9, &[at(1.0, 0.0, 5.0), at(2.0, 0.0, 20.0), at(3.0, 0.0, 10.0)]);
-        assert_eq!(times(&q.by_flow(Heading::from_deg(0.0))), [2.0, 3.0, 1.0]);
-        assert_eq!(times(&q.by_flow(Heading::from_deg(180.0))), [1.0, 3.0, 2.0]);
+        assert_eq!(times(&most_up_flow_first(q.all(), Heading::from_deg(0.0))), [2.0, 3.0, 1.0]);
+        assert_eq!(times(&most_up_flow_first(q.all(), Heading::from_deg(180.0))), [1.0, 3.0, 2.0]);
         assert_eq!(times(q.all()), [1.0, 2.0, 3.0]);
         assert_eq!(q.newest(), Some(at(3.0, 0.0, 10.0)));
     }

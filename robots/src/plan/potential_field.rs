@@ -61,26 +61,6 @@ pub struct Params {
     pub step_m: Positive,
 }
 
-impl Params {
-    /// Checks that the steps are not much smaller than the room's cells: a descent of many more steps would only take
-    /// time.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] with the least legal step.
-    pub(super) fn fits(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
-        let axes = if plane { 2 } else { 3 };
-        let sides = cells.cell_m[..axes].iter();
-        let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
-        let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
-        let problem = format!(
-            "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
-            shown(least),
-            shown(step)
-        );
-        require(step >= least, "strategy.MapAndPlan.planner.PotentialField.step_m", problem)
-    }
-}
-
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "PotentialField",
@@ -95,7 +75,16 @@ impl PlannerParams for Params {
     }
 
     fn check(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
-        self.fits(cells, plane)
+        let axes = if plane { 2 } else { 3 };
+        let sides = cells.cell_m[..axes].iter();
+        let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
+        let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
+        let problem = format!(
+            "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
+            shown(least),
+            shown(step)
+        );
+        require(step >= least, "strategy.MapAndPlan.planner.PotentialField.step_m", problem)
     }
 
     fn reach(&self) -> (&'static str, f64) {

@@ -11,8 +11,7 @@
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::AttitudeReading;
-use crate::handoff::Readings;
+use crate::handoff::{Attitude, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -91,13 +90,13 @@ impl Compass {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<AttitudeReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<Attitude> {
         if !self.at.due(clock) {
             return None;
         }
         let turn = self.bias_rad + self.noise_rad * self.at.rng.normal();
         let (roll, pitch_down) = truth.pose.roll_pitch();
-        Some(AttitudeReading {
+        Some(Attitude {
             heading: truth.pose.heading().turned(turn),
             roll_rad: roll + self.tilt_noise_rad * self.at.rng.normal(),
             // The pitch of the world's FLU axes is nose down positive, that of a vehicle nose up.
@@ -125,7 +124,7 @@ mod tests {
         t.w_WB_B = Vector3::new(0.01, -0.02, 0.1);
         let v = run(20_000, 0.02, |clock| c.read(clock, &t));
         assert_eq!(v.len(), 10_000);
-        let of = |f: &dyn Fn(&AttitudeReading) -> f64| v.iter().map(f).collect::<Vec<f64>>();
+        let of = |f: &dyn Fn(&Attitude) -> f64| v.iter().map(f).collect::<Vec<f64>>();
         let north = Heading::from_deg(0.0);
         assert_normal(&of(&|r| north.turn_to(r.heading)), c.bias_rad, 0.3_f64.to_radians());
         assert_normal(&of(&|r| r.roll_rad), 0.0, 0.2_f64.to_radians());

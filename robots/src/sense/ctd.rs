@@ -14,8 +14,7 @@
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::CtdReading;
-use crate::handoff::Readings;
+use crate::handoff::{CtdReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -9,8 +9,7 @@
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::DepthReading;
-use crate::handoff::Readings;
+use crate::handoff::{DepthReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

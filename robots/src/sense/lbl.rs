@@ -12,8 +12,7 @@
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::LblFix;
-use crate::handoff::Readings;
+use crate::handoff::{LblFix, Readings};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

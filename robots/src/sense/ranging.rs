@@ -14,8 +14,7 @@
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::{RobotError, require};
-use crate::handoff::Readings;
-use crate::handoff::{Beam, RangeScan};
+use crate::handoff::{Beam, RangeScan, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

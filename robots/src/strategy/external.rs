@@ -13,10 +13,9 @@ use super::catalogue::StrategySpec;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
-    Reply, ReplyOutcome, Setting, Vertical,
+    Reply, ReplyOutcome, Setting, Shown, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

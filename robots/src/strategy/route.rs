@@ -73,10 +73,8 @@ impl StrategyParams for RouteSpec {
 /// State of the strategy.
 #[derive(Debug)]
 pub struct Route {
+    spec: RouteSpec,
     points: Vec<Vector2<f64>>,
-    speed_m_s: f64,
-    vertical: Option<Vertical>,
-    stay_s: f64,
     next: usize,
     stays_until_s: Option<f64>,
     goal: Option<Goal>,
@@ -86,23 +84,16 @@ impl Route {
     /// Before its first place.
     #[must_use]
     pub fn new(spec: &RouteSpec) -> Self {
-        Self {
-            points: (spec.points.iter()).map(|(east, north)| Vector2::new(east.get(), north.get())).collect(),
-            speed_m_s: spec.speed_m_s.get(),
-            vertical: spec.vertical.map(Vertical::from),
-            stay_s: spec.stay_s.get(),
-            next: 0,
-            stays_until_s: None,
-            goal: None,
-        }
+        let points = spec.points.iter().map(|(east, north)| Vector2::new(east.get(), north.get()));
+        Self { spec: spec.clone(), points: points.collect(), next: 0, stays_until_s: None, goal: None }
     }
 
     fn to(&mut self, manoeuvre: Manoeuvre, seen: &Observation) -> Goal {
         let goal = Goal {
             id: self.goal.map_or(1, |g| g.id + 1),
             manoeuvre,
-            vertical: (self.vertical).unwrap_or(Vertical::Depth(seen.estimate.depth_m.max(0.0))),
-            speed_m_s: self.speed_m_s,
+            vertical: (self.spec.vertical).map_or(Vertical::Depth(seen.estimate.depth_m.max(0.0)), Vertical::from),
+            speed_m_s: self.spec.speed_m_s.get(),
         };
         self.goal = Some(goal);
         goal
@@ -123,8 +114,9 @@ impl Strategy for Route {
             Some(until_s) if seen.t_s < until_s => return Decision::new(Behaviour::GoTo, goal),
             Some(_) => self.stays_until_s = None,
             None if seen.guidance.done && seen.guidance.goal_id == goal.id => {
-                if self.stay_s > 0.0 {
-                    self.stays_until_s = Some(seen.t_s + self.stay_s);
+                let stay_s = self.spec.stay_s.get();
+                if stay_s > 0.0 {
+                    self.stays_until_s = Some(seen.t_s + stay_s);
                     let hold = Manoeuvre::Hold { point, heading: None };
                     return Decision::new(Behaviour::GoTo, self.to(hold, seen));
                 }

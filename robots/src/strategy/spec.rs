@@ -2,8 +2,7 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::Shown;
-use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Vertical};
+use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;

@@ -10,7 +10,7 @@ use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
 use crate::handoff::{
     ExchangeTiming, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, MotionOrder, Outcome,
-    ReplyOutcome, TrackerState,
+    ReplyOutcome,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -63,14 +63,7 @@ impl GantryStrategyParams for ExternalSpec {
             on_late: self.on_late,
             fastest_m_s: Vector2::from(layout.max_speed_m_s),
             travel_m: layout.travel_m,
-            last: GantryDecision {
-                behaviour: GantryBehaviour::Idle,
-                id: 0,
-                target_m: Vector2::zeros(),
-                speed_m_s: Vector2::zeros(),
-                working: TrackerState::default(),
-                stopped: None,
-            },
+            last: GantryDecision::default(),
         }))
     }
 

@@ -11,13 +11,11 @@
 use super::super::spec::Strategy;
 use super::super::survey::{PostDeclaration, Progress};
 use super::spec::{AmpSpec, Detections};
-use crate::behave::{Behave, Stride};
-use crate::behave::{GoHome, GoTo};
+use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Shown, Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
@@ -32,7 +30,7 @@ struct Behaviours {
     track_in: Box<dyn Behave>,
     track_out: Box<dyn Behave>,
     reacquire: Box<dyn Behave>,
-    go_home: GoHome,
+    go_home: GoTo,
 }
 
 impl Behaviours {
@@ -58,7 +56,6 @@ impl Behaviours {
 /// State of the planner.
 #[derive(Debug)]
 pub struct Amp {
-    speed_m_s: f64,
     vertical: Vertical,
     rule: DeclareSpec,
     /// What the rule looked at last.
@@ -80,9 +77,8 @@ impl Amp {
     /// [`RobotError::Invalid`] if a behaviour's parameters make no sense.
     pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
         spec.declare.check(spec.lost_points, spec.lcdps)?;
-        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
+        let vertical = spec.vertical.into();
         Ok(Self {
-            speed_m_s,
             vertical,
             rule: spec.declare.clone(),
             zone: Zone::default(),
@@ -95,12 +91,12 @@ impl Amp {
                 track_in: spec.track_in.build()?,
                 track_out: spec.track_out.build()?,
                 reacquire: spec.reacquire.build()?,
-                go_home: GoHome::default(),
+                go_home: GoTo::home(),
             },
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             fixes: spec.fixes,
             now: Behaviour::Idle,
-            goal: Goal::none_yet(vertical, speed_m_s),
+            goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
             outcome: None,
         })
     }
@@ -151,9 +147,7 @@ impl Amp {
     /// Turns what a behaviour asks for into the goal; true if it asks for nothing more.
     fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
         match stride {
-            Stride::Start(manoeuvre) => {
-                self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, speed_m_s: self.speed_m_s }
-            }
+            Stride::Start(manoeuvre) => self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, ..self.goal },
             Stride::Adjust(manoeuvre) => self.goal.manoeuvre = manoeuvre,
             Stride::Keep => {}
             Stride::Over => return true,

@@ -17,9 +17,8 @@ use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::{RobotError, require};
-use crate::handoff::Shown;
 use crate::handoff::{
-    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Shown, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
@@ -37,14 +36,9 @@ const HOME_M: f64 = 10.0;
 /// State of the strategy.
 #[derive(Debug)]
 pub struct MapAndPlan {
-    speed_m_s: f64,
-    vertical: Vertical,
-    arrive_m: f64,
-    at_target: AtTarget,
-    after: AfterDeclaration,
+    spec: MapAndPlanSpec,
     find: Box<dyn Behave>,
     rule: Box<dyn BeliefRule>,
-    rule_name: &'static str,
     pilot: Pilot,
     memory: PlumeMemory,
     now: Behaviour,
@@ -55,8 +49,7 @@ pub struct MapAndPlan {
     detour: Option<Vector3<f64>>,
     /// The target cell, and which of the places near it (0: the cell itself).
     aim: Option<(usize, u32)>,
-    /// Whether a cell must be visited before it is declared, and the last visited cell.
-    visit_first: bool,
+    /// The last visited cell.
     visited: Option<usize>,
     /// The likeliest cell that is not wholly solid, and the state of map and room for which it was found.
     likeliest: Option<((u64, Revision), usize)>,
@@ -78,24 +71,17 @@ impl MapAndPlan {
             "strategy.after_declaration",
             "MapAndPlan flies no survey; use GoHome or Stop",
         )?;
-        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
         Ok(Self {
-            speed_m_s,
-            vertical,
-            arrive_m: spec.arrive_m.get(),
-            at_target: spec.at_target,
-            after: spec.after_declaration.clone(),
+            spec: spec.clone(),
             find: spec.find.build()?,
             rule: spec.declare.build(),
-            rule_name: spec.declare.name(),
             pilot: Pilot::new(spec, setting)?,
             memory: PlumeMemory::default(),
             now: Behaviour::Idle,
-            goal: Goal::none_yet(vertical, speed_m_s),
+            goal: Goal::none_yet(spec.vertical.into(), spec.speed_m_s.get()),
             leg: None,
             detour: None,
             aim: None,
-            visit_first: spec.visit_first,
             visited: None,
             likeliest: None,
             outcome: None,
@@ -119,8 +105,8 @@ impl MapAndPlan {
         self.goal = Goal {
             id: self.goal.id + u32::from(anew),
             manoeuvre,
-            vertical: z_m.map_or(self.vertical, |z| Vertical::Depth(-z.min(0.0))),
-            speed_m_s: self.speed_m_s,
+            vertical: z_m.map_or(self.spec.vertical.into(), |z| Vertical::Depth(-z.min(0.0))),
+            ..self.goal
         };
     }
 
@@ -129,13 +115,13 @@ impl MapAndPlan {
         let s = self.pilot.steer(seen, wish);
         let course = Manoeuvre::Course { course: s.course };
         self.steer_by(course, s.z_m, s.replanned);
-        s.ended || (wish - seen.estimate.p_WB()).xy().norm() < self.arrive_m
+        s.ended || (wish - seen.estimate.p_WB()).xy().norm() < self.spec.arrive_m.get()
     }
 
     fn search(&mut self, seen: &Observation, rng: &mut Stream) {
         let at = seen.estimate.p_WB();
         let arrived = match self.leg {
-            Some(Manoeuvre::GoToPoint { point, .. }) => (point - at.xy()).norm() < 2.0 * self.arrive_m,
+            Some(Manoeuvre::GoToPoint { point, .. }) => (point - at.xy()).norm() < 2.0 * self.spec.arrive_m.get(),
             _ => false,
         };
         match self.find.step(seen, arrived, &mut self.memory, rng) {
@@ -212,7 +198,7 @@ impl MapAndPlan {
         self.aim = Some((belief.best, place));
         let wish = self.wish(belief, place);
         if self.towards(seen, wish) {
-            let last = match self.at_target {
+            let last = match self.spec.at_target {
                 AtTarget::Circle => 0,
                 AtTarget::Cross(_) => 2,
             };
@@ -229,7 +215,7 @@ impl MapAndPlan {
         if belief.grid.n[2] == 1 {
             p.z = self.pilot.level(p.x, p.y);
         }
-        if let (AtTarget::Cross(c), Some(up), 1..) = (self.at_target, self.memory.up_flow, place) {
+        if let (AtTarget::Cross(c), Some(up), 1..) = (self.spec.at_target, self.memory.up_flow, place) {
             let side = if place == 1 { 1.0 } else { -1.0 };
             let right = up.turned(std::f64::consts::FRAC_PI_2).unit();
             let d = right * (side * c.across_m.get()) - up.unit() * c.down_m.get();
@@ -261,12 +247,12 @@ impl MapAndPlan {
 
     fn declared(&mut self, seen: &Observation, belief: &Belief) -> Option<Declaration> {
         let position = self.rule.step(seen.t_s, belief)?;
-        if self.visit_first && self.visited != Some(belief.best) {
+        if self.spec.visit_first && self.visited != Some(belief.best) {
             return None;
         }
         // The one level of a flat map says nothing of the source's height.
         let z_m = (belief.grid.n[2] > 1).then_some(position.z);
-        Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.rule_name) })
+        Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.spec.declare.name()) })
     }
 }
 
@@ -291,7 +277,7 @@ impl Strategy for MapAndPlan {
             declared = self.declared(seen, belief);
             if declared.is_some() {
                 self.turn_to(
-                    match self.after {
+                    match self.spec.after_declaration {
                         AfterDeclaration::GoHome => Behaviour::GoHome,
                         AfterDeclaration::Stop | AfterDeclaration::Survey(_) => Behaviour::Done,
                     },

@@ -47,10 +47,7 @@ pub(super) struct Pilot {
     room: FreeSpace,
     planner: Box<dyn Planner>,
     bed: Terrain,
-    vertical: Vertical,
-    look_ahead_m: f64,
-    replan_off_m: f64,
-    replan_s: f64,
+    spec: MapAndPlanSpec,
     follow: Option<Follow>,
     reach: Option<Reach>,
     wish: Vector3<f64>,
@@ -79,10 +76,7 @@ impl Pilot {
             room,
             planner,
             bed: setting.bed.clone(),
-            vertical,
-            look_ahead_m: spec.look_ahead_m.get(),
-            replan_off_m: spec.replan_off_m.get(),
-            replan_s: spec.replan_s.get(),
+            spec: spec.clone(),
             follow: None,
             reach: None,
             wish: Vector3::zeros(),
@@ -147,7 +141,7 @@ impl Pilot {
 
     /// Height at which the vehicle moves over a place (east, north) if it has no path in space, z, m.
     pub(super) fn level(&self, x: f64, y: f64) -> f64 {
-        level(self.vertical, &self.bed, x, y)
+        level(self.spec.vertical.into(), &self.bed, x, y)
     }
 
     /// What to steer to reach `wish` (ENU, m).
@@ -155,9 +149,9 @@ impl Pilot {
         let at = seen.estimate.p_WB();
         let mut steer = self.follow.as_mut().map(|f| f.step(&at));
         let moved = (wish - self.wish).norm() > SAME_M;
-        let due = seen.t_s - self.planned_s >= self.replan_s;
+        let due = seen.t_s - self.planned_s >= self.spec.replan_s.get();
         let ended = steer.is_some_and(|s| s.left_m < END_M);
-        let off = steer.is_some_and(|s| s.off_m > self.replan_off_m);
+        let off = steer.is_some_and(|s| s.off_m > self.spec.replan_off_m.get());
         let again = steer.is_none() || (due && (moved || ended || off || self.closed()));
         if again {
             let start =
@@ -167,7 +161,7 @@ impl Pilot {
                 let NoPath::Full = full;
                 Path { points: vec![at, wish], reach: Reach::Goal, leaves_solid: true, tightest_m: 0.0 }
             });
-            let mut follow = Follow::new(&path, self.look_ahead_m);
+            let mut follow = Follow::new(&path, self.spec.look_ahead_m.get());
             steer = Some(follow.step(&at));
             self.follow = Some(follow);
             self.reach = Some(path.reach);

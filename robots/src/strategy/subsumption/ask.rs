@@ -27,19 +27,6 @@ impl Kind {
             Kind::GoHome => "go_home",
         }
     }
-
-    /// Its name in the scenario.
-    pub(super) fn variant(self) -> &'static str {
-        match self {
-            Kind::Find => "Find",
-            Kind::Maintain => "Maintain",
-            Kind::Reacquire => "Reacquire",
-            Kind::Declare => "Declare",
-            Kind::Avoid => "Avoid",
-            Kind::PlumeMap => "PlumeMap",
-            Kind::GoHome => "GoHome",
-        }
-    }
 }
 
 /// What a layer asks for.

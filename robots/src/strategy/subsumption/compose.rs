@@ -6,7 +6,7 @@ use super::maintain::Maintain;
 use super::plume::PlumeLayers;
 use super::plume_map::PlumeMap;
 use super::spec::{LayerSpec, SubsumptionSpec};
-use crate::behave::{GoHome, SoftAvoid};
+use crate::behave::{GoTo, SoftAvoid};
 use crate::declare::DeclareSpec;
 use crate::error::{RobotError, require};
 use crate::handoff::Setting;
@@ -31,7 +31,7 @@ pub(super) struct Layers {
     pub(super) plume: PlumeLayers,
     pub(super) declare: Option<DeclareSpec>,
     pub(super) avoid: Option<SoftAvoid>,
-    pub(super) go_home: Option<GoHome>,
+    pub(super) go_home: Option<GoTo>,
 }
 
 /// Which layer must be above which other, and why.
@@ -62,8 +62,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     for (i, kind) in order.iter().enumerate() {
         let first = place(*kind).unwrap_or(i);
         if first < i {
-            let name = kind.variant();
-            let problem = format!("there already is a {name}, layers[{first}]; each layer may occur once");
+            let problem = format!("there already is a {kind:?}, layers[{first}]; each layer may occur once");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -71,11 +70,10 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         (Kind::Find, "nothing would move the vehicle before the first detection"),
         (Kind::Maintain, "detections would have no effect"),
     ] {
-        let name = kind.variant();
         require(
             place(kind).is_some(),
             "strategy.Subsumption.layers",
-            format!("there is no {name}: {why}; add {name}(...)"),
+            format!("there is no {kind:?}: {why}; add {kind:?}(...)"),
         )?;
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
@@ -90,8 +88,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         if let (Some(i), Some(j)) = (place(*upper), place(*lower))
             && i < j
         {
-            let (u, l) = (upper.variant(), lower.variant());
-            let problem = format!("{u} must be above (after) {l}, layers[{j}]: {why}");
+            let problem = format!("{upper:?} must be above (after) {lower:?}, layers[{j}]: {why}");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -123,7 +120,7 @@ impl Layers {
                     let problem = "needs a source map, and the robot has none; add one, for example map: Hmm()";
                     return Err(wrong(&format!("layers[{i}]"), problem.into()));
                 }
-                LayerSpec::GoHome(_) => go_home = Some(GoHome::default()),
+                LayerSpec::GoHome(_) => go_home = Some(GoTo::home()),
             }
         }
         Ok(Self {

@@ -32,10 +32,9 @@ use super::spec::SubsumptionSpec;
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Verdict,
-    Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Shown,
+    Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use world::seeds::Stream;
