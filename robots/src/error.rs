@@ -35,3 +35,11 @@ impl RobotError {
 pub(crate) fn require(holds: bool, field: impl Into<String>, problem: impl Into<String>) -> Result<(), RobotError> {
     if holds { Ok(()) } else { Err(RobotError::invalid(field, problem)) }
 }
+
+/// What must hold in a vehicle's files.
+///
+/// # Errors
+/// What is wrong, if it does not hold.
+pub(crate) fn ensure(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(problem()) }
+}

@@ -6,9 +6,11 @@
 //!
 //! *Deviations*: none.
 
+use crate::error::RobotError;
 use crate::handoff::{Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use std::fmt::Debug;
+use world::registry::Spec;
 use world::seeds::Stream;
 
 /// What a behaviour answers in a tick.
@@ -31,4 +33,18 @@ pub trait Behave: Debug + Send + Sync {
 
     /// One tick. `arrived` says whether the guidance has reached the last goal.
     fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, rng: &mut Stream) -> Stride;
+}
+
+/// Parameters of a behaviour.
+pub trait BehaviourParams: Spec {
+    /// Builds the behaviour.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
+
+    /// Its field that asks the vehicle to wait at a place, if it is set.
+    fn waits(&self) -> Option<&'static str> {
+        None
+    }
 }

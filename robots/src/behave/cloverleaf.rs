@@ -18,7 +18,7 @@
 //! last detection points stays. If the vehicle turns wider than `turn_radius_m`, leaves that are too short for its
 //! turns are lengthened to the bound.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};

@@ -15,7 +15,7 @@
 //! vehicle keeps its heading and turns at edges like a mirror reflection; the actual search begins with the first
 //! flow estimate.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation};

@@ -13,9 +13,9 @@ mod track_in;
 mod track_out;
 
 pub use avoid::{Params as AvoidParams, SoftAvoid};
-pub use behaviour::{Behave, Stride};
+pub use behaviour::{Behave, BehaviourParams, Stride};
 pub use catalogue::{
-    BehaviourParams, FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec, TracksIn, TracksOut,
+    FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec, TracksIn, TracksOut,
 };
 pub use cloverleaf::{Cloverleaf, Params as CloverleafParams};
 pub use find::{Params as ZigZagParams, ZigZag};

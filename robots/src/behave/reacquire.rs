@@ -14,7 +14,7 @@
 //! a hull that turns wider than a REMUS has straight water to search, too. The ends of a line are held 10 m inside the
 //! area. With N_re = 1 the bowtie is centred on the point.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};

@@ -10,7 +10,7 @@
 //! which is the counter-turn. LHS is set before the course, not after it, which saves a delay of one sample. As long
 //! as no flow has been measured, the vehicle's heading stands for up-flow.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation, Side, detects};

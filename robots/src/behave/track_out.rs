@@ -16,7 +16,7 @@
 //! `far_m`, held between `least` and 1. With fewer points they are not reduced. A vehicle that goes sideways does so
 //! with its nose up-flow; one that hovers may wait at the lost point first (`wait_s`).
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation};

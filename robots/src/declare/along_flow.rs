@@ -9,7 +9,7 @@
 //! time when they were stored. As in the paper, the difference across the flow is not tested. The paper names that
 //! among the causes of its 31 m error, and a bound on it as future work: `across_m` is that bound.
 
-use super::catalogue::{DeclareParams, Points};
+use super::rule::{DeclareParams, Points};
 use crate::handoff::{Evidence, Lcdp, Zone};
 use crate::memory::{PlumeMemory, most_up_flow_first};
 use nalgebra::Vector2;

@@ -9,8 +9,8 @@
 //!
 //! *Deviations*: none of the papers has this rule.
 
-use super::catalogue::{BeliefRule, BeliefRuleParams};
 use super::held::HeldCondition;
+use super::rule::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;

@@ -10,7 +10,7 @@
 //! must be left (the algorithm), not more than N_min (the text). Of equally far points the most down-flow one is
 //! removed first. N_ini is 1, which has no effect: the paper says that it matters only for very small N_min.
 
-use super::catalogue::DeclareParams;
+use super::rule::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
 use crate::handoff::{Evidence, Lcdp, Zone};

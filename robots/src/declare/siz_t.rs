@@ -11,7 +11,7 @@
 //! queue in up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this
 //! rule with these 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
 
-use super::catalogue::DeclareParams;
+use super::rule::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
 use crate::handoff::{Evidence, Lcdp, Zone};

@@ -6,7 +6,7 @@
 //!
 //! *Deviations*: time counts from the first detection on. Before it the map knows nothing and would not change.
 
-use super::catalogue::{BeliefRule, BeliefRuleParams};
+use super::rule::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;

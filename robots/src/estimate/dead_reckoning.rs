@@ -12,7 +12,6 @@
 //! the position is integrated by the trapezium rule. Flow = R · (ground velocity + water relative to the vehicle),
 //! with R from the believed attitude: a heading error turns the flow, but does not add the vehicle's speed to it.
 
-use super::Start;
 use super::layers::{LayerAwareSpec, LayerWatch};
 use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
 use bevy_ecs::prelude::Component;
@@ -23,6 +22,7 @@ use smart_default::SmartDefault;
 use world::clock::Clock;
 use world::math;
 use world::ranges::{Fraction, NonNegative};
+use world::units::Heading;
 
 /// Parameters of dead reckoning.
 #[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +36,17 @@ pub struct DeadReckoningSpec {
     pub flow_filter_s: NonNegative,
     /// Take the flow only from the vehicle's own water layer, which a CTD tells.
     pub layer_aware: Option<LayerAwareSpec>,
+}
+
+/// What the vehicle knows of its state at launch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Position (east, north), m.
+    pub position: Vector2<f64>,
+    /// Heading.
+    pub heading: Heading,
+    /// Depth below the still surface, m.
+    pub depth_m: f64,
 }
 
 /// State of dead reckoning.

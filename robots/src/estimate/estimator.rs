@@ -1,12 +1,10 @@
 //! The estimator that a scenario chose.
 
-use super::{DeadReckoning, DeadReckoningSpec};
+use super::{DeadReckoning, DeadReckoningSpec, Start};
 use crate::handoff::Need;
-use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
-use world::units::Heading;
 
 /// Which estimator, with its parameters.
 #[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -40,17 +38,6 @@ impl EstimatorSpec {
         let Self::DeadReckoning(spec) = self;
         DeadReckoning::new(spec, start, dt_s)
     }
-}
-
-/// What the vehicle knows of its state at launch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// Position (east, north), m.
-    pub position: Vector2<f64>,
-    /// Heading.
-    pub heading: Heading,
-    /// Depth below the still surface, m.
-    pub depth_m: f64,
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! What the instruments reported in this tick; `None` if one did not report.
 
-use super::{Attitude, Picture, SidescanPing};
+use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use std::sync::Arc;
+use world::units::Heading;
 
 /// Chemical sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,28 @@ pub struct AdcpReading {
     pub above_m: f64,
     /// False if the cell reaches beyond the surface or the bed.
     pub valid: bool,
+}
+
+/// Attitude, as read or believed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attitude {
+    /// Heading.
+    pub heading: Heading,
+    /// Roll, right side down positive, rad.
+    pub roll_rad: f64,
+    /// Pitch, nose *up* positive, rad.
+    pub pitch_rad: f64,
+    /// Angular rates in body axes (FLU), rad/s.
+    pub rates_rad_s: Vector3<f64>,
+}
+
+impl Attitude {
+    /// Rotation from body axes (FLU) to world axes (ENU), as believed. A rotation about FLU's y is positive nose
+    /// down.
+    #[must_use]
+    pub fn R_WB(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
+    }
 }
 
 /// Pressure sensor.

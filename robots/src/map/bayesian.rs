@@ -11,8 +11,8 @@
 //! = `false_detection`: (1 − ε) β + ε / n. Otherwise as `Pomdp`.
 
 use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
+use super::mapper::{MapParams, Mapper};
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;

@@ -16,11 +16,11 @@
 //! weight of the particles in each cell, with the share ε spread over all cells.
 
 use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::cost::{PARTICLE_S, by_kernel};
 use super::evidence::{DoubtSpec, mixed};
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
+use super::mapper::{MapParams, Mapper};
 use super::shifts::Shifts;
 use super::spec::{GridSpec, TrajectorySpec, must};
 use super::watch::MapObservation;

@@ -11,8 +11,8 @@
 //! update period count as one. There is no update while the vehicle is outside the grid. Kernel: see `kernel`.
 
 use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
+use super::mapper::{MapParams, Mapper};
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;

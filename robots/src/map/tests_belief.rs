@@ -1,11 +1,12 @@
 //! Beliefs stay beliefs: sums, hours of updates, memory, and no preferred place or direction.
 
 use super::bayesian::BayesianSpec;
-use super::catalogue::{MapSpec, Mapper};
+use super::catalogue::MapSpec;
 use super::flow_history::FlowHistory;
 use super::hmm::HmmSpec;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
+use super::mapper::Mapper;
 use super::particle_filter::ParticleFilterSpec;
 use super::pomdp::PomdpSpec;
 use super::spec::{GridSpec, TrajectorySpec};

@@ -12,9 +12,9 @@
 //! `paper_cost.rs`), and the default cost is the length. See `search.rs` for the search, `smooth.rs` for the
 //! smoothing.
 
-use super::catalogue::PlannerParams;
 use super::ends::Ends;
 use super::paper_cost::FiveMoves;
+use super::planner::PlannerParams;
 use super::search::{Costs, Search};
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach, smooth};
 use crate::error::{RobotError, require};

@@ -13,7 +13,7 @@
 //! also ends if thirty steps bring it no farther than three should: then it is in a minimum, where the path ends and
 //! says so.
 
-use super::catalogue::PlannerParams;
+use super::planner::PlannerParams;
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach};
 use crate::error::{RobotError, require};
 use crate::handoff::BeliefGrid;

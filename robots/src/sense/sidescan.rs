@@ -23,7 +23,7 @@
 
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
-use super::sidescan_fan::Fan;
+use super::sidescan_fan::{Fan, from_db};
 use crate::error::{RobotError, require};
 use crate::handoff::{Readings, SidescanPing};
 use nalgebra::Vector3;
@@ -209,10 +209,6 @@ impl Sidescan {
         };
         Some(SidescanPing { p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
     }
-}
-
-pub(super) fn from_db(db: f64) -> f64 {
-    math::exp(db / 10.0 * LN_10)
 }
 
 #[cfg(test)]

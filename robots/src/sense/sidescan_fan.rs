@@ -13,7 +13,7 @@
 //! the track it has sharp edges.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, LN_10};
 use world::math;
 use world::obstacles::{Obstacle, Obstacles};
 use world::terrain::Terrain;
@@ -142,7 +142,7 @@ impl Fan {
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let (way, normal, strength) = match (solid, bed) {
-            (Some((way, normal, db)), _) => (way, normal, super::sidescan::from_db(db)),
+            (Some((way, normal, db)), _) => (way, normal, from_db(db)),
             (None, Some(way)) => {
                 let p = from + dir * way;
                 (way, terrain.normal(p.x, p.y), self.bed)
@@ -192,4 +192,8 @@ fn axes(R_WB: &UnitQuaternion<f64>, port: bool) -> Axes {
     // A vehicle that stands on its tail has no level side: then use its own.
     let left = if level.norm() > 1e-6 { level.normalize() } else { R_WB * Vector3::y() };
     Axes { side: if port { left } else { -left }, down: left.cross(&ahead), ahead }
+}
+
+pub(super) fn from_db(db: f64) -> f64 {
+    math::exp(db / 10.0 * LN_10)
 }

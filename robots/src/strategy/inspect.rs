@@ -10,8 +10,9 @@
 //! is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared again with the
 //! survey's verdict. The mission is completed after the last place, on the spot.
 
-use super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::spec::{Strategy, StrategyParams};
 use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
+use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::behave::Stride;
 use crate::error::{RobotError, require};

@@ -7,7 +7,8 @@
 //!
 //! *Deviations*: a vehicle that hovers holds its place while it stays; any other circles round it.
 
-use super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::spec::{Strategy, StrategyParams};
+use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::error::{RobotError, require};
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};

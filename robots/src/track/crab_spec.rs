@@ -2,7 +2,7 @@
 
 use super::advance::{self, AdvanceSpec};
 use super::builder::{KEPT, SweepSpec};
-use super::decide::Rules;
+use super::decide::{AtEnd, Rules};
 use super::history::{HistorySpec, Over};
 use super::pace::{self, PaceSpec};
 use super::predictor::PredictorSpec;
@@ -49,15 +49,6 @@ pub struct CrabSpec {
     /// What the up-stream end of the travel means.
     #[default(AtEnd::Fails)]
     pub at_end: AtEnd,
-}
-
-/// What the up-stream end of the travel means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum AtEnd {
-    /// The search has failed.
-    Fails,
-    /// The head stops there, as it does where the rule of stopping says so.
-    Stops,
 }
 
 impl CrabSpec {

@@ -4,7 +4,7 @@
 //! [`Files`]; the simulation's reads the folder of the scenario file. [`InMemory`] holds the files in memory.
 
 use super::folder::VehicleFile;
-use crate::error::RobotError;
+use crate::error::{RobotError, ensure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use world::encoding;
@@ -59,9 +59,7 @@ impl Files for InMemory {
 
     fn bytes(&self, name: &Path, most_bytes: u64) -> Result<Vec<u8>, String> {
         let bytes = self.0.get(name).ok_or("there is no such file")?;
-        if bytes.len() as u64 > most_bytes {
-            return Err(format!("it is longer than {most_bytes} bytes"));
-        }
+        ensure(bytes.len() as u64 <= most_bytes, || format!("it is longer than {most_bytes} bytes"))?;
         Ok(bytes.clone())
     }
 

@@ -10,7 +10,8 @@
 //! path's end even if place or heading were missed, and at the latest after three times the first path's duration
 //! plus a minute (however often it was planned again), so that it never circles for ever.
 
-use super::path::{DubinsPath, Pose};
+use super::arc::Pose;
+use super::path::DubinsPath;
 use nalgebra::Vector2;
 use world::units::Heading;
 

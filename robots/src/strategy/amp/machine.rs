@@ -8,14 +8,16 @@
 //! survey of the declared place (see `strategy/survey`); the mission is completed at home. After a rejected place the
 //! vehicle continues the search. A cage abort ends the mission at once.
 
-use super::super::spec::Strategy;
+use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::{PostDeclaration, Progress};
+use super::super::wishes::Wishes;
 use super::spec::{AmpSpec, Detections};
 use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Shown, Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Lcdp, Need, Observation, Outcome, Setting, Shown, Verdict, Vertical, Zone,
+    detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
@@ -203,6 +205,28 @@ impl Amp {
 
 fn same_bits(a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
     a.map(f64::to_bits) == b.map(f64::to_bits)
+}
+
+impl StrategyParams for AmpSpec {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Amp::new(self)?))
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        needs.extend(self.fixes.needs());
+        needs
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        self.after_declaration.flies_for()
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical)
+            .after(&self.after_declaration)
+            .waiting("track_out", self.track_out.waits())
+    }
 }
 
 impl Strategy for Amp {

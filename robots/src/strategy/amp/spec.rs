@@ -1,13 +1,9 @@
 //! Parameters of the adaptive mission planner.
 
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
-use super::super::wishes::Wishes;
-use super::machine::Amp;
+use super::super::wishes::VerticalSpec;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
-use crate::error::RobotError;
-use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,28 +55,6 @@ impl Listed for AmpSpec {
         what: "adaptive mission planner: find, track in, track out, reacquire, declare, go home",
         source: "Pang 2009, section 5, Fig. 5",
     };
-}
-
-impl StrategyParams for AmpSpec {
-    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Amp::new(self)?))
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let mut needs = self.after_declaration.needs();
-        needs.extend(self.fixes.needs());
-        needs
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        self.after_declaration.flies_for()
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical)
-            .after(&self.after_declaration)
-            .waiting("track_out", self.track_out.waits())
-    }
 }
 
 /// A destination before the search.

@@ -10,19 +10,22 @@
 //! changes: see [`AtTarget`]. A cell that is solid throughout is no target: the paper's map does not know of
 //! obstacles. The map is the robot's own (`map` in the scenario); the strategy is refused if there is none.
 
-use super::super::spec::Strategy;
+use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::AfterDeclaration;
+use super::super::wishes::{NO_DEPTH, Wishes};
 use super::pilot::Pilot;
 use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Shown, Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Shown, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
 use nalgebra::Vector3;
+use world::area::Area;
+use world::cost::{Cost, Times};
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -253,6 +256,33 @@ impl MapAndPlan {
         // The one level of a flat map says nothing of the source's height.
         let z_m = (belief.grid.n[2] > 1).then_some(position.z);
         Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.spec.declare.name()) })
+    }
+}
+
+impl StrategyParams for MapAndPlanSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(MapAndPlan::new(self, setting)?))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        let cells = self.room.cells(setting)?;
+        self.planner.check(&cells, self.room.plane())
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        if !self.room.plane() {
+            needs.push(Need::vital("room", "depth", NO_DEPTH));
+        }
+        needs
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
+        self.work(area, depth_m, obstacles, times)
     }
 }
 

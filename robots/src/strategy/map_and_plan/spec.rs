@@ -1,21 +1,18 @@
 //! Parameters of map and plan.
 
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
-use super::super::wishes::{NO_DEPTH, Wishes};
+use super::super::wishes::VerticalSpec;
 use super::evade::EvadeSpec;
-use super::machine::MapAndPlan;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
 use crate::error::{RobotError, require};
-use crate::handoff::{BeliefGrid, Need, Setting};
+use crate::handoff::{BeliefGrid, Setting};
 use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use world::area::Area;
 use world::catalogue::Entry;
-use world::cost::{Cost, Times};
 use world::limits::shown;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -77,33 +74,6 @@ impl Listed for MapAndPlanSpec {
         what: "zig-zag to the first detection, then planned paths to the map's likeliest cell, until a rule declares",
         source: "Wang & Pang, section II",
     };
-}
-
-impl StrategyParams for MapAndPlanSpec {
-    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(MapAndPlan::new(self, setting)?))
-    }
-
-    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
-        let cells = self.room.cells(setting)?;
-        self.planner.check(&cells, self.room.plane())
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let mut needs = self.after_declaration.needs();
-        if !self.room.plane() {
-            needs.push(Need::vital("room", "depth", NO_DEPTH));
-        }
-        needs
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
-    }
-
-    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
-        self.work(area, depth_m, obstacles, times)
-    }
 }
 
 /// The planner's cells, over the operating area.

@@ -1,7 +1,8 @@
 //! Parameters of a mission over subregions.
 
 use super::super::catalogue::StrategySpec;
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::super::spec::{Strategy, StrategyParams};
+use super::super::wishes::VerticalSpec;
 use super::super::wishes::Wishes;
 use super::machine::Subregions;
 use crate::error::RobotError;

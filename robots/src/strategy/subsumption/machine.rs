@@ -22,19 +22,20 @@
 //! arrive, unless Avoid gives up. For Construct-Plume-Map see `plume_map.rs`. Without a Go-Home layer the mission is
 //! over with the declaration. A cage abort ends it at once.
 
-use super::super::spec::Strategy;
-use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
+use super::super::spec::{Strategy, StrategyParams};
+use super::super::survey::{AfterDeclaration, BLIND, PostDeclaration, Progress};
+use super::super::wishes::Wishes;
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
 use super::eyes::Eyes;
 use super::plume::PlumeRequests;
-use super::spec::SubsumptionSpec;
+use super::spec::{LayerSpec, SubsumptionSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Shown,
-    Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Need, Observation, Outcome, Setting,
+    Shown, Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use world::seeds::Stream;
@@ -297,6 +298,49 @@ impl Subsumption {
         }
         self.command(&holder);
         None
+    }
+}
+
+impl StrategyParams for SubsumptionSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Subsumption::new(self, setting)?))
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let survey = self.survey.as_ref().map(|s| s.needs("survey"));
+        let mut needs = survey.unwrap_or_default();
+        if self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_))) {
+            let so = "sees no obstacle that its Avoid layer could turn away from";
+            needs.push(Need::vital("layers", "ranging", so));
+        }
+        if self.eyes.is_some() {
+            needs.push(Need::vital("eyes", "camera", BLIND));
+        }
+        needs.extend(self.fixes.needs());
+        needs
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        let [sidescan, camera] = self.survey.as_ref().map_or([false; 2], |s| s.flies_for());
+        [sidescan, camera || self.eyes.is_some()]
+    }
+
+    fn wishes(&self) -> Wishes {
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        for (k, layer) in self.layers.iter().enumerate() {
+            if let LayerSpec::Maintain(maintain) = layer {
+                let waits = maintain.track_out.as_ref().and_then(|t| t.waits());
+                wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
+            }
+        }
+        match &self.survey {
+            Some(survey) => wishes.survey("survey", survey),
+            None => wishes,
+        }
+    }
+
+    fn has_layers(&self) -> bool {
+        true
     }
 }
 
