@@ -7,7 +7,7 @@
 //! *Deviations*: none.
 
 use crate::error::RobotError;
-use crate::handoff::{Manoeuvre, Observation};
+use crate::handoff::{Goal, Manoeuvre, Observation, Vertical};
 use crate::memory::PlumeMemory;
 use std::fmt::Debug;
 use world::registry::Spec;
@@ -24,6 +24,17 @@ pub enum Stride {
     Keep,
     /// The behaviour has ended.
     Over,
+}
+
+impl Stride {
+    /// Changes the goal by it; a new goal is at that height.
+    pub(crate) fn turn(self, goal: &mut Goal, vertical: Vertical) {
+        match self {
+            Self::Start(manoeuvre) => *goal = Goal { id: goal.id + 1, manoeuvre, vertical, ..*goal },
+            Self::Adjust(manoeuvre) => goal.manoeuvre = manoeuvre,
+            Self::Keep | Self::Over => {}
+        }
+    }
 }
 
 /// A behaviour: a plain state machine with one purpose.

@@ -54,6 +54,12 @@ pub struct GuidanceSpec {
 }
 
 impl GuidanceSpec {
+    /// Turn, rad, of a vehicle that is so far to the left of its way (eq. 8 of Pang 2009).
+    pub(super) fn turn_to_line(&self, off_m: f64) -> f64 {
+        let capture_rad = self.line_capture_deg.get().to_radians();
+        (self.line_gain_deg_m.get().to_radians() * off_m).clamp(-capture_rad, capture_rad)
+    }
+
     /// Radius of the tightest turn of a REMUS that follows the commanded heading, m: that of its speed and rate, or the
     /// planned one if that is less.
     #[must_use]

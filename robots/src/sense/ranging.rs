@@ -13,6 +13,7 @@
 
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
+use super::tools::EchoTarget;
 use crate::error::{RobotError, require};
 use crate::handoff::{Beam, RangeScan, Readings};
 use nalgebra::Vector3;
@@ -24,7 +25,6 @@ use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
-use world::obstacles::Obstacles;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
 use world::terrain::Terrain;
@@ -96,7 +96,7 @@ impl SensorParams for RangingSpec {
 
 impl Sensor for Ranging {
     fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
-        readings.ranging = self.read(around.clock, around.truth, around.obstacles, around.terrain);
+        readings.ranging = self.read(around.clock, around.truth, &around.below());
     }
 }
 
@@ -142,13 +142,7 @@ impl Ranging {
     }
 
     /// The ping of this step, if one is due.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
-    ) -> Option<RangeScan> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, target: &EchoTarget) -> Option<RangeScan> {
         if !self.at.due(clock) {
             return None;
         }
@@ -163,8 +157,8 @@ impl Ranging {
                 continue;
             }
             let dir = truth.pose.R_WB * dir_B;
-            let solid = obstacles.ray(&from, &dir, max_m);
-            let bed = way_to_bed(terrain, &from, &dir, solid.unwrap_or(max_m));
+            let solid = target.obstacles.ray(&from, &dir, max_m);
+            let bed = way_to_bed(target.terrain, &from, &dir, solid.unwrap_or(max_m));
             let echo_m = solid.into_iter().chain(bed).min_by(f64::total_cmp);
             match echo_m {
                 Some(range) if range < min_m => {}

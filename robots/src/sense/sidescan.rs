@@ -24,6 +24,7 @@
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::sidescan_fan::{Fan, from_db};
+use super::tools::EchoTarget;
 use crate::error::{RobotError, require};
 use crate::handoff::{Readings, SidescanPing};
 use nalgebra::Vector3;
@@ -37,10 +38,8 @@ use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
-use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
-use world::terrain::Terrain;
 
 /// Most samples on a side.
 const MOST: u32 = 4096;
@@ -118,8 +117,7 @@ impl SensorParams for SidescanSpec {
 
 impl Sensor for Sidescan {
     fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
-        readings.sidescan =
-            self.read(around.clock, around.truth, around.obstacles, around.terrain, around.asked.survey);
+        readings.sidescan = self.read(around.clock, around.truth, &around.below(), around.asked.survey);
     }
 }
 
@@ -183,21 +181,14 @@ impl Sidescan {
     }
 
     /// The ping of this step, if one is due; `surveying` says whether the vehicle is on a survey.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
-        surveying: bool,
-    ) -> Option<SidescanPing> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, target: &EchoTarget, surveying: bool) -> Option<SidescanPing> {
         if !self.at.due(clock) || !(surveying || self.always) {
             return None;
         }
         let (from, p_BS) = (self.at.place(truth), self.at.p_BS);
         let mut side = |port: bool| -> Arc<[f32]> {
             self.echo.fill(0.0);
-            (self.fan).sound(&from, &truth.pose.R_WB, port, obstacles, terrain, &mut self.echo);
+            (self.fan).sound(&from, &truth.pose.R_WB, port, target, &mut self.echo);
             let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
                 // Echo and noise are sums of many waves of random phase, so the intensity of their sum is
                 // exponential.

@@ -12,6 +12,7 @@
 //! were plane there: edges are sharp to a sample. The beam is Gaussian in the vertical with a floor of −40 dB; along
 //! the track it has sharp edges.
 
+use super::tools::EchoTarget;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::{FRAC_PI_2, LN_10};
 use world::math;
@@ -58,10 +59,10 @@ impl Fan {
         from: &Vector3<f64>,
         R_WB: &UnitQuaternion<f64>,
         port: bool,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
+        target: &EchoTarget,
         echo: &mut [f64],
     ) {
+        let EchoTarget { terrain, obstacles } = target;
         let axes = axes(R_WB, port);
         let near = self.near(from, &axes, obstacles);
         let (height, tilt) = self.bed_below(from, &axes, terrain);

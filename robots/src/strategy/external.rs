@@ -105,10 +105,6 @@ impl StrategyParams for ExternalSpec {
         needs.into_iter().map(|n| n.within("on_late")).collect()
     }
 
-    fn flies_for(&self) -> [bool; 2] {
-        self.fallback().map_or([false; 2], |spec| spec.flies_for())
-    }
-
     fn wishes(&self) -> Wishes {
         self.fallback().map(|spec| spec.wishes().within("on_late")).unwrap_or_default()
     }

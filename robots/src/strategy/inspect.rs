@@ -91,10 +91,6 @@ impl StrategyParams for InspectSpec {
         self.survey.needs("survey")
     }
 
-    fn flies_for(&self) -> [bool; 2] {
-        self.survey.flies_for()
-    }
-
     fn wishes(&self) -> Wishes {
         Wishes::mission(self.speed_m_s, self.vertical).survey("survey", &self.survey)
     }
@@ -133,24 +129,14 @@ impl Inspect {
         })
     }
 
-    fn begin(&mut self, manoeuvre: Manoeuvre, vertical: Vertical) {
-        self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, ..self.goal };
-    }
-
     /// One step of the survey; at its end, the declaration with its verdict.
     fn survey(&mut self, seen: &Observation) -> Option<Declaration> {
         let arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
         match self.post.step(seen, arrived) {
-            Progress::Go(Stride::Start(manoeuvre)) => {
-                let vertical = self.post.vertical().unwrap_or(self.vertical);
-                self.begin(manoeuvre, vertical);
+            Progress::Go(stride) => {
+                stride.turn(&mut self.goal, self.post.vertical().unwrap_or(self.vertical));
                 None
             }
-            Progress::Go(Stride::Adjust(manoeuvre)) => {
-                self.goal.manoeuvre = manoeuvre;
-                None
-            }
-            Progress::Go(Stride::Keep | Stride::Over) => None,
             Progress::Over(declaration) => {
                 self.surveying = false;
                 self.now += 1;
@@ -166,7 +152,7 @@ impl Inspect {
             Some(point) => {
                 let point = *point;
                 let to = Manoeuvre::GoToPoint { point, radius_m: None };
-                self.begin(to, self.vertical);
+                Stride::Start(to).turn(&mut self.goal, self.vertical);
             }
             None => self.outcome = Some(Outcome::Completed),
         }

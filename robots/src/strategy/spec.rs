@@ -46,11 +46,6 @@ pub trait StrategyParams: Spec {
         Vec::new()
     }
 
-    /// Whether it flies passes for sidescan and camera after a declaration.
-    fn flies_for(&self) -> [bool; 2] {
-        [false; 2]
-    }
-
     /// The heights and speeds that it will command. Who commands any needs instruments to hold them.
     fn wishes(&self) -> Wishes {
         Wishes::default()

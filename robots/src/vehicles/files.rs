@@ -24,7 +24,9 @@ pub trait Files {
     ///
     /// # Errors
     /// Why it cannot be read, without its path; if it is not UTF-8, with the line.
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String>;
+    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
+        encoding::text(&self.bytes(name, most_bytes)?)
+    }
 
     /// Reads the text of a `vehicle.ron`; errors call it `path`.
     ///
@@ -61,11 +63,6 @@ impl Files for InMemory {
         let bytes = self.0.get(name).ok_or("there is no such file")?;
         ensure(bytes.len() as u64 <= most_bytes, || format!("it is longer than {most_bytes} bytes"))?;
         Ok(bytes.clone())
-    }
-
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
-        let bytes = self.bytes(name, most_bytes)?;
-        encoding::text(&bytes)
     }
 }
 

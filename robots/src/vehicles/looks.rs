@@ -9,7 +9,7 @@
 //! do all of a vehicle with rudder, stern plane and propeller, so that a positive set-point turns it the right way.
 
 use super::drives::{CurveSpec, DriveSpec};
-use super::urdf_parts::{UrdfText, pose_of, shape};
+use super::urdf_parts::{UrdfText, colour, pose_of, shape};
 use nalgebra::Vector3;
 use urdf_rs::{Geometry, JointType, Link, Robot};
 use world::frames::Pose;
@@ -154,7 +154,8 @@ pub(super) fn looks(robot: &Robot, link: &Link, urdf: &UrdfText) -> Vec<Look> {
         other => shape(other, urdf).ok().map(Form::Solid),
     };
     let seen = link.visual.iter().filter_map(|visual| {
-        Some(Look { form: form(&visual.geometry)?, pose: pose_of(&visual.origin), colour: colour(robot, visual) })
+        let colour = colour(robot, visual).map(|c| c.map(|v| v as f32));
+        Some(Look { form: form(&visual.geometry)?, pose: pose_of(&visual.origin), colour })
     });
     let seen: Vec<Look> = seen.collect();
     if !seen.is_empty() {
@@ -177,15 +178,4 @@ fn triangles(name: &str, scale: &Vector3<f64>, urdf: &UrdfText) -> Option<Vec<[V
         all.iter_mut().for_each(|t| t.swap(1, 2));
     }
     Some(all)
-}
-
-/// Colour of a visual: its own, or that of the material of its name.
-fn colour(robot: &Robot, visual: &urdf_rs::Visual) -> Option<[f32; 4]> {
-    let material = visual.material.as_ref()?;
-    let named = || {
-        let same = robot.materials.iter().find(|m| m.name == material.name);
-        same.and_then(|m| m.color.clone())
-    };
-    let colour = material.color.clone().or_else(named)?;
-    Some(colour.rgba.0.map(|v| v.clamp(0.0, 1.0) as f32))
 }

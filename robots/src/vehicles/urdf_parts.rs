@@ -16,6 +16,14 @@ use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
 
+/// Colour of a visual, each part within 0 to 1: its own, or that of the material of its name.
+pub(super) fn colour(robot: &Robot, visual: &urdf_rs::Visual) -> Option<[f64; 4]> {
+    let own = visual.material.as_ref()?;
+    let named = || robot.materials.iter().find(|m| m.name == own.name)?.color.as_ref();
+    let colour = own.color.as_ref().or_else(named)?;
+    Some(colour.rgba.0.map(|v| v.clamp(0.0, 1.0)))
+}
+
 /// Longest file read, bytes: a robot is text of some kilobytes.
 const LONGEST: u64 = 16 << 20;
 

@@ -5,5 +5,5 @@ mod follower;
 mod path;
 
 pub use arc::Pose;
-pub(super) use follower::{Follower, FollowerLimits};
+pub(super) use follower::Follower;
 pub use path::DubinsPath;

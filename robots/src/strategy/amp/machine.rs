@@ -16,13 +16,11 @@ use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Need, Observation, Outcome, Setting, Shown, Verdict, Vertical, Zone,
-    detects,
+    Behaviour, Decision, Declaration, Goal, Need, Observation, Outcome, Setting, Shown, Verdict, Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
 use world::seeds::Stream;
-use world::units::Heading;
 
 /// The behaviours it is composed of.
 #[derive(Debug)]
@@ -62,8 +60,6 @@ pub struct Amp {
     rule: DeclareSpec,
     /// What the rule looked at last.
     zone: Zone,
-    /// The newest flow (east, north), m/s, and its up-flow direction: it is measured more seldom than asked.
-    flow: Option<(Vector2<f64>, Heading)>,
     post: PostDeclaration,
     heeds_on_the_way: bool,
     behaviours: Behaviours,
@@ -84,7 +80,6 @@ impl Amp {
             vertical,
             rule: spec.declare.clone(),
             zone: Zone::default(),
-            flow: None,
             post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
             behaviours: Behaviours {
@@ -143,26 +138,15 @@ impl Amp {
             Some(behaviour) => behaviour.step(seen, arrived, &mut self.memory, rng),
             None => Stride::Keep,
         };
-        self.ask(stride, self.vertical)
-    }
-
-    /// Turns what a behaviour asks for into the goal; true if it asks for nothing more.
-    fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
-        match stride {
-            Stride::Start(manoeuvre) => self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, ..self.goal },
-            Stride::Adjust(manoeuvre) => self.goal.manoeuvre = manoeuvre,
-            Stride::Keep => {}
-            Stride::Over => return true,
-        }
-        false
+        stride.turn(&mut self.goal, self.vertical);
+        stride == Stride::Over
     }
 
     /// One step of the survey of a declared place; at its end, the declaration again.
     fn survey(&mut self, seen: &Observation, arrived: bool) -> Option<Declaration> {
         match self.post.step(seen, arrived) {
             Progress::Go(stride) => {
-                let vertical = self.post.vertical().unwrap_or(self.vertical);
-                self.ask(stride, vertical);
+                stride.turn(&mut self.goal, self.post.vertical().unwrap_or(self.vertical));
                 None
             }
             Progress::Over(declaration) => {
@@ -183,28 +167,13 @@ impl Amp {
     }
 
     fn observe(&mut self, seen: &Observation) -> bool {
-        if let Some(flow) = seen.estimate.flow {
-            let known = self.flow.filter(|(of, _)| same_bits(of, &flow.velocity));
-            let (_, up_flow) = known.unwrap_or_else(|| (flow.velocity, flow.up_flow()));
-            self.flow = Some((flow.velocity, up_flow));
-            self.memory.up_flow = Some(up_flow);
-        }
-        self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
             Behaviour::GoHome | Behaviour::Survey | Behaviour::Done => false,
             Behaviour::Idle | Behaviour::GoTo => self.behaviours.go_to.is_none() || self.heeds_on_the_way,
             _ => true,
         };
-        let detected = heeded && detects(seen);
-        if detected {
-            self.memory.last_detection = Some(Lcdp::here(seen));
-        }
-        detected
+        self.memory.observe(seen, self.fixes, heeded)
     }
-}
-
-fn same_bits(a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
-    a.map(f64::to_bits) == b.map(f64::to_bits)
 }
 
 impl StrategyParams for AmpSpec {
@@ -216,10 +185,6 @@ impl StrategyParams for AmpSpec {
         let mut needs = self.after_declaration.needs();
         needs.extend(self.fixes.needs());
         needs
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        self.after_declaration.flies_for()
     }
 
     fn wishes(&self) -> Wishes {

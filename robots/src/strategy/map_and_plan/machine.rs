@@ -289,9 +289,7 @@ impl StrategyParams for MapAndPlanSpec {
 impl Strategy for MapAndPlan {
     fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
         self.pilot.sense(seen);
-        if let Some(flow) = seen.estimate.flow {
-            self.memory.up_flow = Some(flow.up_flow());
-        }
+        self.memory.take_flow(seen);
         if seen.guidance.aborted && self.outcome.is_none() {
             self.outcome = Some(Outcome::Aborted);
             self.turn_to(Behaviour::Done, seen);

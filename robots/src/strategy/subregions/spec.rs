@@ -73,10 +73,6 @@ impl StrategyParams for SubregionsSpec {
         needs.map(|n| n.within("search")).collect()
     }
 
-    fn flies_for(&self) -> [bool; 2] {
-        self.search.flies_for()
-    }
-
     fn wishes(&self) -> Wishes {
         let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
         let search = self.search.wishes().within("search");

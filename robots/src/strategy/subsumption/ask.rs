@@ -54,15 +54,8 @@ impl Ask {
 
 /// Stores what a behaviour asks for; true if that is a new goal.
 pub(super) fn keep(command: &mut Option<Manoeuvre>, stride: Stride) -> bool {
-    match stride {
-        Stride::Start(manoeuvre) => {
-            *command = Some(manoeuvre);
-            true
-        }
-        Stride::Adjust(manoeuvre) => {
-            *command = Some(manoeuvre);
-            false
-        }
-        Stride::Keep | Stride::Over => false,
+    if let Stride::Start(manoeuvre) | Stride::Adjust(manoeuvre) = stride {
+        *command = Some(manoeuvre);
     }
+    matches!(stride, Stride::Start(_))
 }

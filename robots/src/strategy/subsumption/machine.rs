@@ -34,8 +34,8 @@ use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Need, Observation, Outcome, Setting,
-    Shown, Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Manoeuvre, Need, Observation, Outcome, Setting, Shown,
+    Verdict, Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use world::seeds::Stream;
@@ -102,19 +102,6 @@ impl Subsumption {
             goal: Goal::none_yet(Vertical::from(spec.vertical), spec.speed_m_s.get()),
             outcome: None,
         })
-    }
-
-    /// Takes in what is new; true on a detection that reaches the plume's layers.
-    fn observe(&mut self, seen: &Observation) -> bool {
-        if let Some(flow) = seen.estimate.flow {
-            self.memory.up_flow = Some(flow.up_flow());
-        }
-        self.memory.take_fixes(seen, self.fixes);
-        let detected = !self.homing && !self.surveying && detects(seen);
-        if detected {
-            self.memory.last_detection = Some(Lcdp::here(seen));
-        }
-        detected
     }
 
     /// The rule's present answer.
@@ -256,7 +243,8 @@ impl Subsumption {
     }
 
     fn run(&mut self, seen: &Observation, rng: &mut Stream) -> Option<Declaration> {
-        let detected = self.observe(seen);
+        // A detection reaches the plume's layers only while they search.
+        let detected = self.memory.observe(seen, self.fixes, !self.homing && !self.surveying);
         let reached = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
         let mut arrived = self.holder.filter(|_| reached);
         if let (Some(Kind::Avoid), Some(avoid)) = (self.holder, &mut self.layers.avoid)
@@ -318,11 +306,6 @@ impl StrategyParams for SubsumptionSpec {
         }
         needs.extend(self.fixes.needs());
         needs
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        let [sidescan, camera] = self.survey.as_ref().map_or([false; 2], |s| s.flies_for());
-        [sidescan, camera || self.eyes.is_some()]
     }
 
     fn wishes(&self) -> Wishes {

@@ -41,15 +41,6 @@ impl AfterDeclaration {
             Self::GoHome | Self::Stop => Vec::new(),
         }
     }
-
-    /// Whether passes are flown for sidescan and camera.
-    #[must_use]
-    pub fn flies_for(&self) -> [bool; 2] {
-        match self {
-            Self::Survey(spec) => spec.flies_for(),
-            Self::GoHome | Self::Stop => [false; 2],
-        }
-    }
 }
 
 /// A survey of a declared place.
@@ -86,12 +77,6 @@ impl SurveySpec {
             }
         }
         needs.into_iter().map(|n| n.within(path)).collect()
-    }
-
-    /// Whether passes are flown for sidescan and camera.
-    #[must_use]
-    pub fn flies_for(&self) -> [bool; 2] {
-        [self.sidescan.is_some(), self.camera.is_some()]
     }
 }
 

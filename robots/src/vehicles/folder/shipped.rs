@@ -6,7 +6,6 @@ use crate::error::RobotError;
 use crate::vehicles::files::Files;
 use crate::vehicles::urdf_parts::UrdfText;
 use std::path::{Path, PathBuf};
-use world::encoding;
 
 /// A vehicle that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -61,11 +60,6 @@ impl Files for BuiltIn<'_> {
             .find(|(file, _)| name == folder.join(file))
             .map(|(_, text)| text.into())
             .ok_or_else(|| "there is no such file".into())
-    }
-
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
-        let bytes = self.bytes(name, most_bytes)?;
-        encoding::text(&bytes)
     }
 
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
