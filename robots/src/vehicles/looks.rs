@@ -11,6 +11,7 @@
 use super::drives::{CurveSpec, DriveSpec};
 use super::urdf_parts::{UrdfText, colour, pose_of, shape};
 use nalgebra::Vector3;
+use strum::IntoStaticStr;
 use urdf_rs::{Geometry, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
@@ -47,7 +48,8 @@ pub enum Form {
 }
 
 /// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum JointKind {
     /// Not at all.
     Fixed,
@@ -63,12 +65,7 @@ impl JointKind {
     /// The word of URDF.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Revolute => "revolute",
-            Self::Continuous => "continuous",
-            Self::Prismatic => "prismatic",
-        }
+        self.into()
     }
 
     /// Of a joint of a URDF. Kinds that nothing here moves count as fixed.

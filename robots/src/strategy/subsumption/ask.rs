@@ -2,9 +2,11 @@
 
 use crate::behave::Stride;
 use crate::handoff::{Behaviour, Manoeuvre};
+use strum::IntoStaticStr;
 
 /// The kinds of layers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub(super) enum Kind {
     Find,
     Maintain,
@@ -13,20 +15,6 @@ pub(super) enum Kind {
     Avoid,
     PlumeMap,
     GoHome,
-}
-
-impl Kind {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Kind::Find => "find",
-            Kind::Maintain => "maintain",
-            Kind::Reacquire => "reacquire",
-            Kind::Declare => "declare",
-            Kind::Avoid => "avoid",
-            Kind::PlumeMap => "plume_map",
-            Kind::GoHome => "go_home",
-        }
-    }
 }
 
 /// What a layer asks for.

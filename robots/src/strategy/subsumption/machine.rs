@@ -79,7 +79,7 @@ impl Subsumption {
         if let Some(eyes) = &spec.eyes {
             eyes.verifier.check("strategy.eyes.verifier")?;
         }
-        let silent = |k: &Kind| Layer { name: k.name(), state: LayerState::Silent };
+        let silent = |k: &Kind| Layer { name: k.into(), state: LayerState::Silent };
         Ok(Self {
             fixes: spec.fixes,
             states: layers.order.iter().map(silent).collect(),
