@@ -110,7 +110,7 @@ impl UpAcross {
     /// [`RobotError::Invalid`] if the extent of a single point is asked for.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         require(
-            !params.near.as_ref().is_some_and(|n| n.points.get() < 2),
+            params.near.as_ref().is_none_or(|n| n.points.get() >= 2),
             "track_out.UpAcross.near.points",
             "must be at least 2, got 1",
         )?;
