@@ -20,3 +20,26 @@ pub enum RobotError {
         problem: String,
     },
 }
+
+impl RobotError {
+    /// A field that is wrong.
+    pub fn invalid(field: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Invalid { field: field.into(), problem: problem.into() }
+    }
+}
+
+/// What must hold for a field.
+///
+/// # Errors
+/// If it does not hold.
+pub(crate) fn require(holds: bool, field: impl Into<String>, problem: impl Into<String>) -> Result<(), RobotError> {
+    if holds { Ok(()) } else { Err(RobotError::invalid(field, problem)) }
+}
+
+/// What must hold in a vehicle's files.
+///
+/// # Errors
+/// What is wrong, if it does not hold.
+pub(crate) fn ensure(holds: bool, problem: impl FnOnce() -> String) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(problem()) }
+}

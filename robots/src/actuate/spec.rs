@@ -2,75 +2,69 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 
 /// Gains and limits; the defaults are for the REMUS 100. The gains of the fins hold at `design_speed_m_s` through the
 /// water. At other speeds they are scaled with the dynamic pressure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AutopilotSpec {
     /// Commanded turn rate per heading error, 1/s.
+    #[default(Positive::new(0.5))]
     pub heading_gain_1_s: Positive,
     /// Greatest commanded turn rate, deg/s.
+    #[default(Positive::new(10.0))]
     pub heading_rate_deg_s: Positive,
     /// Rudder per turn rate in a steady turn, s.
+    #[default(NonNegative::new(1.4))]
     pub rudder_per_rate_s: NonNegative,
     /// Rudder per error in turn rate, s.
+    #[default(Positive::new(0.6))]
     pub rate_gain_s: Positive,
     /// Rudder per integrated heading error, 1/s.
+    #[default(NonNegative::new(0.02))]
     pub heading_integral_1_s: NonNegative,
     /// Greatest rudder angle that the integral may contribute, deg. A straight leg of the REMUS needs 0.3 deg.
+    #[default(Positive::new(2.0))]
     pub heading_trim_limit_deg: Positive,
     /// Commanded pitch per error in depth or altitude, deg/m.
+    #[default(Positive::new(6.0))]
     pub depth_gain_deg_m: Positive,
     /// Commanded pitch per integrated error in depth or altitude, deg/(m s).
+    #[default(NonNegative::new(0.2))]
     pub depth_integral_deg_m_s: NonNegative,
     /// Greatest commanded pitch, deg.
+    #[default(Positive::new(15.0))]
     pub pitch_limit_deg: Positive,
     /// Stern plane per commanded pitch in a steady dive: what balances the hull's righting moment.
+    #[default(NonNegative::new(0.42))]
     pub stern_per_pitch: NonNegative,
     /// Stern plane per error in pitch.
+    #[default(Positive::new(1.0))]
     pub pitch_gain: Positive,
     /// Stern plane per pitch rate, s.
+    #[default(NonNegative::new(0.3))]
     pub pitch_rate_gain_s: NonNegative,
     /// Propeller speed per speed through the water in steady motion, rpm s/m.
+    #[default(Positive::new(597.2))]
     pub rpm_per_speed: Positive,
     /// Propeller speed per integrated error in speed, rpm/m.
+    #[default(NonNegative::new(30.0))]
     pub speed_integral_rpm_m: NonNegative,
     /// Speed through the water at which the gains hold, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(2.0))]
     pub design_speed_m_s: Positive,
     /// Greatest deflection of rudder and stern plane, deg.
     #[serde(with = "world::limits::fin_deg")]
+    #[default(Positive::new(15.0))]
     pub fin_limit_deg: Positive,
     /// Greatest propeller speed, rpm.
     #[serde(with = "world::limits::rpm_limit")]
+    #[default(Positive::new(1525.0))]
     pub rpm_limit: Positive,
-}
-
-impl Default for AutopilotSpec {
-    fn default() -> Self {
-        Self {
-            heading_gain_1_s: Positive::new(0.5),
-            heading_rate_deg_s: Positive::new(10.0),
-            rudder_per_rate_s: NonNegative::new(1.4),
-            rate_gain_s: Positive::new(0.6),
-            heading_integral_1_s: NonNegative::new(0.02),
-            heading_trim_limit_deg: Positive::new(2.0),
-            depth_gain_deg_m: Positive::new(6.0),
-            depth_integral_deg_m_s: NonNegative::new(0.2),
-            pitch_limit_deg: Positive::new(15.0),
-            stern_per_pitch: NonNegative::new(0.42),
-            pitch_gain: Positive::new(1.0),
-            pitch_rate_gain_s: NonNegative::new(0.3),
-            rpm_per_speed: Positive::new(597.2),
-            speed_integral_rpm_m: NonNegative::new(30.0),
-            design_speed_m_s: Positive::new(2.0),
-            fin_limit_deg: Positive::new(15.0),
-            rpm_limit: Positive::new(1525.0),
-        }
-    }
 }
 
 /// Autopilots that a scenario can set up.

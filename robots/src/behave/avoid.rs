@@ -18,11 +18,12 @@
 //! been free for `give_up_s`; otherwise turning away and the destination could take turns for ever. Echoes within 1 m
 //! of the charted bed count as the bed. A navigation fix moves the remembered echoes with the vehicle.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
 use world::ranges::Positive;
@@ -39,32 +40,25 @@ const ON_LINE_M: f64 = 20.0;
 const TURNS_DEG: (f64, f64) = (5.0, 30.0);
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "AvoidParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Obstacles count from this distance on, m.
+    #[default(Positive::new(35.0))]
     pub heed_m: Positive,
     /// From this distance on the vehicle takes the whole turn, m; less than `heed_m`.
+    #[default(Positive::new(18.0))]
     pub near_m: Positive,
     /// Half width of the way that must be free, m.
+    #[default(Positive::new(8.0))]
     pub clear_m: Positive,
     /// How long an echo is remembered, s.
+    #[default(Positive::new(15.0))]
     pub memory_s: Positive,
     /// After the vehicle has turned away at one place for this long in all, the destination counts as reached, s.
+    #[default(Positive::new(60.0))]
     pub give_up_s: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            heed_m: Positive::new(35.0),
-            near_m: Positive::new(18.0),
-            clear_m: Positive::new(8.0),
-            memory_s: Positive::new(15.0),
-            give_up_s: Positive::new(60.0),
-        }
-    }
 }
 
 /// Turning away at one place.
@@ -98,12 +92,7 @@ impl SoftAvoid {
     /// [`RobotError::Invalid`] if the distances contradict each other.
     pub fn new(params: &Params, bed: Terrain) -> Result<Self, RobotError> {
         let (near, heed) = (params.near_m.get(), params.heed_m.get());
-        if near >= heed {
-            return Err(RobotError::Invalid {
-                field: "avoid.near_m".into(),
-                problem: format!("must be less than heed_m, {heed}, got {near}"),
-            });
-        }
+        require(near < heed, "avoid.near_m", format!("must be less than heed_m, {heed}, got {near}"))?;
         Ok(Self { params: params.clone(), bed, echoes: VecDeque::new(), side: None, turning: None })
     }
 

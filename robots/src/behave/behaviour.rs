@@ -6,9 +6,11 @@
 //!
 //! *Deviations*: none.
 
-use crate::handoff::{Manoeuvre, Observation};
+use crate::error::RobotError;
+use crate::handoff::{Goal, Manoeuvre, Observation, Vertical};
 use crate::memory::PlumeMemory;
 use std::fmt::Debug;
+use world::registry::Spec;
 use world::seeds::Stream;
 
 /// What a behaviour answers in a tick.
@@ -24,6 +26,17 @@ pub enum Stride {
     Over,
 }
 
+impl Stride {
+    /// Changes the goal by it; a new goal is at that height.
+    pub(crate) fn turn(self, goal: &mut Goal, vertical: Vertical) {
+        match self {
+            Self::Start(manoeuvre) => *goal = Goal { id: goal.id + 1, manoeuvre, vertical, ..*goal },
+            Self::Adjust(manoeuvre) => goal.manoeuvre = manoeuvre,
+            Self::Keep | Self::Over => {}
+        }
+    }
+}
+
 /// A behaviour: a plain state machine with one purpose.
 pub trait Behave: Debug + Send + Sync {
     /// Starts afresh; the next step answers [`Stride::Start`] or [`Stride::Over`].
@@ -31,4 +44,18 @@ pub trait Behave: Debug + Send + Sync {
 
     /// One tick. `arrived` says whether the guidance has reached the last goal.
     fn step(&mut self, seen: &Observation, arrived: bool, memory: &mut PlumeMemory, rng: &mut Stream) -> Stride;
+}
+
+/// Parameters of a behaviour.
+pub trait BehaviourParams: Spec {
+    /// Builds the behaviour.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
+
+    /// Its field that asks the vehicle to wait at a place, if it is set.
+    fn waits(&self) -> Option<&'static str> {
+        None
+    }
 }

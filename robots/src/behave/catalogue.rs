@@ -1,25 +1,9 @@
 //! The behaviours by name. Each place for a behaviour in a strategy has its own list of behaviours that can fill it.
 
-use super::Behave;
+use super::behaviour::BehaviourParams;
 use super::{cloverleaf, find, reacquire, track_in, track_out};
-use crate::error::RobotError;
 use world::catalogue::Entry;
 use world::kind;
-use world::registry::Spec;
-
-/// Parameters of a behaviour.
-pub trait BehaviourParams: Spec {
-    /// Builds the behaviour.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] if a parameter makes no sense.
-    fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
-
-    /// Its field that asks the vehicle to wait at a place, if it is set.
-    fn waits(&self) -> Option<&'static str> {
-        None
-    }
-}
 
 const HEADING: &str = "Behaviours";
 

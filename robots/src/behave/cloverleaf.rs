@@ -18,15 +18,16 @@
 //! last detection points stays. If the vehicle turns wider than `turn_radius_m`, leaves that are too short for its
 //! turns are lengthened to the bound.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::num::NonZeroU32;
 use world::catalogue::Entry;
@@ -37,32 +38,25 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "CloverleafParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: how often all leaves are flown.
+    #[default(NonZeroU32::new(2).expect("2 is not zero"))]
     pub repetitions: NonZeroU32,
     /// Leaves, 3 to 8.
+    #[default(NonZeroU32::new(4).expect("4 is not zero"))]
     pub leaves: NonZeroU32,
     /// Length of a leaf's sides, m.
+    #[default(Positive::new(16.0))]
     pub leaf_m: Positive,
     /// Turning radius of the vehicle, m. The leaves must have room for it.
+    #[default(Positive::new(15.0))]
     pub turn_radius_m: Positive,
     /// A leaf's corner counts as reached within this distance, m.
+    #[default(Positive::new(5.0))]
     pub arrive_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            repetitions: NonZeroU32::new(2).expect("2 is not zero"),
-            leaves: NonZeroU32::new(4).expect("4 is not zero"),
-            leaf_m: Positive::new(16.0),
-            turn_radius_m: Positive::new(15.0),
-            arrive_m: Positive::new(5.0),
-        }
-    }
 }
 
 impl Listed for Params {
@@ -82,11 +76,7 @@ impl BehaviourParams for Params {
 /// State of the behaviour.
 #[derive(Clone, Debug)]
 pub struct Cloverleaf {
-    repetitions: u32,
-    leaves: u32,
-    leaf_m: f64,
-    turn_radius_m: f64,
-    arrive_m: f64,
+    params: Params,
     /// Corners started since it was entered.
     begun: u32,
     /// Direction of the first line: down-flow turned by half a leaf; and the sense of the turns.
@@ -99,31 +89,23 @@ impl Cloverleaf {
     /// # Errors
     /// [`RobotError::Invalid`] if there are too few or too many leaves, or if they are too short to be flown.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid {
-            field: format!("reacquire.Cloverleaf.{field}"),
-            problem,
+        let must = |holds: bool, field: &str, problem: String| {
+            require(holds, format!("reacquire.Cloverleaf.{field}"), problem)
         };
         let leaves = params.leaves.get();
-        if !(3..=8).contains(&leaves) {
-            return Err(invalid("leaves", format!("must be 3 to 8, got {leaves}")));
-        }
+        must((3..=8).contains(&leaves), "leaves", format!("must be 3 to 8, got {leaves}"))?;
         let least_m = params.turn_radius_m.get() / math::tan(half_leaf(leaves));
-        if params.leaf_m.get() < least_m {
-            return Err(invalid(
-                "leaf_m",
-                format!(
-                    "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
-                    params.turn_radius_m.get(),
-                    params.leaf_m.get()
-                ),
-            ));
-        }
+        must(
+            params.leaf_m.get() >= least_m,
+            "leaf_m",
+            format!(
+                "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
+                params.turn_radius_m.get(),
+                params.leaf_m.get()
+            ),
+        )?;
         Ok(Self {
-            repetitions: params.repetitions.get(),
-            leaves,
-            leaf_m: params.leaf_m.get(),
-            turn_radius_m: params.turn_radius_m.get(),
-            arrive_m: params.arrive_m.get(),
+            params: params.clone(),
             begun: 0,
             first: Heading::from_deg(0.0),
             turn: Side::Right,
@@ -136,8 +118,8 @@ impl Cloverleaf {
         if number == self.corners() {
             return self.centre;
         }
-        let way = (number / 2) % self.leaves;
-        let round = TAU * f64::from(way) / f64::from(self.leaves);
+        let way = (number / 2) % self.params.leaves.get();
+        let round = TAU * f64::from(way) / f64::from(self.params.leaves.get());
         let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m(seen);
         let from_centre = if number.is_multiple_of(2) { -along } else { along };
         inside(&seen.area, self.centre + from_centre, MARGIN_M)
@@ -146,16 +128,17 @@ impl Cloverleaf {
     /// Length of a leaf's sides, m: with room for the vehicle's own turns.
     fn leaf_m(&self, seen: &Observation) -> f64 {
         let own_m = seen.able.turning_radius_m;
-        if own_m > self.turn_radius_m {
-            self.leaf_m.max(own_m / math::tan(half_leaf(self.leaves)))
+        let leaf_m = self.params.leaf_m.get();
+        if own_m > self.params.turn_radius_m.get() {
+            leaf_m.max(own_m / math::tan(half_leaf(self.params.leaves.get())))
         } else {
-            self.leaf_m
+            leaf_m
         }
     }
 
     /// Number of corners in all repetitions, with the one that leads back along the last leaf's second side.
     fn corners(&self) -> u32 {
-        (2 * self.leaves).saturating_mul(self.repetitions).saturating_add(1)
+        (2 * self.params.leaves.get()).saturating_mul(self.params.repetitions.get()).saturating_add(1)
     }
 }
 
@@ -174,7 +157,7 @@ impl Behave for Cloverleaf {
             return Stride::Keep;
         }
         let number = self.begun;
-        if number.is_multiple_of(2 * self.leaves) && number + 1 < self.corners() {
+        if number.is_multiple_of(2 * self.params.leaves.get()) && number + 1 < self.corners() {
             let Some(point) = memory.lcdps.newest() else {
                 return Stride::Over;
             };
@@ -185,7 +168,7 @@ impl Behave for Cloverleaf {
                 // The first line leads from the vehicle's side to the other; the turns then close this leaf.
                 self.turn = Side::from_rightward((seen.estimate.position - self.centre).dot(&right));
             }
-            let half = half_leaf(self.leaves);
+            let half = half_leaf(self.params.leaves.get());
             self.first = up_flow.opposite().turned(self.turn.sign() * half);
         }
         if number > self.corners() {
@@ -193,7 +176,10 @@ impl Behave for Cloverleaf {
             return Stride::Over;
         }
         self.begun += 1;
-        Stride::Start(Manoeuvre::GoToPoint { point: self.corner(number, seen), radius_m: Some(self.arrive_m) })
+        Stride::Start(Manoeuvre::GoToPoint {
+            point: self.corner(number, seen),
+            radius_m: Some(self.params.arrive_m.get()),
+        })
     }
 }
 

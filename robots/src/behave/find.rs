@@ -15,15 +15,16 @@
 //! vehicle keeps its heading and turns at edges like a mirror reflection; the actual search begins with the first
 //! flow estimate.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use crate::places::{edges, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
 use world::catalogue::Entry;
@@ -46,22 +47,19 @@ pub enum From {
 }
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "ZigZagParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Where the search begins.
+    #[default(From::Here)]
     pub start: From,
     /// Angle off the cross-flow direction, °, less than 90.
+    #[default(NonNegative::new(20.0))]
     pub off_across_deg: NonNegative,
     /// An edge counts as reached at this distance, m.
+    #[default(Positive::new(20.0))]
     pub edge_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { start: From::Here, off_across_deg: NonNegative::new(20.0), edge_m: Positive::new(20.0) }
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,12 +104,11 @@ impl ZigZag {
     /// # Errors
     /// [`RobotError::Invalid`] if the angle does not lead across the flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.off_across_deg.get() >= 90.0 {
-            return Err(RobotError::Invalid {
-                field: "find.ZigZag.off_across_deg".into(),
-                problem: format!("must be < 90, got {}", params.off_across_deg.get()),
-            });
-        }
+        require(
+            params.off_across_deg.get() < 90.0,
+            "find.ZigZag.off_across_deg",
+            format!("must be < 90, got {}", params.off_across_deg.get()),
+        )?;
         Ok(Self {
             start: params.start,
             off_rad: params.off_across_deg.get().to_radians(),

@@ -1,8 +1,9 @@
-//! Goes to a place.
+//! Goes to a place, or home.
 //!
-//! *Source*: Pang 2009, section 5.1: "directly executes the Go-To guidance command".
+//! *Source*: Pang 2009, section 5.1: "directly executes the Go-To guidance command". Home: section 4.1 ("return to home location after the
+//! vehicle finish its mission").
 //!
-//! *Parameters*: the place.
+//! *Parameters*: the place; home is the vehicle's own first position.
 //!
 //! *Deviations*: none. The strategy decides whether detections count on the way.
 
@@ -15,7 +16,8 @@ use world::seeds::Stream;
 /// State of going to a place.
 #[derive(Clone, Copy, Debug)]
 pub struct GoTo {
-    point: Vector2<f64>,
+    /// `None` is home.
+    point: Option<Vector2<f64>>,
     begun: bool,
 }
 
@@ -23,7 +25,13 @@ impl GoTo {
     /// To `point` (east, north), m.
     #[must_use]
     pub fn new(point: Vector2<f64>) -> Self {
-        Self { point, begun: false }
+        Self { point: Some(point), begun: false }
+    }
+
+    /// To the launch point.
+    #[must_use]
+    pub fn home() -> Self {
+        Self { point: None, begun: false }
     }
 }
 
@@ -32,10 +40,10 @@ impl Behave for GoTo {
         self.begun = false;
     }
 
-    fn step(&mut self, _: &Observation, arrived: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
+    fn step(&mut self, seen: &Observation, arrived: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
         if !self.begun {
             self.begun = true;
-            return Stride::Start(Manoeuvre::GoToPoint { point: self.point, radius_m: None });
+            return Stride::Start(Manoeuvre::GoToPoint { point: self.point.unwrap_or(seen.home), radius_m: None });
         }
         if arrived { Stride::Over } else { Stride::Keep }
     }

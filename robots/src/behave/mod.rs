@@ -5,7 +5,6 @@ mod behaviour;
 mod catalogue;
 mod cloverleaf;
 mod find;
-mod go_home;
 mod go_to;
 mod open_loop;
 mod reacquire;
@@ -14,13 +13,12 @@ mod track_in;
 mod track_out;
 
 pub use avoid::{Params as AvoidParams, SoftAvoid};
-pub use behaviour::{Behave, Stride};
+pub use behaviour::{Behave, BehaviourParams, Stride};
 pub use catalogue::{
-    BehaviourParams, FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec, TracksIn, TracksOut,
+    FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec, TracksIn, TracksOut,
 };
 pub use cloverleaf::{Cloverleaf, Params as CloverleafParams};
 pub use find::{Params as ZigZagParams, ZigZag};
-pub use go_home::GoHome;
 pub use go_to::GoTo;
 pub use open_loop::{TimeTable, TimeTableParams, TimeTableRow};
 pub use reacquire::{Bowtie, Params as BowtieParams};

@@ -8,7 +8,7 @@
 //! *Deviations*: before the first row all actuators are at zero.
 
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
@@ -60,20 +60,17 @@ impl TimeTable {
     /// # Errors
     /// [`RobotError::Invalid`] if the times of the rows do not grow or reach past the end.
     pub fn new(params: &TimeTableParams) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid { field: "strategy.OpenLoop.table".into(), problem };
-        if params.table.is_empty() {
-            return Err(invalid("is empty; give at least one row".into()));
-        }
+        let must = |holds: bool, problem: String| require(holds, "strategy.OpenLoop.table", problem);
+        must(!params.table.is_empty(), "is empty; give at least one row".into())?;
         for pair in params.table.windows(2) {
             let (a, b) = (pair[0].t_s.get(), pair[1].t_s.get());
-            if b <= a {
-                return Err(invalid(format!("t_s must grow from row to row, got {b} after {a}")));
-            }
+            must(b > a, format!("t_s must grow from row to row, got {b} after {a}"))?;
         }
         let last = params.table.last().map_or(0.0, |row| row.t_s.get());
-        if last >= params.end_s.get() {
-            return Err(invalid(format!("the last row begins at {last} s, not before end_s = {}", params.end_s.get())));
-        }
+        must(
+            last < params.end_s.get(),
+            format!("the last row begins at {last} s, not before end_s = {}", params.end_s.get()),
+        )?;
         Ok(Self { params: params.clone(), began_s: 0.0, row: None })
     }
 }

@@ -14,15 +14,16 @@
 //! a hull that turns wider than a REMUS has straight water to search, too. The ends of a line are held 10 m inside the
 //! area. With N_re = 1 the bowtie is centred on the point.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation, Side};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroU32;
 use world::catalogue::Entry;
@@ -33,32 +34,25 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "BowtieParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: bowties at a point.
+    #[default(NonZeroU32::new(2).expect("2 is not zero"))]
     pub repetitions: NonZeroU32,
     /// The centre of the first bowtie lies this far up-flow of the point, m.
+    #[default(NonNegative::new(10.0))]
     pub lead_m: NonNegative,
     /// Angle between a line and up-flow, °.
+    #[default(Positive::new(15.0))]
     pub angle_deg: Positive,
     /// Width explored on either side, across the flow, m.
+    #[default(Positive::new(13.0))]
     pub half_width_m: Positive,
     /// Least radius of the closing turns, m.
+    #[default(NonNegative::new(5.0))]
     pub turn_radius_m: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            repetitions: NonZeroU32::new(2).expect("2 is not zero"),
-            lead_m: NonNegative::new(10.0),
-            angle_deg: Positive::new(15.0),
-            half_width_m: Positive::new(13.0),
-            turn_radius_m: NonNegative::new(5.0),
-        }
-    }
 }
 
 impl Listed for Params {
@@ -92,23 +86,20 @@ impl Bowtie {
     /// # Errors
     /// [`RobotError::Invalid`] if the lines have no length left, or if the angle does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let invalid =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("reacquire.Bowtie.{field}"), problem };
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("reacquire.Bowtie.{field}"), problem);
         let angle = params.angle_deg.get();
-        if angle >= 90.0 {
-            return Err(invalid("angle_deg", format!("must be < 90, got {angle}")));
-        }
+        must(angle < 90.0, "angle_deg", format!("must be < 90, got {angle}"))?;
         let across_m = params.half_width_m.get() - 2.0 * params.turn_radius_m.get();
-        if across_m <= 0.0 {
-            return Err(invalid(
-                "half_width_m",
-                format!(
-                    "must be > twice turn_radius_m = {}, got {}",
-                    params.turn_radius_m.get(),
-                    params.half_width_m.get()
-                ),
-            ));
-        }
+        must(
+            across_m > 0.0,
+            "half_width_m",
+            format!(
+                "must be > twice turn_radius_m = {}, got {}",
+                params.turn_radius_m.get(),
+                params.half_width_m.get()
+            ),
+        )?;
         Ok(Self {
             angle_rad: angle.to_radians(),
             half_length_m: across_m / math::sin(angle.to_radians()),

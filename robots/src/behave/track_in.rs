@@ -10,13 +10,14 @@
 //! which is the counter-turn. LHS is set before the course, not after it, which saves a delay of one sample. As long
 //! as no flow has been measured, the vehicle's heading stands for up-flow.
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation, Side, detects};
 use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -24,20 +25,16 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "CounterTurnParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// The plume counts as lost after this time without a detection, s.
+    #[default(Positive::new(5.0))]
     pub lambda_s: Positive,
     /// Angle to up-flow, °, less than 90.
+    #[default(NonNegative::new(20.0))]
     pub beta_deg: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { lambda_s: Positive::new(5.0), beta_deg: NonNegative::new(20.0) }
-    }
 }
 
 impl Listed for Params {
@@ -67,12 +64,11 @@ impl CounterTurn {
     /// # Errors
     /// [`RobotError::Invalid`] if β does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.beta_deg.get() >= 90.0 {
-            return Err(RobotError::Invalid {
-                field: "track_in.CounterTurn.beta_deg".into(),
-                problem: format!("must be < 90, got {}", params.beta_deg.get()),
-            });
-        }
+        require(
+            params.beta_deg.get() < 90.0,
+            "track_in.CounterTurn.beta_deg",
+            format!("must be < 90, got {}", params.beta_deg.get()),
+        )?;
         Ok(Self {
             lambda_s: params.lambda_s.get(),
             beta_rad: params.beta_deg.get().to_radians(),

@@ -16,14 +16,15 @@
 //! `far_m`, held between `least` and 1. With fewer points they are not reduced. A vehicle that goes sideways does so
 //! with its nose up-flow; one that hovers may wait at the lost point first (`wait_s`).
 
-use super::catalogue::BehaviourParams;
+use super::behaviour::BehaviourParams;
 use super::{Behave, Stride};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Lcdp, Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
 use crate::places::{MARGIN_M, inside};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
@@ -33,41 +34,37 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "UpAcrossParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// L_u: distance up-flow of the point, m.
+    #[default(NonNegative::new(18.0))]
     pub up_m: NonNegative,
     /// L_c: distance across the flow from the point, m.
+    #[default(NonNegative::new(18.0))]
     pub across_m: NonNegative,
     /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,
     /// How long it first waits where it is for the plume to come back, s; more than 0 needs a vehicle that hovers.
     #[serde(with = "world::limits::response_s")]
+    #[default(NonNegative::new(0.0))]
     pub wait_s: NonNegative,
 }
 
 /// Shrinking near the source.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Near {
     /// How many of the newest last detection points are considered, at least 2.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub points: NonZeroUsize,
     /// If the points extend at least this far along the flow, nothing shrinks, m.
+    #[default(Positive::new(36.0))]
     pub far_m: Positive,
     /// Least share of L_u and L_c.
+    #[default(Fraction::new(0.6))]
     pub least: Fraction,
-}
-
-impl Default for Near {
-    fn default() -> Self {
-        Self {
-            points: NonZeroUsize::new(3).expect("3 is not zero"),
-            far_m: Positive::new(36.0),
-            least: Fraction::new(0.6),
-        }
-    }
 }
 
 impl Near {
@@ -79,17 +76,6 @@ impl Near {
         let along = points[first..].iter().map(|p| p.in_flow(up_flow).x);
         let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
         ((high - low) / self.far_m.get()).clamp(self.least.get(), 1.0)
-    }
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            up_m: NonNegative::new(18.0),
-            across_m: NonNegative::new(18.0),
-            near: None,
-            wait_s: NonNegative::new(0.0),
-        }
     }
 }
 
@@ -114,10 +100,7 @@ impl BehaviourParams for Params {
 /// State of the behaviour.
 #[derive(Clone, Debug)]
 pub struct UpAcross {
-    up_m: f64,
-    across_m: f64,
-    near: Option<Near>,
-    wait_s: f64,
+    params: Params,
     waits_until_s: Option<f64>,
     begun: bool,
 }
@@ -126,20 +109,12 @@ impl UpAcross {
     /// # Errors
     /// [`RobotError::Invalid`] if the extent of a single point is asked for.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        if params.near.as_ref().is_some_and(|n| n.points.get() < 2) {
-            return Err(RobotError::Invalid {
-                field: "track_out.UpAcross.near.points".into(),
-                problem: "must be at least 2, got 1".into(),
-            });
-        }
-        Ok(Self {
-            up_m: params.up_m.get(),
-            across_m: params.across_m.get(),
-            near: params.near.clone(),
-            wait_s: params.wait_s.get(),
-            waits_until_s: None,
-            begun: false,
-        })
+        require(
+            params.near.as_ref().is_none_or(|n| n.points.get() >= 2),
+            "track_out.UpAcross.near.points",
+            "must be at least 2, got 1",
+        )?;
+        Ok(Self { params: params.clone(), waits_until_s: None, begun: false })
     }
 }
 
@@ -153,10 +128,11 @@ impl Behave for UpAcross {
         if self.begun {
             return if arrived { Stride::Over } else { Stride::Keep };
         }
-        if self.wait_s > 0.0 && seen.able.hovers {
+        let wait_s = self.params.wait_s.get();
+        if wait_s > 0.0 && seen.able.hovers {
             match self.waits_until_s {
                 None => {
-                    self.waits_until_s = Some(seen.t_s + self.wait_s);
+                    self.waits_until_s = Some(seen.t_s + wait_s);
                     return Stride::Start(Manoeuvre::Hold {
                         point: seen.estimate.position,
                         heading: Some(memory.up_flow_or_nose(seen)),
@@ -173,10 +149,10 @@ impl Behave for UpAcross {
             return Stride::Over;
         };
         let right = up_flow.turned(FRAC_PI_2).unit();
-        let near = self.near.as_ref();
+        let near = self.params.near.as_ref();
         let share = near.map_or(1.0, |n| n.share(memory.lcdps.all(), up_flow));
-        let across = memory.leaves.other().sign() * self.across_m * share;
-        let point = from.position + up_flow.unit() * (self.up_m * share) + right * across;
+        let across = memory.leaves.other().sign() * self.params.across_m.get() * share;
+        let point = from.position + up_flow.unit() * (self.params.up_m.get() * share) + right * across;
         let point = inside(&seen.area, point, MARGIN_M);
         // A vehicle that goes sideways keeps its nose, and what it smells with, up-flow.
         Stride::Start(if seen.able.sideways {

@@ -9,12 +9,13 @@
 //! time when they were stored. As in the paper, the difference across the flow is not tested. The paper names that
 //! among the causes of its 31 m error, and a bound on it as future work: `across_m` is that bound.
 
-use super::catalogue::{DeclareParams, Points};
+use super::rule::{DeclareParams, Points};
 use crate::handoff::{Evidence, Lcdp, Zone};
 use crate::memory::{PlumeMemory, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -22,21 +23,17 @@ use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AlongFlow {
     /// How many of the most up-flow points are compared.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub points: NonZeroUsize,
     /// They must differ by less than this along the flow, m.
+    #[default(Positive::new(4.0))]
     pub within_m: Positive,
     /// They must differ by less than this across the flow, m; tested only if given.
     pub across_m: Option<Positive>,
-}
-
-impl Default for AlongFlow {
-    fn default() -> Self {
-        Self { points: NonZeroUsize::new(3).expect("3 is not zero"), within_m: Positive::new(4.0), across_m: None }
-    }
 }
 
 impl Listed for AlongFlow {

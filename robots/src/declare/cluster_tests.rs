@@ -2,7 +2,7 @@
 
 use super::{AdaptiveSize, SizF, SizT, ZoneSize};
 use crate::handoff::Lcdp;
-use crate::memory::{FixMove, LcdpQueue, NavigationFix};
+use crate::memory::{FixMove, NavigationFix, PlumeMemory};
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::math;
@@ -108,7 +108,7 @@ fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
     // Only the newest fix and the mean of the cluster are in error.
     let mut rng = Stream::new(4, "moved", "test");
     for _ in 0..100 {
-        let (mut stay, mut whole) = (LcdpQueue::new(n(9)), LcdpQueue::new(n(9)));
+        let (mut stay, mut whole) = (PlumeMemory::new(n(9), n(9)), PlumeMemory::new(n(9), n(9)));
         let mut off = Vector2::zeros();
         for (k, p) in mission(0, 6, 0.3, &mut rng).iter().enumerate() {
             let fix_off = Vector2::new(rng.normal(), rng.normal()) * 5.0;
@@ -118,12 +118,12 @@ fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
             stay.take_fix(&fix, FixMove::Stay);
             whole.take_fix(&fix, FixMove::Whole);
             let believed = Lcdp::new_at(p.t_s, p.position + off);
-            stay.add(believed);
-            whole.add(believed);
+            stay.lcdps.add(believed);
+            whole.lcdps.add(believed);
         }
-        let (mean, _) = siz_t(4.0, 6).declare(whole.all(), up(), 0.0).expect("narrow");
+        let (mean, _) = siz_t(4.0, 6).declare(whole.lcdps.all(), up(), 0.0).expect("narrow");
         // All that is wrong is the newest fix, and the cluster's own mean.
         assert!((mean - SOURCE - off).norm() < 1.0);
-        assert!(siz_t(4.0, 6).declare(stay.all(), up(), 0.0).is_none());
+        assert!(siz_t(4.0, 6).declare(stay.lcdps.all(), up(), 0.0).is_none());
     }
 }

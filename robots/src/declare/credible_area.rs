@@ -9,31 +9,28 @@
 //!
 //! *Deviations*: none of the papers has this rule.
 
-use super::catalogue::{BeliefRule, BeliefRuleParams};
 use super::held::HeldCondition;
+use super::rule::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "CredibleAreaParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Greatest size of the 95 % region, m² (m³ in a map of space).
+    #[default(Positive::new(50.0))]
     pub below: Positive,
     /// How long it must have been so, s.
+    #[default(NonNegative::new(5.0))]
     pub for_s: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { below: Positive::new(50.0), for_s: NonNegative::new(5.0) }
-    }
 }
 
 impl Listed for Params {

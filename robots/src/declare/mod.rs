@@ -6,6 +6,7 @@ mod catalogue;
 mod cluster_tests;
 mod credible_area;
 mod held;
+mod rule;
 mod siz_f;
 mod siz_t;
 mod sure;
@@ -17,10 +18,9 @@ mod zone_size;
 mod zone_tests;
 
 pub use along_flow::AlongFlow;
-pub use catalogue::{
-    BeliefRule, BeliefRuleParams, BeliefRuleSpec, BeliefRules, DeclareParams, DeclareSpec, Declares, Points,
-};
+pub use catalogue::{BeliefRuleSpec, BeliefRules, DeclareSpec, Declares};
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
+pub use rule::{BeliefRule, BeliefRuleParams, DeclareParams, Points};
 pub use siz_f::SizF;
 pub use siz_t::{Order as SizOrder, SizT};
 pub use sure::{Params as SureParams, Sure};

@@ -10,15 +10,15 @@
 //! must be left (the algorithm), not more than N_min (the text). Of equally far points the most down-flow one is
 //! removed first. N_ini is 1, which has no effect: the paper says that it matters only for very small N_min.
 
-use super::catalogue::DeclareParams;
+use super::rule::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
 use crate::handoff::{Evidence, Lcdp, Zone};
-use crate::memory::PlumeMemory;
-use crate::memory::most_up_flow_first;
+use crate::memory::{PlumeMemory, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -26,25 +26,18 @@ use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SizF {
     /// Greatest distance from the mean, m.
+    #[default(ZoneSize::Fixed(Positive::new(6.0)))]
     pub size: ZoneSize,
     /// N_min: the number of points that must be left.
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub points: NonZeroUsize,
     /// N_ini: the number of points that there must be before anything is declared.
+    #[default(NonZeroUsize::MIN)]
     pub initial: NonZeroUsize,
-}
-
-impl Default for SizF {
-    fn default() -> Self {
-        Self {
-            size: ZoneSize::Fixed(Positive::new(6.0)),
-            points: NonZeroUsize::new(6).expect("6 is not zero"),
-            initial: NonZeroUsize::MIN,
-        }
-    }
 }
 
 impl Listed for SizF {

@@ -11,15 +11,15 @@
 //! queue in up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this
 //! rule with these 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
 
-use super::catalogue::DeclareParams;
+use super::rule::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
 use crate::handoff::{Evidence, Lcdp, Zone};
-use crate::memory::PlumeMemory;
-use crate::memory::most_up_flow_first;
+use crate::memory::{PlumeMemory, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -27,16 +27,19 @@ use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SizT {
     /// Greatest diagonal of the points' bounding box (axes east and north), m.
+    #[default(ZoneSize::Fixed(Positive::new(4.0)))]
     pub size: ZoneSize,
     /// N_dec: number of points considered.
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub points: NonZeroUsize,
     /// Which ones.
     pub order: Order,
     /// N_ini: the number of points that there must be before anything is declared.
+    #[default(NonZeroUsize::MIN)]
     pub initial: NonZeroUsize,
 }
 
@@ -48,17 +51,6 @@ pub enum Order {
     Time,
     /// Most up-flow first, in the present flow.
     UpFlow,
-}
-
-impl Default for SizT {
-    fn default() -> Self {
-        Self {
-            size: ZoneSize::Fixed(Positive::new(4.0)),
-            points: NonZeroUsize::new(6).expect("6 is not zero"),
-            order: Order::default(),
-            initial: NonZeroUsize::MIN,
-        }
-    }
 }
 
 impl Listed for SizT {

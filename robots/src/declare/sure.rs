@@ -9,33 +9,31 @@
 //! *Deviations*: none of the papers has this rule. What it declares is as sure as it says only if the map is: see the
 //! maps' `doubt`.
 
-use super::catalogue::{BeliefRule, BeliefRuleParams};
 use super::held::HeldCondition;
+use super::rule::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "SureParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Least probability of a source within the distance.
+    #[default(Fraction::new(0.9))]
     pub probability: Fraction,
     /// Horizontal distance from the likeliest cell's centre, m.
+    #[default(Positive::new(5.0))]
     pub within_m: Positive,
     /// How long it must have been so, s.
+    #[default(NonNegative::new(5.0))]
     pub for_s: NonNegative,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { probability: Fraction::new(0.9), within_m: Positive::new(5.0), for_s: NonNegative::new(5.0) }
-    }
 }
 
 impl Listed for Params {

@@ -6,28 +6,24 @@
 //!
 //! *Deviations*: time counts from the first detection on. Before it the map knows nothing and would not change.
 
-use super::catalogue::{BeliefRule, BeliefRuleParams};
+use super::rule::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::Positive;
 use world::registry::Listed;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "UnchangedParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// The likeliest cell must have stayed the same for this long, s.
+    #[default(Positive::new(30.0))]
     pub for_s: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { for_s: Positive::new(30.0) }
-    }
 }
 
 impl Listed for Params {

@@ -13,10 +13,11 @@
 //! points scattered normally in both directions as they are across the flow: r = σ √(-2 ln(1 - coverage)). Here σ =
 //! 1.4826 times the median absolute deviation of y_flow, and at least the error of a navigation fix along an axis.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Lcdp;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::math;
 use world::ranges::{Fraction, Positive};
@@ -36,28 +37,21 @@ pub enum ZoneSize {
 }
 
 /// Parameters of a size that follows the scatter of the points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSize {
     /// Share of the points scattered around the source that the zone is to hold, 0 < coverage < 1.
+    #[default(Fraction::new(0.95))]
     pub coverage: Fraction,
     /// Number of newest points from which the scatter is estimated.
+    #[default(NonZeroUsize::new(12).expect("12 is not zero"))]
     pub look_back: NonZeroUsize,
     /// Least radius, m.
+    #[default(Positive::new(2.0))]
     pub least_m: Positive,
     /// Greatest radius, m.
+    #[default(Positive::new(15.0))]
     pub most_m: Positive,
-}
-
-impl Default for AdaptiveSize {
-    fn default() -> Self {
-        Self {
-            coverage: Fraction::new(0.95),
-            look_back: NonZeroUsize::new(12).expect("12 is not zero"),
-            least_m: Positive::new(2.0),
-            most_m: Positive::new(15.0),
-        }
-    }
 }
 
 impl AdaptiveSize {
@@ -96,19 +90,19 @@ impl ZoneSize {
         let Self::Adaptive(a) = self else {
             return Ok(());
         };
-        let invalid = |name: &str, problem: String| {
-            Err(RobotError::Invalid { field: format!("{field}.Adaptive.{name}"), problem })
-        };
+        let must =
+            |holds: bool, name: &str, problem: String| require(holds, format!("{field}.Adaptive.{name}"), problem);
         let coverage = a.coverage.get();
-        if coverage <= 0.0 || coverage >= 1.0 {
-            return invalid(
-                "coverage",
-                format!("must be > 0 and < 1, got {coverage}: no circle holds nothing, or all"),
-            );
-        }
-        if a.most_m.get() < a.least_m.get() {
-            return invalid("most_m", format!("must be >= least_m = {}, got {}", a.least_m.get(), a.most_m.get()));
-        }
+        must(
+            coverage > 0.0 && coverage < 1.0,
+            "coverage",
+            format!("must be > 0 and < 1, got {coverage}: no circle holds nothing, or all"),
+        )?;
+        must(
+            a.most_m.get() >= a.least_m.get(),
+            "most_m",
+            format!("must be >= least_m = {}, got {}", a.least_m.get(), a.most_m.get()),
+        )?;
         Ok(())
     }
 }

@@ -12,39 +12,47 @@
 //! the position is integrated by the trapezium rule. Flow = R · (ground velocity + water relative to the vehicle),
 //! with R from the believed attitude: a heading error turns the flow, but does not add the vehicle's speed to it.
 
-use super::Start;
 use super::layers::{LayerAwareSpec, LayerWatch};
 use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
+use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::clock::Clock;
 use world::math;
 use world::ranges::{Fraction, NonNegative};
+use world::units::Heading;
 
 /// Parameters of dead reckoning.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeadReckoningSpec {
     /// Share of the distance to a fix by which the position jumps.
+    #[default(Fraction::new(1.0))]
     pub fix_gain: Fraction,
     /// Time constant of the flow's low-pass filter, s.
+    #[default(NonNegative::new(10.0))]
     pub flow_filter_s: NonNegative,
     /// Take the flow only from the vehicle's own water layer, which a CTD tells.
     pub layer_aware: Option<LayerAwareSpec>,
 }
 
-impl Default for DeadReckoningSpec {
-    fn default() -> Self {
-        Self { fix_gain: Fraction::new(1.0), flow_filter_s: NonNegative::new(10.0), layer_aware: None }
-    }
+/// What the vehicle knows of its state at launch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Position (east, north), m.
+    pub position: Vector2<f64>,
+    /// Heading.
+    pub heading: Heading,
+    /// Depth below the still surface, m.
+    pub depth_m: f64,
 }
 
 /// State of dead reckoning.
-#[derive(Clone, Debug)]
+#[derive(Component, Clone, Debug)]
 pub struct DeadReckoning {
-    fix_gain: f64,
-    flow_filter_s: f64,
+    spec: DeadReckoningSpec,
     dt_s: f64,
     position: Vector2<f64>,
     depth_m: f64,
@@ -69,8 +77,7 @@ impl DeadReckoning {
         let attitude =
             Attitude { heading: start.heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() };
         Self {
-            fix_gain: spec.fix_gain.get(),
-            flow_filter_s: spec.flow_filter_s.get(),
+            spec: spec.clone(),
             dt_s,
             position: start.position,
             depth_m: start.depth_m,
@@ -102,7 +109,7 @@ impl DeadReckoning {
         }
         let before = self.position;
         if let Some(fix) = readings.lbl {
-            self.position += (fix.position - self.position) * self.fix_gain;
+            self.position += (fix.position - self.position) * self.spec.fix_gain.get();
         }
         self.measure_flow(clock.t_s(), readings, &R_WB);
         assert!(
@@ -123,12 +130,7 @@ impl DeadReckoning {
 
     fn take_in(&mut self, readings: &Readings) {
         if let Some(a) = readings.attitude {
-            self.attitude = Attitude {
-                heading: a.heading,
-                roll_rad: a.roll_rad,
-                pitch_rad: a.pitch_rad,
-                rates_rad_s: a.rates_rad_s,
-            };
+            self.attitude = a;
             self.R_WB = self.attitude.R_WB();
         }
         if let Some(dvl) = readings.dvl {
@@ -155,9 +157,10 @@ impl DeadReckoning {
             return;
         }
         let measured = (R_WB * (self.v_ground_body + adcp.v_body_m_s)).xy();
+        let filter_s = self.spec.flow_filter_s.get();
         let believed = match self.flow {
-            Some((before, since_s)) if self.flow_filter_s > 0.0 => {
-                let keep = math::exp(-(t_s - since_s) / self.flow_filter_s);
+            Some((before, since_s)) if filter_s > 0.0 => {
+                let keep = math::exp(-(t_s - since_s) / filter_s);
                 measured + (before - measured) * keep
             }
             _ => measured,
@@ -170,15 +173,15 @@ impl DeadReckoning {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, LblFix};
+    use crate::handoff::{AdcpReading, AltimeterReading, Attitude, DepthReading, DvlReading, LblFix};
     use world::units::Heading;
 
     fn start() -> Start {
         Start { position: Vector2::new(150.0, -500.0), heading: Heading::from_deg(0.0), depth_m: 3.0 }
     }
 
-    fn attitude(heading: Heading, roll_rad: f64, pitch_rad: f64) -> AttitudeReading {
-        AttitudeReading { heading, roll_rad, pitch_rad, rates_rad_s: Vector3::zeros() }
+    fn attitude(heading: Heading, roll_rad: f64, pitch_rad: f64) -> Attitude {
+        Attitude { heading, roll_rad, pitch_rad, rates_rad_s: Vector3::zeros() }
     }
 
     fn dvl(v: Vector3<f64>) -> DvlReading {

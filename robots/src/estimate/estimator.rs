@@ -1,25 +1,17 @@
 //! The estimator that a scenario chose.
 
-use super::{DeadReckoning, DeadReckoningSpec};
-use crate::handoff::{Estimate, Need, Readings};
-use bevy_ecs::prelude::Component;
-use nalgebra::Vector2;
+use super::{DeadReckoning, DeadReckoningSpec, Start};
+use crate::handoff::Need;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::clock::Clock;
-use world::units::Heading;
+use smart_default::SmartDefault;
 
 /// Which estimator, with its parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum EstimatorSpec {
     /// Compass, Doppler log and long-baseline jumps.
+    #[default]
     DeadReckoning(DeadReckoningSpec),
-}
-
-impl Default for EstimatorSpec {
-    fn default() -> Self {
-        Self::DeadReckoning(DeadReckoningSpec::default())
-    }
 }
 
 impl EstimatorSpec {
@@ -39,40 +31,12 @@ impl EstimatorSpec {
         }
         needs
     }
-}
 
-/// What the vehicle knows of its state at launch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
-    /// Position (east, north), m.
-    pub position: Vector2<f64>,
-    /// Heading.
-    pub heading: Heading,
-    /// Depth below the still surface, m.
-    pub depth_m: f64,
-}
-
-/// State of an estimator.
-#[derive(Component, Clone, Debug)]
-pub enum Estimator {
-    /// Compass, Doppler log and long-baseline jumps.
-    DeadReckoning(Box<DeadReckoning>),
-}
-
-impl Estimator {
-    /// An estimator that begins at `start` and steps by `dt_s`.
+    /// The estimator, which begins at `start` and steps by `dt_s`.
     #[must_use]
-    pub fn new(spec: &EstimatorSpec, start: Start, dt_s: f64) -> Self {
-        match spec {
-            EstimatorSpec::DeadReckoning(s) => Self::DeadReckoning(Box::new(DeadReckoning::new(s, start, dt_s))),
-        }
-    }
-
-    /// The estimate at the clock's time, after the readings of this step.
-    pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
-        match self {
-            Self::DeadReckoning(e) => e.step(clock, readings),
-        }
+    pub fn build(&self, start: Start, dt_s: f64) -> DeadReckoning {
+        let Self::DeadReckoning(spec) = self;
+        DeadReckoning::new(spec, start, dt_s)
     }
 }
 

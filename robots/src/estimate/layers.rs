@@ -17,6 +17,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::BTreeMap;
 use world::math;
 use world::ranges::Positive;
@@ -26,21 +27,18 @@ use world::ranges::Positive;
 const SMOOTH_S: f64 = 1.0;
 
 /// Parameters of the layer test.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerAwareSpec {
     /// Two densities farther apart than this belong to different layers, kg/m³.
+    #[default(Positive::new(0.5))]
     pub differs_kg_m3: Positive,
     /// Height of a bin of the profile, m.
+    #[default(Positive::new(0.25))]
     pub bin_m: Positive,
     /// A bin not visited for this long is forgotten, s.
+    #[default(Positive::new(3600.0))]
     pub memory_s: Positive,
-}
-
-impl Default for LayerAwareSpec {
-    fn default() -> Self {
-        Self { differs_kg_m3: Positive::new(0.5), bin_m: Positive::new(0.25), memory_s: Positive::new(3600.0) }
-    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +48,9 @@ struct Bin {
 }
 
 /// The profile, and the density where the vehicle is.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct LayerWatch {
-    differs_kg_m3: f64,
-    bin_m: f64,
-    memory_s: f64,
+    spec: LayerAwareSpec,
     bins: BTreeMap<i64, Bin>,
     here: Option<f64>,
     /// Density at the vehicle when the believed flow was measured.
@@ -63,20 +59,13 @@ pub(super) struct LayerWatch {
 
 impl LayerWatch {
     pub(super) fn new(spec: &LayerAwareSpec) -> Self {
-        Self {
-            differs_kg_m3: spec.differs_kg_m3.get(),
-            bin_m: spec.bin_m.get(),
-            memory_s: spec.memory_s.get(),
-            bins: BTreeMap::new(),
-            here: None,
-            measured_in: None,
-        }
+        Self { spec: spec.clone(), ..Self::default() }
     }
 
     /// Takes in a reading at a depth.
     pub(super) fn take_in(&mut self, t_s: f64, depth_m: f64, density_kg_m3: f64) {
         self.here = Some(density_kg_m3);
-        let k = (depth_m / self.bin_m).floor() as i64;
+        let k = (depth_m / self.spec.bin_m.get()).floor() as i64;
         let before = self.bins.get(&k).copied();
         let density_kg_m3 = before.map_or(density_kg_m3, |b| {
             let keep = math::exp(-(t_s - b.visited_s) / SMOOTH_S);
@@ -84,13 +73,13 @@ impl LayerWatch {
         });
         let bin = Bin { density_kg_m3, visited_s: t_s };
         self.bins.insert(k, bin);
-        let oldest_s = t_s - self.memory_s;
+        let oldest_s = t_s - self.spec.memory_s.get();
         self.bins.retain(|_, b| b.visited_s >= oldest_s);
     }
 
     /// Density at a depth from the profile, kg/m³; `None` if it is not known.
     fn density(&self, depth_m: f64) -> Option<f64> {
-        let at = depth_m / self.bin_m;
+        let at = depth_m / self.spec.bin_m.get();
         let inside = self.bins.get(&(at.floor() as i64));
         // Between the middles of the nearest bins to either side.
         let k = (at - 0.5).floor() as i64;
@@ -113,7 +102,7 @@ impl LayerWatch {
     /// Whether the vehicle has left the layer in which the believed flow was measured.
     pub(super) fn left_layer(&self) -> bool {
         match (self.here, self.measured_in) {
-            (Some(here), Some(then)) => (here - then).abs() > self.differs_kg_m3,
+            (Some(here), Some(then)) => (here - then).abs() > self.spec.differs_kg_m3.get(),
             _ => false,
         }
     }
@@ -121,7 +110,7 @@ impl LayerWatch {
     /// Whether the water at a depth is known to belong to another layer than the water at the vehicle.
     pub(super) fn is_other(&self, depth_m: f64) -> bool {
         match (self.here, self.density(depth_m)) {
-            (Some(here), Some(there)) => (here - there).abs() > self.differs_kg_m3,
+            (Some(here), Some(there)) => (here - there).abs() > self.spec.differs_kg_m3.get(),
             _ => false,
         }
     }

@@ -8,6 +8,6 @@ mod layers;
 mod with_instruments;
 
 pub use catalogue::CATALOGUE;
-pub use dead_reckoning::{DeadReckoning, DeadReckoningSpec};
-pub use estimator::{Estimator, EstimatorSpec, Start};
+pub use dead_reckoning::{DeadReckoning, DeadReckoningSpec, Start};
+pub use estimator::EstimatorSpec;
 pub use layers::LayerAwareSpec;

@@ -9,9 +9,9 @@
 //! quantisation; what is marked invalid stays as it is. A range beyond the ranging's own is no echo. Numbers that
 //! instruments of other crates write into `other` have no faults.
 
-use super::reading_fault::{Instrument, ReadingFault};
+use super::reading_fault::ReadingFault;
 use super::span::Span;
-use super::spec::{FaultSpec, FaultSubject};
+use super::spec::{FaultSpec, FaultSubject, Faulty};
 use crate::handoff::{Beam, ChemicalReading, RangeScan, Readings};
 use crate::sense::{FluorometerSpec, SensorsSpec};
 use bevy_ecs::prelude::Component;
@@ -20,37 +20,25 @@ use world::clock::Clock;
 /// The faults of a robot's instruments.
 #[derive(Component, Clone, Debug, Default)]
 pub struct SensorFaults {
-    faults: Vec<(Span, Instrument, ReadingFault)>,
-    scale: Option<Scale>,
+    faults: Vec<(Span, Faulty, ReadingFault)>,
+    /// Its scale.
+    fluorometer: Option<Box<FluorometerSpec>>,
     /// The last reading of each instrument. Apart, because most robots have no faults.
     last: Box<Readings>,
-}
-
-/// The scale of a fluorometer.
-#[derive(Clone, Copy, Debug)]
-struct Scale {
-    full_ug_l: f64,
-    full_v: f64,
-    threshold: f64,
 }
 
 impl SensorFaults {
     /// Those among the faults of a robot with these instruments; steps take `dt_s`.
     #[must_use]
     pub fn new(faults: &[FaultSpec], sensors: &SensorsSpec, dt_s: f64) -> Self {
-        let fluorometer = sensors.get::<FluorometerSpec>();
         Self {
             faults: (faults.iter())
                 .filter_map(|fault| match fault.what.subject() {
-                    FaultSubject::Instrument(what, amiss) => Some((fault.span(dt_s), what, amiss)),
+                    FaultSubject::Instrument(_, amiss) => Some((fault.span(dt_s), fault.what.clone(), amiss)),
                     FaultSubject::Drive(..) => None,
                 })
                 .collect(),
-            scale: fluorometer.map(|spec| Scale {
-                full_ug_l: spec.full_scale_ug_l.get(),
-                full_v: spec.full_scale_v.get(),
-                threshold: spec.threshold.get(),
-            }),
+            fluorometer: sensors.get().cloned().map(Box::new),
             last: Box::default(),
         }
     }
@@ -63,7 +51,7 @@ impl SensorFaults {
         for (span, what, amiss) in &self.faults {
             if span.holds(clock) {
                 let lasted_s = span.lasted_s(clock);
-                alter(*what, amiss, lasted_s, self.scale.as_ref(), readings, &self.last);
+                alter(what, amiss, lasted_s, self.fluorometer.as_deref(), readings, &self.last);
             }
         }
         remember(&mut self.last, readings);
@@ -71,48 +59,49 @@ impl SensorFaults {
 }
 
 fn alter(
-    what: Instrument,
+    what: &Faulty,
     amiss: &ReadingFault,
     lasted_s: f64,
-    scale: Option<&Scale>,
+    fluorometer: Option<&FluorometerSpec>,
     now: &mut Readings,
     last: &Readings,
 ) {
     let off = amiss.off(lasted_s);
     match what {
-        Instrument::Fluorometer => one(amiss, &mut now.chemical, &last.chemical, |r| {
-            if let Some(scale) = scale {
-                *r = more_dye(r, off, scale);
+        Faulty::Fluorometer(_) => one(amiss, &mut now.chemical, &last.chemical, |r| {
+            if let Some(spec) = fluorometer {
+                *r = more_dye(r, off, spec);
             }
         }),
-        Instrument::Compass => one(amiss, &mut now.attitude, &last.attitude, |r| {
+        Faulty::Compass(_) => one(amiss, &mut now.attitude, &last.attitude, |r| {
             r.heading = r.heading.turned(off.to_radians());
         }),
-        Instrument::Depth => one(amiss, &mut now.depth, &last.depth, |r| r.depth_m += off),
-        Instrument::Altimeter => one(amiss, &mut now.altimeter, &last.altimeter, |r| {
+        Faulty::Depth(_) => one(amiss, &mut now.depth, &last.depth, |r| r.depth_m += off),
+        Faulty::Altimeter(_) => one(amiss, &mut now.altimeter, &last.altimeter, |r| {
             if r.valid {
                 r.altitude_m = (r.altitude_m + off).max(0.0);
             }
         }),
-        Instrument::Ranging => one(amiss, &mut now.ranging, &last.ranging, |r| farther(r, off)),
-        Instrument::Dvl => one(amiss, &mut now.dvl, &last.dvl, |r| {
+        Faulty::Ranging(_) => one(amiss, &mut now.ranging, &last.ranging, |r| farther(r, off)),
+        Faulty::Dvl(_) => one(amiss, &mut now.dvl, &last.dvl, |r| {
             if r.valid {
                 r.v_body_m_s.x += off;
             }
         }),
-        Instrument::Adcp => one(amiss, &mut now.adcp, &last.adcp, |r| {
+        Faulty::Adcp(_) => one(amiss, &mut now.adcp, &last.adcp, |r| {
             if r.valid {
                 r.v_body_m_s.x += off;
             }
         }),
-        Instrument::Ctd => one(amiss, &mut now.ctd, &last.ctd, |r| {
+        Faulty::Ctd(_) => one(amiss, &mut now.ctd, &last.ctd, |r| {
             r.density_kg_m3 = (r.density_kg_m3 + off).max(0.0);
         }),
-        Instrument::Sidescan => one(amiss, &mut now.sidescan, &last.sidescan, |_| {}),
-        Instrument::Camera => one(amiss, &mut now.picture, &last.picture, |_| {}),
-        Instrument::Lbl => one(amiss, &mut now.lbl, &last.lbl, |r| {
+        Faulty::Sidescan(_) => one(amiss, &mut now.sidescan, &last.sidescan, |_| {}),
+        Faulty::Camera(_) => one(amiss, &mut now.picture, &last.picture, |_| {}),
+        Faulty::Fixes(_) => one(amiss, &mut now.lbl, &last.lbl, |r| {
             r.position += amiss.displaced(lasted_s);
         }),
+        Faulty::Rudder(_) | Faulty::SternPlane(_) | Faulty::Propeller(_) | Faulty::Drive(_) => {}
     }
 }
 
@@ -127,9 +116,10 @@ fn one<T: Clone>(amiss: &ReadingFault, now: &mut Option<T>, last: &Option<T>, wr
 }
 
 /// A fluorometer's reading with more dye than there is, µg/L.
-fn more_dye(r: &ChemicalReading, by_ug_l: f64, scale: &Scale) -> ChemicalReading {
-    let of_full_scale = (r.of_full_scale + by_ug_l / scale.full_ug_l).clamp(0.0, 1.0);
-    ChemicalReading { volts: of_full_scale * scale.full_v, of_full_scale, detected: of_full_scale > scale.threshold }
+fn more_dye(r: &ChemicalReading, by_ug_l: f64, spec: &FluorometerSpec) -> ChemicalReading {
+    let of_full_scale = (r.of_full_scale + by_ug_l / spec.full_scale_ug_l.get()).clamp(0.0, 1.0);
+    let volts = of_full_scale * spec.full_scale_v.get();
+    ChemicalReading { volts, of_full_scale, detected: of_full_scale > spec.threshold.get() }
 }
 
 /// Every echo farther away, m.

@@ -1,7 +1,6 @@
 //! What is wrong with the faults of a robot: things that it has not, times that contradict each other.
 
 use super::drive_spec::DriveFault;
-use super::reading_fault::Instrument;
 use super::spec::{FaultSpec, FaultSubject, Faulty};
 use crate::handoff::{DriveUnit, NamedDrive};
 use crate::sense::SensorsSpec;
@@ -38,13 +37,12 @@ pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[Na
             say("until_s", problem, Some(help.to_string()));
         }
         match fault.what.subject() {
-            FaultSubject::Instrument(what, _) if !sensors.has(what.field()) => {
-                let (field, problem) = (what.field(), lacks(what));
+            FaultSubject::Instrument(field, _) if !sensors.has(field) => {
                 let help = format!(
                     "fit one, as in `sensors: ({field}: ())`, or leave the fault out; on board: {}",
                     on_board(sensors)
                 );
-                say("what", problem, Some(help));
+                say("what", lacks(field), Some(help));
             }
             FaultSubject::Instrument(..) => {}
             FaultSubject::Drive(name, how) => {
@@ -67,10 +65,10 @@ pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[Na
     found
 }
 
-fn lacks(what: Instrument) -> String {
-    match what {
-        Instrument::Lbl => "there are no position fixes: the robot carries no lbl, which makes them".to_string(),
-        other => format!("the robot carries no {}", other.field()),
+fn lacks(field: &str) -> String {
+    match field {
+        "lbl" => "there are no position fixes: the robot carries no lbl, which makes them".to_string(),
+        other => format!("the robot carries no {other}"),
     }
 }
 

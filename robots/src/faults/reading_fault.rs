@@ -1,54 +1,7 @@
-//! Which instrument fails, and what the fault does to its readings.
+//! What a fault does to the readings of an instrument.
 
 use super::instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault};
 use nalgebra::Vector2;
-
-/// An instrument that can fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Instrument {
-    Fluorometer,
-    Compass,
-    Depth,
-    Altimeter,
-    Ranging,
-    Dvl,
-    Adcp,
-    Ctd,
-    Sidescan,
-    Camera,
-    Lbl,
-}
-
-impl Instrument {
-    /// Its field in `sensors`.
-    pub(super) fn field(self) -> &'static str {
-        match self {
-            Self::Fluorometer => "fluorometer",
-            Self::Compass => "compass",
-            Self::Depth => "depth",
-            Self::Altimeter => "altimeter",
-            Self::Ranging => "ranging",
-            Self::Dvl => "dvl",
-            Self::Adcp => "adcp",
-            Self::Ctd => "ctd",
-            Self::Sidescan => "sidescan",
-            Self::Camera => "camera",
-            Self::Lbl => "lbl",
-        }
-    }
-
-    /// What people call it.
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Depth => "depth sensor",
-            Self::Dvl => "Doppler log",
-            Self::Adcp => "current profiler",
-            Self::Ctd => "CTD",
-            Self::Lbl => "position fixes",
-            other => other.field(),
-        }
-    }
-}
 
 /// What a fault does to readings.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::drive_spec::{DriveFault, DriveSpec, FinFault, PropellerFault};
 use super::instrument_spec::{DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault};
-use super::reading_fault::{Instrument, ReadingFault};
+use super::reading_fault::ReadingFault;
 use super::span::Span;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -64,7 +64,8 @@ const PROPELLER: &str = "propeller";
 /// What a fault is of.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum FaultSubject<'a> {
-    Instrument(Instrument, ReadingFault),
+    /// An instrument by its field in `sensors`.
+    Instrument(&'static str, ReadingFault),
     /// A drive by its name.
     Drive(&'a str, DriveFault),
 }
@@ -73,17 +74,17 @@ impl Faulty {
     /// What it is of.
     pub(super) fn subject(&self) -> FaultSubject<'_> {
         match self {
-            Self::Fluorometer(how) => FaultSubject::Instrument(Instrument::Fluorometer, how.into()),
-            Self::Compass(how) => FaultSubject::Instrument(Instrument::Compass, how.into()),
-            Self::Depth(how) => FaultSubject::Instrument(Instrument::Depth, how.into()),
-            Self::Altimeter(how) => FaultSubject::Instrument(Instrument::Altimeter, how.into()),
-            Self::Ranging(how) => FaultSubject::Instrument(Instrument::Ranging, how.into()),
-            Self::Dvl(how) => FaultSubject::Instrument(Instrument::Dvl, how.into()),
-            Self::Adcp(how) => FaultSubject::Instrument(Instrument::Adcp, how.into()),
-            Self::Ctd(how) => FaultSubject::Instrument(Instrument::Ctd, how.into()),
-            Self::Sidescan(how) => FaultSubject::Instrument(Instrument::Sidescan, how.into()),
-            Self::Camera(how) => FaultSubject::Instrument(Instrument::Camera, how.into()),
-            Self::Fixes(how) => FaultSubject::Instrument(Instrument::Lbl, how.into()),
+            Self::Fluorometer(how) => FaultSubject::Instrument("fluorometer", how.into()),
+            Self::Compass(how) => FaultSubject::Instrument("compass", how.into()),
+            Self::Depth(how) => FaultSubject::Instrument("depth", how.into()),
+            Self::Altimeter(how) => FaultSubject::Instrument("altimeter", how.into()),
+            Self::Ranging(how) => FaultSubject::Instrument("ranging", how.into()),
+            Self::Dvl(how) => FaultSubject::Instrument("dvl", how.into()),
+            Self::Adcp(how) => FaultSubject::Instrument("adcp", how.into()),
+            Self::Ctd(how) => FaultSubject::Instrument("ctd", how.into()),
+            Self::Sidescan(how) => FaultSubject::Instrument("sidescan", how.into()),
+            Self::Camera(how) => FaultSubject::Instrument("camera", how.into()),
+            Self::Fixes(how) => FaultSubject::Instrument("lbl", how.into()),
             Self::Rudder(how) => FaultSubject::Drive(RUDDER, how.into()),
             Self::SternPlane(how) => FaultSubject::Drive(STERN_PLANE, how.into()),
             Self::Propeller(how) => FaultSubject::Drive(PROPELLER, how.into()),
@@ -95,7 +96,17 @@ impl Faulty {
     #[must_use]
     pub fn describe(&self) -> String {
         match self.subject() {
-            FaultSubject::Instrument(what, how) => format!("{} {}", what.label(), how.describe()),
+            FaultSubject::Instrument(field, how) => {
+                let label = match field {
+                    "depth" => "depth sensor",
+                    "dvl" => "Doppler log",
+                    "adcp" => "current profiler",
+                    "ctd" => "CTD",
+                    "lbl" => "position fixes",
+                    other => other,
+                };
+                format!("{label} {}", how.describe())
+            }
             FaultSubject::Drive(name, how) => {
                 let unit = match self {
                     Self::Rudder(_) | Self::SternPlane(_) => "degrees",

@@ -8,9 +8,9 @@
 //! that the water does not carry, nothing is compensated for, and its speed is that over ground.
 
 use super::cage::{altered, cage, lost};
-use super::dubins::{Follower, FollowerLimits, Pose};
+use super::dubins::{Follower, Pose};
 use super::flow_compensation::compensate;
-use super::follow_line::{FollowLine, LineLimits};
+use super::follow_line::FollowLine;
 use super::go_to_point::GoToPoint;
 use super::hover::{HoverDemand, Hovering};
 use super::known::CachedCourse;
@@ -127,7 +127,7 @@ impl Guidance {
         if let Mode::Hover(hovering) = &mut self.mode {
             hovering.adjust(goal.manoeuvre);
             let at = Pose { position: est.position, heading: est.attitude.heading };
-            let wanted = hovering.step(at, goal.speed_m_s);
+            let wanted = hovering.step(&self.spec, at, goal.speed_m_s);
             self.done |= wanted.done;
             return (self.moved(est, goal, &wanted, sides), self.status(goal.id));
         }
@@ -173,35 +173,22 @@ impl Guidance {
 
     fn start(&self, est: &Estimate, goal: &Goal) -> Mode {
         let s = &self.spec;
-        let gain_rad_m = s.line_gain_deg_m.get().to_radians();
-        let capture_rad = s.line_capture_deg.get().to_radians();
         let to_pose = |end: Pose| {
             let from = Pose { position: est.position, heading: course_over_ground(est) };
-            let limits =
-                FollowerLimits { radius_m: s.turn_radius_m.get(), gain_rad_m, capture_rad, replan_m: s.replan_m.get() };
-            Follower::new(from, end, goal.speed_m_s, limits)
+            Follower::new(from, end, goal.speed_m_s, s)
         };
         let to_point = |point, radius: Option<f64>| {
             let radius_m = radius.unwrap_or(s.arrive_m.get());
             Mode::Point(GoToPoint::new(point, radius_m, s.turn_radius_m.get()))
         };
-        let follow = |from, to| {
-            let limits = LineLimits {
-                gain_rad_m,
-                capture_rad,
-                start_m: s.line_start_m.get(),
-                start_angle_rad: s.line_start_angle_deg.get().to_radians(),
-                end_m: s.arrive_m.get(),
-                overshoot_m: s.line_overshoot_m.get(),
-            };
-            FollowLine::new(from, to, limits)
-        };
         if self.hovers {
             let line = match goal.manoeuvre {
-                Manoeuvre::FollowLine { from, to } if (to - from).norm() >= SHORTEST_LINE_M => Some(follow(from, to)),
+                Manoeuvre::FollowLine { from, to } if (to - from).norm() >= SHORTEST_LINE_M => {
+                    Some(FollowLine::new(from, to))
+                }
                 _ => None,
             };
-            return Mode::Hover(Hovering::new(goal.manoeuvre, line, s.arrive_m.get()));
+            return Mode::Hover(Hovering::new(goal.manoeuvre, line));
         }
         match goal.manoeuvre {
             Manoeuvre::GoToPoint { point, radius_m } => to_point(point, radius_m),
@@ -209,7 +196,7 @@ impl Guidance {
             Manoeuvre::SlideTo { point, radius_m, .. } => to_point(point, radius_m),
             Manoeuvre::FollowLine { from, to } if (to - from).norm() < SHORTEST_LINE_M => to_point(to, None),
             Manoeuvre::FollowLine { from, to } => {
-                let line = follow(from, to);
+                let line = FollowLine::new(from, to);
                 let end = Pose { position: from, heading: line.direction() };
                 Mode::ToLine(to_pose(end), line)
             }
@@ -225,8 +212,8 @@ impl Guidance {
         let moving = || course_over_ground(est);
         // When the line's start is reached, the line itself begins in the same tick.
         if let Mode::ToLine(follower, line) = &mut self.mode {
-            let (course, over) = follower.step(est.position, moving, goal.speed_m_s, dt_s);
-            if !over && !line.entered(est.position, moving) {
+            let (course, over) = follower.step(&self.spec, est.position, moving, goal.speed_m_s, dt_s);
+            if !over && !line.entered(&self.spec, est.position, moving) {
                 return course;
             }
             self.mode = Mode::Line(*line);
@@ -238,11 +225,11 @@ impl Guidance {
                 course
             }
             Mode::Line(line) => {
-                self.done |= line.finished(est.position);
-                line.course(est.position)
+                self.done |= line.finished(&self.spec, est.position);
+                line.course(&self.spec, est.position)
             }
             Mode::ToPose(follower) | Mode::ToLine(follower, _) => {
-                let (course, over) = follower.step(est.position, moving, goal.speed_m_s, dt_s);
+                let (course, over) = follower.step(&self.spec, est.position, moving, goal.speed_m_s, dt_s);
                 self.done |= over;
                 course
             }

@@ -12,6 +12,7 @@
 
 use super::dubins::Pose;
 use super::follow_line::FollowLine;
+use super::spec::GuidanceSpec;
 use crate::handoff::Manoeuvre;
 use nalgebra::Vector2;
 use world::units::Heading;
@@ -42,13 +43,12 @@ pub(super) struct Hovering {
     manoeuvre: Manoeuvre,
     line: Option<FollowLine>,
     on_line: bool,
-    arrive_m: f64,
 }
 
 impl Hovering {
     /// Begins a manoeuvre; `line` is the follower of its line, if it has one.
-    pub(super) fn new(manoeuvre: Manoeuvre, line: Option<FollowLine>, arrive_m: f64) -> Self {
-        Self { manoeuvre, line, on_line: false, arrive_m }
+    pub(super) fn new(manoeuvre: Manoeuvre, line: Option<FollowLine>) -> Self {
+        Self { manoeuvre, line, on_line: false }
     }
 
     /// Only the course of a manoeuvre may change in between.
@@ -59,7 +59,7 @@ impl Hovering {
     }
 
     /// What to do at a place, at a speed (m/s).
-    pub(super) fn step(&mut self, at: Pose, speed_m_s: f64) -> HoverDemand {
+    pub(super) fn step(&mut self, spec: &GuidanceSpec, at: Pose, speed_m_s: f64) -> HoverDemand {
         let to = |point: Vector2<f64>, reached_m: f64, heading: Option<Heading>| {
             let way = point - at.position;
             let distance_m = way.norm();
@@ -69,14 +69,14 @@ impl Hovering {
             HoverDemand { velocity_m_s, heading: heading.or(along), done: distance_m < reached_m }
         };
         match self.manoeuvre {
-            Manoeuvre::GoToPoint { point, radius_m } => to(point, radius_m.unwrap_or(self.arrive_m), None),
+            Manoeuvre::GoToPoint { point, radius_m } => to(point, radius_m.unwrap_or(spec.arrive_m.get()), None),
             Manoeuvre::SlideTo { point, radius_m, heading } => {
-                to(point, radius_m.unwrap_or(self.arrive_m), Some(heading))
+                to(point, radius_m.unwrap_or(spec.arrive_m.get()), Some(heading))
             }
             Manoeuvre::Hold { point, heading } => to(point, HELD_M, heading),
             Manoeuvre::GoToPointWithHeading { point, heading } => {
                 let near = (point - at.position).norm() < HELD_M.max(NEAR_M);
-                let mut wanted = to(point, self.arrive_m, near.then_some(heading));
+                let mut wanted = to(point, spec.arrive_m.get(), near.then_some(heading));
                 wanted.done = near && at.heading.turn_to(heading).abs() < TAKEN_RAD;
                 wanted
             }
@@ -88,12 +88,12 @@ impl Hovering {
                         return HoverDemand { done: false, ..begun };
                     }
                     HoverDemand {
-                        velocity_m_s: line.course(at.position).unit() * speed_m_s,
+                        velocity_m_s: line.course(spec, at.position).unit() * speed_m_s,
                         heading: Some(line.direction()),
-                        done: line.finished(at.position),
+                        done: line.finished(spec, at.position),
                     }
                 }
-                None => to(from, self.arrive_m, None),
+                None => to(from, spec.arrive_m.get(), None),
             },
             Manoeuvre::Course { course } => {
                 HoverDemand { velocity_m_s: course.unit() * speed_m_s, heading: Some(course), done: false }
@@ -116,14 +116,14 @@ mod tests {
     #[test]
     fn it_slows_down_towards_a_point_and_holds_it() {
         let hold = Manoeuvre::Hold { point: Vector2::new(10.0, 0.0), heading: None };
-        let mut hovering = Hovering::new(hold, None, 10.0);
-        let far = hovering.step(at(0.0, 0.0), 0.5);
+        let mut hovering = Hovering::new(hold, None);
+        let far = hovering.step(&GuidanceSpec::default(), at(0.0, 0.0), 0.5);
         assert!((far.velocity_m_s - Vector2::new(0.5, 0.0)).norm() < 1e-12);
         assert!(!far.done && (far.heading.expect("ahead").deg() - 90.0).abs() < 1e-9);
-        let near = hovering.step(at(9.8, 0.0), 0.5);
+        let near = hovering.step(&GuidanceSpec::default(), at(9.8, 0.0), 0.5);
         assert!((near.velocity_m_s.x - 0.06).abs() < 1e-12 && near.done);
         assert_eq!(near.heading, None);
-        let there = hovering.step(at(10.0, 0.0), 0.5);
+        let there = hovering.step(&GuidanceSpec::default(), at(10.0, 0.0), 0.5);
         assert_eq!(there.velocity_m_s, Vector2::zeros());
     }
 
@@ -131,7 +131,7 @@ mod tests {
     fn it_slides_with_its_heading_held() {
         let north = Heading::from_deg(0.0);
         let slide = Manoeuvre::SlideTo { point: Vector2::new(5.0, 0.0), radius_m: None, heading: north };
-        let wanted = Hovering::new(slide, None, 10.0).step(at(0.0, 0.0), 0.3);
+        let wanted = Hovering::new(slide, None).step(&GuidanceSpec::default(), at(0.0, 0.0), 0.3);
         assert_eq!(wanted.heading, Some(north));
         assert!((wanted.velocity_m_s - Vector2::new(0.3, 0.0)).norm() < 1e-12);
     }

@@ -3,6 +3,7 @@
 use super::{DriveCommand, MOST_DRIVES, RateCommand, Vertical};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
+use smart_default::SmartDefault;
 use world::units::Heading;
 
 /// Guidance output, within the vehicle's limits.
@@ -54,20 +55,15 @@ pub enum Command {
 }
 
 /// What a vehicle's own drives are set to.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, SmartDefault, PartialEq)]
 pub enum Actuation {
     /// Of a vehicle with fins and a propeller.
+    #[default]
     Fins(ActuatorCommand),
     /// Of a kinematic vehicle.
     Rates(RateCommand),
     /// Of a vehicle of a folder.
     Drives(DriveCommand),
-}
-
-impl Default for Actuation {
-    fn default() -> Self {
-        Self::Fins(ActuatorCommand::default())
-    }
 }
 
 impl Actuation {

@@ -2,6 +2,7 @@
 
 use super::{PilotSpec, RateLimits};
 use nalgebra::{Matrix6, Vector3, Vector6};
+use smart_default::SmartDefault;
 
 /// Most drives that a vehicle of a folder has.
 pub const MOST_DRIVES: usize = 16;
@@ -187,36 +188,26 @@ pub enum DriveUnit {
     Own,
 }
 
-/// What a vehicle can do, for searchers that can use it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a vehicle can do, for searchers that can use it. By default those of a REMUS 100, for observations made by hand.
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq)]
 pub struct Capabilities {
     /// Least speed through the water at which it can be steered, m/s; 0 for one that hovers.
+    #[default(0.8)]
     pub least_speed_m_s: f64,
     /// Greatest speed ahead, m/s.
+    #[default(2.5)]
     pub top_speed_m_s: f64,
     /// Radius of its tightest turn, m; 0 for one that turns on the spot.
+    #[default(11.5)]
     pub turning_radius_m: f64,
     /// Holds its place, within its speeds.
     pub hovers: bool,
     /// Moves sideways, with its heading held.
     pub sideways: bool,
     /// Chooses its depth; false for a craft on the surface.
+    #[default(true)]
     pub dives: bool,
     /// Holds a depth; false for a glider, which goes up and down between two.
+    #[default(true)]
     pub holds_depth: bool,
-}
-
-/// Those of a REMUS 100, for observations made by hand.
-impl Default for Capabilities {
-    fn default() -> Self {
-        Self {
-            least_speed_m_s: 0.8,
-            top_speed_m_s: 2.5,
-            turning_radius_m: 11.5,
-            hovers: false,
-            sideways: false,
-            dives: true,
-            holds_depth: true,
-        }
-    }
 }

@@ -4,11 +4,13 @@ use super::Goal;
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use serde::Serialize;
+use strum::IntoStaticStr;
 use world::digest::Digest;
 use world::seeds;
 
 /// What the vehicle is doing, in the terms of the field.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub enum Behaviour {
     /// Before the first decision.
     #[default]
@@ -66,19 +68,8 @@ impl Behaviour {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Behaviour::Idle => "idle",
-            Behaviour::OpenLoop => "open_loop",
-            Behaviour::GoTo => "go_to",
-            Behaviour::Find => "find",
-            Behaviour::TrackIn => "track_in",
-            Behaviour::TrackOut => "track_out",
-            Behaviour::Reacquire => "reacquire",
-            Behaviour::GoHome => "go_home",
-            Behaviour::Done => "done",
-            Behaviour::FollowPath => "follow_path",
-            Behaviour::Avoid => "avoid",
-            Behaviour::Survey => "survey",
-            Behaviour::Other(name) => name,
+            Self::Other(name) => name,
+            own => own.into(),
         }
     }
 
@@ -105,7 +96,8 @@ impl Behaviour {
 }
 
 /// What instruments other than the chemical sensor say about a declared place.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Nobody has looked.
@@ -123,12 +115,7 @@ impl Verdict {
     /// Name as it stands in files and topics.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Verdict::Unchecked => "unchecked",
-            Verdict::Verified => "verified",
-            Verdict::Rejected => "rejected",
-            Verdict::CannotTell => "cannot_tell",
-        }
+        self.into()
     }
 
     /// The same for people.
@@ -175,7 +162,7 @@ pub struct PictureEvidence {
 pub const UP_FLOW_EDGE: &str = "up_flow_edge";
 
 /// A declared source, or the place at which a plume was traced out of a subregion.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Declaration {
     /// Number among the robot's declarations, from 0. A later declaration of the same number replaces the earlier
     /// one: it is the same source after an inspection.
@@ -205,18 +192,7 @@ impl Declaration {
     /// The first declaration of a mission without subregions, before any inspection.
     #[must_use]
     pub fn first(t_s: f64, position: Vector2<f64>, rule: &'static str) -> Self {
-        Self {
-            number: 0,
-            t_s,
-            position,
-            z_m: None,
-            rule,
-            region: None,
-            verdict: Verdict::Unchecked,
-            surveyed: None,
-            looked: None,
-            evidence: None,
-        }
+        Self { t_s, position, rule, ..Self::default() }
     }
 
     /// Whether it marks where a plume crosses a subregion's up-flow edge: the source is beyond the edge, not there.

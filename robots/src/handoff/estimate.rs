@@ -1,33 +1,11 @@
 //! What the vehicle believes. It is a type of its own so that nobody can confuse it with the truth.
 
-use super::{Belief, Capabilities, ChemicalReading, GuidanceStatus, RangeScan};
+use super::{Attitude, Belief, Capabilities, ChemicalReading, GuidanceStatus, RangeScan};
 use super::{Picture, ReplyOutcome, SidescanPing};
 use bevy_ecs::prelude::Component;
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::units::Heading;
-
-/// Believed attitude.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attitude {
-    /// Heading.
-    pub heading: Heading,
-    /// Roll, right side down positive, rad.
-    pub roll_rad: f64,
-    /// Pitch, nose *up* positive, rad.
-    pub pitch_rad: f64,
-    /// Angular rates in body axes (FLU), rad/s.
-    pub rates_rad_s: Vector3<f64>,
-}
-
-impl Attitude {
-    /// Rotation from body axes (FLU) to world axes (ENU), as believed. A rotation about FLU's y is positive nose
-    /// down.
-    #[must_use]
-    pub fn R_WB(&self) -> UnitQuaternion<f64> {
-        UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
-    }
-}
 
 /// Believed flow at the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,6 +7,7 @@
 use super::ReplyOutcome;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
+use strum::IntoStaticStr;
 
 /// Most probes a head can carry.
 pub const MAX_PROBES: usize = 8;
@@ -80,7 +81,8 @@ pub struct GantryObservation {
 }
 
 /// What a gantry's searcher is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[repr(u8)]
 pub enum GantryBehaviour {
     /// Waiting.
@@ -112,19 +114,12 @@ impl GantryBehaviour {
     /// Its name in records and on the wire.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            GantryBehaviour::Idle => "idle",
-            GantryBehaviour::Sweep => "sweep",
-            GantryBehaviour::ToBest => "to_best",
-            GantryBehaviour::StepUp => "step_up",
-            GantryBehaviour::Cast => "cast",
-            GantryBehaviour::Done => "done",
-        }
+        self.into()
     }
 }
 
 /// What a gantry's searcher asks for.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct GantryDecision {
     /// What it is doing.
     pub behaviour: GantryBehaviour,

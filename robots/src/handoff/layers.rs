@@ -1,9 +1,11 @@
 //! State of the layers of a subsumption planner: which one controls the vehicle, and which ones it suppresses.
 
 use serde::Serialize;
+use strum::IntoStaticStr;
 
 /// How a layer stands in a tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum LayerState {
     /// Asks for nothing.
@@ -21,12 +23,7 @@ impl LayerState {
     /// Name as it stands in files and topics.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            LayerState::Silent => "silent",
-            LayerState::Holds => "holds",
-            LayerState::Suppressed => "suppressed",
-            LayerState::Inhibited => "inhibited",
-        }
+        self.into()
     }
 }
 

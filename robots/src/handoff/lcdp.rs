@@ -48,7 +48,7 @@ impl Lcdp {
     #[must_use]
     pub fn in_flow(&self, up_flow: Heading) -> Vector2<f64> {
         let down = -up_flow.unit();
-        Vector2::new(down.dot(&self.position), down.x * self.position.y - down.y * self.position.x)
+        Vector2::new(down.dot(&self.position), down.perp(&self.position))
     }
 }
 

@@ -34,7 +34,7 @@ pub use control::{
     ThrustTable,
 };
 pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict};
-pub use estimate::{Attitude, Estimate, FlowEstimate, Observation, detects};
+pub use estimate::{Estimate, FlowEstimate, Observation, detects};
 pub use gantry::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES,
     ProbeMount, ProbeScan, TrackerState,
@@ -47,8 +47,8 @@ pub use pictures::{Picture, SidescanPing};
 pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};
 pub use readings::{
-    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading,
-    LblFix, RangeScan, Readings,
+    AdcpReading, AltimeterReading, Attitude, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading, LblFix,
+    RangeScan, Readings,
 };
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// Who steers a vehicle of a folder. Gains follow from the vehicle's own mass, damping and drives.
@@ -18,37 +19,29 @@ pub enum PilotSpec {
 }
 
 /// A torpedo.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TorpedoSpec {
     /// Speed through the water at which the gains hold, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(1.5))]
     pub design_speed_m_s: Positive,
     /// Greatest commanded turn rate, degrees/s.
+    #[default(Positive::new(10.0))]
     pub heading_rate_deg_s: Positive,
     /// Radius of its tightest turn, m, for searchers and guidance; without it, that of design speed and turn rate.
     /// `rheotaxis vehicle trials` measures it.
     #[serde(with = "world::limits::turn_m::<Option<Positive>>")]
     pub turn_radius_m: Option<Positive>,
     /// Greatest commanded pitch, degrees.
+    #[default(Positive::new(15.0))]
     pub pitch_limit_deg: Positive,
     /// Natural frequency of the closed pitch loop, rad/s.
+    #[default(Positive::new(1.7))]
     pub pitch_rad_s: Positive,
     /// Natural frequency of the closed heading loop, rad/s.
+    #[default(Positive::new(0.5))]
     pub heading_rad_s: Positive,
-}
-
-impl Default for TorpedoSpec {
-    fn default() -> Self {
-        Self {
-            design_speed_m_s: Positive::new(1.5),
-            heading_rate_deg_s: Positive::new(10.0),
-            turn_radius_m: None,
-            pitch_limit_deg: Positive::new(15.0),
-            pitch_rad_s: Positive::new(1.7),
-            heading_rad_s: Positive::new(0.5),
-        }
-    }
 }
 
 impl TorpedoSpec {
@@ -61,72 +54,57 @@ impl TorpedoSpec {
 }
 
 /// A vehicle with thrusters only.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ThrustersSpec {
     /// Greatest commanded speed ahead, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(1.0))]
     pub speed_m_s: Positive,
     /// Greatest commanded speed sideways, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(0.5))]
     pub sideways_m_s: Positive,
     /// Greatest commanded speed up and down, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(0.4))]
     pub climb_m_s: Positive,
     /// Greatest commanded turn rate, degrees/s.
     #[serde(with = "world::limits::turn_deg_s")]
+    #[default(Positive::new(30.0))]
     pub turn_deg_s: Positive,
     /// Time constant with which speeds approach what is commanded, s.
+    #[default(Positive::new(1.0))]
     pub speed_lag_s: Positive,
     /// Natural frequency of the loops of place, depth and attitude, rad/s.
+    #[default(Positive::new(0.8))]
     pub loop_rad_s: Positive,
 }
 
-impl Default for ThrustersSpec {
-    fn default() -> Self {
-        Self {
-            speed_m_s: Positive::new(1.0),
-            sideways_m_s: Positive::new(0.5),
-            climb_m_s: Positive::new(0.4),
-            turn_deg_s: Positive::new(30.0),
-            speed_lag_s: Positive::new(1.0),
-            loop_rad_s: Positive::new(0.8),
-        }
-    }
-}
-
 /// A glider.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GliderSpec {
     /// Depth at which it turns down, m.
+    #[default(Positive::new(5.0))]
     pub shallow_m: Positive,
     /// Depth at which it turns up, m.
+    #[default(Positive::new(100.0))]
     pub deep_m: Positive,
     /// It turns up at this altitude above the bed, too, m.
+    #[default(Positive::new(8.0))]
     pub altitude_m: Positive,
     /// Pitch of the glide, degrees.
+    #[default(Positive::new(25.0))]
     pub pitch_deg: Positive,
     /// Share of the buoyancy engine's volume that is used.
+    #[default(Positive::new(1.0))]
     pub volume_share: Positive,
     /// Greatest commanded turn rate, degrees/s.
+    #[default(Positive::new(3.0))]
     pub heading_rate_deg_s: Positive,
     /// Radius of its tightest turn, m, for searchers and guidance; without it, that of glide and turn rate.
     /// `rheotaxis vehicle trials` measures it.
     #[serde(with = "world::limits::turn_m::<Option<Positive>>")]
     pub turn_radius_m: Option<Positive>,
-}
-
-impl Default for GliderSpec {
-    fn default() -> Self {
-        Self {
-            shallow_m: Positive::new(5.0),
-            deep_m: Positive::new(100.0),
-            altitude_m: Positive::new(8.0),
-            pitch_deg: Positive::new(25.0),
-            volume_share: Positive::new(1.0),
-            heading_rate_deg_s: Positive::new(3.0),
-            turn_radius_m: None,
-        }
-    }
 }

@@ -2,7 +2,7 @@
 
 use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use std::sync::Arc;
 use world::units::Heading;
 
@@ -37,10 +37,10 @@ pub struct AdcpReading {
     pub valid: bool,
 }
 
-/// Compass and inertial unit.
+/// Attitude, as read or believed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AttitudeReading {
-    /// Compass heading.
+pub struct Attitude {
+    /// Heading.
     pub heading: Heading,
     /// Roll, right side down positive, rad.
     pub roll_rad: f64,
@@ -48,6 +48,15 @@ pub struct AttitudeReading {
     pub pitch_rad: f64,
     /// Angular rates in body axes (FLU), rad/s.
     pub rates_rad_s: Vector3<f64>,
+}
+
+impl Attitude {
+    /// Rotation from body axes (FLU) to world axes (ENU), as believed. A rotation about FLU's y is positive nose
+    /// down.
+    #[must_use]
+    pub fn R_WB(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
+    }
 }
 
 /// Pressure sensor.
@@ -120,7 +129,7 @@ pub struct Readings {
     /// Water track, the cell used for the flow.
     pub adcp: Option<AdcpReading>,
     /// Compass and inertial unit.
-    pub attitude: Option<AttitudeReading>,
+    pub attitude: Option<Attitude>,
     /// Depth.
     pub depth: Option<DepthReading>,
     /// Density at the vehicle.

@@ -1,10 +1,12 @@
 //! Parts of the area that a mission searches one after the other.
 
 use serde::Serialize;
+use strum::IntoStaticStr;
 use world::area::Area;
 
 /// How the search of a subregion stands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[serde(rename_all = "snake_case")]
 pub enum RegionState {
     /// Its turn has not come.
@@ -26,14 +28,7 @@ impl RegionState {
     /// Name as it stands in files.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            RegionState::Waiting => "waiting",
-            RegionState::Searching => "searching",
-            RegionState::SourceFree => "source_free",
-            RegionState::TimedOut => "timed_out",
-            RegionState::Declared => "declared",
-            RegionState::UpFlowEdge => "up_flow_edge",
-        }
+        self.into()
     }
 
     /// The same, for reports.

@@ -18,9 +18,9 @@
 //! `Bayesian` makes its likelihoods of detections sum to 1 in every map, so its weights come from readings without
 //! detection alone.
 
-use super::catalogue::Mapper;
 use super::evidence::DoubtSpec;
 use super::log_belief::LogBelief;
+use super::mapper::Mapper;
 use super::watch::MapObservation;
 use crate::error::RobotError;
 use crate::handoff::Belief;

@@ -9,11 +9,14 @@
 //! set of releases that reaches none of the eight is left out. The exponential is a polynomial of degree 6 to the
 //! 128th power, within 1e-13 of the function.
 
-use super::kernel::{REACH, ROOT_TAU};
 use super::releases::Set;
 use super::terms::LEAST;
 use crate::handoff::BeliefGrid;
 
+/// Standard deviations at which a Gaussian is cut off.
+pub(super) const REACH: f64 = 7.0;
+/// √(2π).
+pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
 /// Places that are weighed at a time.
 const LANES: usize = 8;
 /// Half the square of the reach.

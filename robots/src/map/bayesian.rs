@@ -10,13 +10,13 @@
 //! The two are nearly equal where chances are small, and differ near the vehicle, where the product saturates. With ε
 //! = `false_detection`: (1 − ε) β + ε / n. Otherwise as `Pomdp`.
 
-use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
-use super::watch::MapObservation;
+use super::mapper::{MapParams, Mapper};
+use super::over_cells::OverCells;
+use super::pomdp;
+use super::watch::Sighting;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
-use crate::handoff::{Belief, BeliefGrid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -40,10 +40,7 @@ impl Listed for BayesianSpec {
 
 impl MapParams for BayesianSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Alternatives::around(&self.0.doubt, |doubt| {
-            let spec = self.0.with(doubt);
-            Ok(Box::new(Bayesian::new(&spec, spec.grid.build(area)?)?))
-        })
+        OverCells::around(&self.0, area, weigh)
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -55,58 +52,24 @@ impl MapParams for BayesianSpec {
     }
 }
 
-/// State of the mapper.
-#[derive(Clone, Debug)]
-pub struct Bayesian {
-    with: Workings,
-    kernel: Kernel,
-}
-
-impl Bayesian {
-    /// A mapper over a grid; all cells begin with the same probability.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no release.
-    pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
-        let with = Workings::over_cells(spec, grid)?;
-        Ok(Self { kernel: Kernel::within(&with.grid, with.places, &spec.trajectory), with })
+/// Weighs the places; on a detection by their shares of the sum over releases.
+fn weigh(with: &mut Workings, kernel: &mut Kernel, seen: &Sighting) {
+    if !seen.detected {
+        return pomdp::weigh(with, kernel, seen);
     }
-}
-
-impl Mapper for Bayesian {
-    fn step(&mut self, seen: &MapObservation) {
-        let Some(sighting) = self.with.watch.step(seen) else {
-            return;
-        };
-        self.kernel.aim(&self.with.watch.history, sighting.cell);
-        let (likelihood, evidence) = (&mut self.with.likelihood, &mut self.with.evidence);
-        if sighting.detected {
-            self.kernel.expected(likelihood);
-            let total: f64 = likelihood.iter().sum();
-            let (e, n) = (evidence.epsilon, likelihood.len() as f64);
-            let same = evidence.repeated(sighting.t_s, true);
-            let (scale, floor) = if total > 0.0 {
-                ((1.0 - e) / total, e / n)
-            } else {
-                // No cell explains the detection: a false alarm, which tells nothing.
-                (0.0, 1.0)
-            };
-            for l in likelihood {
-                // A reading that repeats the one before has, like the others, a sum of 1.
-                *l = same / n + (1.0 - same) * (*l * scale + floor);
-            }
-        } else {
-            self.kernel.not_detecting(likelihood);
-            evidence.weigh(sighting.t_s, false, likelihood);
-        }
-        self.with.update(sighting.t_s, sighting.detected);
-    }
-
-    fn belief(&self) -> &Belief {
-        self.with.belief.belief()
-    }
-
-    fn ln_evidence(&self) -> f64 {
-        self.with.belief.ln_evidence()
+    let (likelihood, evidence) = (&mut with.likelihood, &mut with.evidence);
+    kernel.expected(likelihood);
+    let total: f64 = likelihood.iter().sum();
+    let (e, n) = (evidence.epsilon, likelihood.len() as f64);
+    let same = evidence.repeated(seen.t_s, true);
+    let (scale, floor) = if total > 0.0 {
+        ((1.0 - e) / total, e / n)
+    } else {
+        // No cell explains the detection: a false alarm, which tells nothing.
+        (0.0, 1.0)
+    };
+    for l in likelihood {
+        // A reading that repeats the one before has, like the others, a sum of 1.
+        *l = same / n + (1.0 - same) * (*l * scale + floor);
     }
 }

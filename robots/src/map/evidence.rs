@@ -17,11 +17,12 @@
 //! counts once in τ. Klotz has one chance for all trials; here that of the moment, so that the chain's own share of
 //! detections follows L with a lag of τ. The defaults ν = 0 and τ = 0 give the papers' rules.
 
-use super::spec::invalid;
+use super::spec::must;
 use super::terms::LEAST;
 use crate::error::RobotError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
@@ -41,47 +42,38 @@ pub enum Repeats {
 }
 
 /// How far the map doubts its model of the plume.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DoubtSpec {
     /// Chance ν that dye is missed where the model is sure of it: gaps in the plume, or a plume beside its modelled
     /// place.
+    #[default(Fraction::new(0.0))]
     pub missed: Fraction,
     /// Correlation time τ, s: readings within this time count once. 0: each update is independent of the one before.
+    #[default(NonNegative::new(0.0))]
     pub correlation_s: NonNegative,
     /// How readings within τ count.
+    #[default(Repeats::Tempered)]
     pub repeats: Repeats,
     /// Standard deviation of a position fix in each horizontal axis, m, as its instrument states it: an error that all
     /// readings until the next fix share. 0: the believed position is true.
+    #[default(NonNegative::new(0.0))]
     pub fix_m: NonNegative,
     /// Standard deviation of the rate at which the believed position drifts away between two fixes, in each horizontal
     /// axis, m/s. The mission begins where the vehicle believes it does.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.0))]
     pub drift_m_s: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the whole way behind the vehicle from the measured
     /// one, m/s: an error that all releases share. 0: the measured flow is true.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.0))]
     pub flow_m_s: NonNegative,
     /// Possible strengths of the source: releases in each release period, all equally likely before the mission. None
     /// given: one, as in the papers. At most 9, each from 0.01 to 100.
     pub strengths: Vec<Positive>,
     /// Time for which that error lasts, s: what is known of it is forgotten at this rate. Not given: for the mission.
     pub flow_lasts_s: Option<Positive>,
-}
-
-impl Default for DoubtSpec {
-    fn default() -> Self {
-        Self {
-            missed: Fraction::new(0.0),
-            correlation_s: NonNegative::new(0.0),
-            repeats: Repeats::Tempered,
-            fix_m: NonNegative::new(0.0),
-            drift_m_s: NonNegative::new(0.0),
-            flow_m_s: NonNegative::new(0.0),
-            strengths: Vec::new(),
-            flow_lasts_s: None,
-        }
-    }
 }
 
 /// The same, ready for updates.
@@ -107,23 +99,16 @@ impl Evidence {
     /// [`RobotError::Invalid`] if ε would let a belief vanish, or if ν leaves readings without any meaning.
     pub(super) fn new(epsilon: Fraction, doubt: &DoubtSpec, period_s: f64) -> Result<Self, RobotError> {
         let (epsilon, missed) = (epsilon.get(), doubt.missed.get());
-        if !(epsilon > 0.0 && epsilon < 1.0) {
-            let problem = format!("must be greater than 0 and less than 1, got {epsilon}");
-            return Err(invalid("false_detection", &problem));
-        }
-        if missed >= 1.0 {
-            return Err(invalid("doubt.missed", &format!("must be less than 1, got {missed}")));
-        }
-        if doubt.strengths.len() > MOST_STRENGTHS {
-            let problem = format!("must be at most {MOST_STRENGTHS}, got {}", doubt.strengths.len());
-            return Err(invalid("doubt.strengths", &problem));
-        }
+        let problem = format!("must be greater than 0 and less than 1, got {epsilon}");
+        must(epsilon > 0.0 && epsilon < 1.0, "false_detection", problem)?;
+        must(missed < 1.0, "doubt.missed", format!("must be less than 1, got {missed}"))?;
+        let problem = format!("must be at most {MOST_STRENGTHS}, got {}", doubt.strengths.len());
+        must(doubt.strengths.len() <= MOST_STRENGTHS, "doubt.strengths", problem)?;
         let (least, most) = STRENGTHS;
         let strengths = doubt.strengths.iter().map(|s| s.get());
-        if let Some(odd) = strengths.clone().find(|s| !(least..=most).contains(s)) {
-            let problem = format!("must be from {least} to {most} each, got {odd}");
-            return Err(invalid("doubt.strengths", &problem));
-        }
+        let odd = strengths.clone().find(|s| !(least..=most).contains(s));
+        let problem = format!("must be from {least} to {most} each, got {}", odd.unwrap_or_default());
+        must(odd.is_none(), "doubt.strengths", problem)?;
         let tau_s = doubt.correlation_s.get();
         Ok(Self {
             epsilon,

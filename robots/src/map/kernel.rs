@@ -10,7 +10,7 @@
 //! standard deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
 //! `terms` and `releases`. The vehicle's place is the middle of its cell, as in the paper.
 
-use super::anywhere::ReleaseSets;
+use super::anywhere::{REACH, ROOT_TAU, ReleaseSets};
 use super::flow_history::FlowHistory;
 use super::releases::Gatherer;
 use super::spec::TrajectorySpec;
@@ -18,11 +18,6 @@ use super::terms::Terms;
 use crate::handoff::BeliefGrid;
 use std::sync::Arc;
 use world::math;
-
-/// Standard deviations at which a Gaussian is cut off.
-pub(super) const REACH: f64 = 7.0;
-/// √(2π).
-pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
 
 /// The kernel over a grid, centred on the vehicle's place.
 #[derive(Clone, Debug)]

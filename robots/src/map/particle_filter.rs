@@ -16,19 +16,20 @@
 //! weight of the particles in each cell, with the share ε spread over all cells.
 
 use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::cost::{PARTICLE_S, by_kernel};
 use super::evidence::{DoubtSpec, mixed};
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
+use super::mapper::{MapParams, Mapper};
 use super::shifts::Shifts;
-use super::spec::{GridSpec, TrajectorySpec, invalid};
+use super::spec::{GridSpec, TrajectorySpec, must};
 use super::watch::MapObservation;
 use super::workings::Workings;
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::area::Area;
 use world::catalogue::Entry;
 use world::cost::{Cost, Times};
@@ -41,7 +42,7 @@ use world::seeds::Stream;
 const PARTICLES: (u32, u32) = (10, 100_000);
 
 /// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ParticleFilterSpec {
     /// The cells of the belief that the particles give.
@@ -49,36 +50,26 @@ pub struct ParticleFilterSpec {
     /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
+    #[default(Positive::new(1.0))]
     pub update_period_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
+    #[default(Fraction::new(1e-6))]
     pub false_detection: Fraction,
     /// How far the map doubts its model.
     pub doubt: DoubtSpec,
     /// Number of particles.
+    #[default(1000)]
     pub particles: u32,
     /// Resample when the effective number is below this share of all.
+    #[default(Fraction::new(0.5))]
     pub resample_below: Fraction,
     /// The particles have lost the source if they give an actual detection a smaller chance than this.
+    #[default(Fraction::new(0.01))]
     pub lost_below: Fraction,
     /// Scatter after resampling, K: share of the particles' extent, divided by the d-th root of their number in d
     /// dimensions.
+    #[default(NonNegative::new(0.2))]
     pub roughening: NonNegative,
-}
-
-impl Default for ParticleFilterSpec {
-    fn default() -> Self {
-        Self {
-            grid: GridSpec::default(),
-            trajectory: TrajectorySpec::default(),
-            update_period_s: Positive::new(1.0),
-            false_detection: Fraction::new(1e-6),
-            doubt: DoubtSpec::default(),
-            particles: 1000,
-            resample_below: Fraction::new(0.5),
-            lost_below: Fraction::new(0.01),
-            roughening: NonNegative::new(0.2),
-        }
-    }
 }
 
 impl Listed for ParticleFilterSpec {
@@ -139,12 +130,11 @@ impl ParticleFilter {
         let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
         let mut with =
             Workings::new(grid, &spec.trajectory, periods, spec.false_detection, &spec.doubt, spec.grid.places)?;
-        if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
-            return Err(invalid(
-                "particles",
-                &format!("must be from {} to {}, got {}", PARTICLES.0, PARTICLES.1, spec.particles),
-            ));
-        }
+        must(
+            (PARTICLES.0..=PARTICLES.1).contains(&spec.particles),
+            "particles",
+            format!("must be from {} to {}, got {}", PARTICLES.0, PARTICLES.1, spec.particles),
+        )?;
         // The belief is that of the particles, whatever they believe of navigation.
         let cells = with.belief.belief().grid.clone();
         with.belief = LogBelief::uniform(&cells);

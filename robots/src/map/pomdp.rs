@@ -10,13 +10,12 @@
 //! after a false alarm that no cell can explain; on none it is γ, as in the paper. One or more detections within an
 //! update period count as one. There is no update while the vehicle is outside the grid. Kernel: see `kernel`.
 
-use super::alternatives::Alternatives;
-use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
-use super::watch::MapObservation;
+use super::mapper::{MapParams, Mapper};
+use super::over_cells::OverCells;
+use super::watch::Sighting;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
-use crate::handoff::{Belief, BeliefGrid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -40,10 +39,7 @@ impl Listed for PomdpSpec {
 
 impl MapParams for PomdpSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Alternatives::around(&self.0.doubt, |doubt| {
-            let spec = self.0.with(doubt);
-            Ok(Box::new(Pomdp::new(&spec, spec.grid.build(area)?)?))
-        })
+        OverCells::around(&self.0, area, weigh)
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -55,41 +51,8 @@ impl MapParams for PomdpSpec {
     }
 }
 
-/// State of the mapper.
-#[derive(Clone, Debug)]
-pub struct Pomdp {
-    with: Workings,
-    kernel: Kernel,
-}
-
-impl Pomdp {
-    /// A mapper over a grid; all cells begin with the same probability.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no release.
-    pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
-        let with = Workings::over_cells(spec, grid)?;
-        Ok(Self { kernel: Kernel::within(&with.grid, with.places, &spec.trajectory), with })
-    }
-}
-
-impl Mapper for Pomdp {
-    fn step(&mut self, seen: &MapObservation) {
-        let Some(sighting) = self.with.watch.step(seen) else {
-            return;
-        };
-        self.kernel.aim(&self.with.watch.history, sighting.cell);
-        self.kernel.not_detecting(&mut self.with.likelihood);
-        let (with, detected) = (&mut self.with, sighting.detected);
-        (with.evidence).weigh(sighting.t_s, detected, &mut with.likelihood);
-        self.with.update(sighting.t_s, sighting.detected);
-    }
-
-    fn belief(&self) -> &Belief {
-        self.with.belief.belief()
-    }
-
-    fn ln_evidence(&self) -> f64 {
-        self.with.belief.ln_evidence()
-    }
+/// Weighs the places by the chance of meeting any release.
+pub(super) fn weigh(with: &mut Workings, kernel: &mut Kernel, seen: &Sighting) {
+    kernel.not_detecting(&mut with.likelihood);
+    (with.evidence).weigh(seen.t_s, seen.detected, &mut with.likelihood);
 }

@@ -1,18 +1,19 @@
 //! Beliefs stay beliefs: sums, hours of updates, memory, and no preferred place or direction.
 
 use super::bayesian::BayesianSpec;
-use super::catalogue::{MapSpec, Mapper};
+use super::catalogue::MapSpec;
 use super::flow_history::FlowHistory;
 use super::hmm::HmmSpec;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
+use super::mapper::Mapper;
+use super::over_cells::OverCells;
 use super::particle_filter::ParticleFilterSpec;
-use super::pomdp::PomdpSpec;
+use super::pomdp::{self, PomdpSpec};
 use super::spec::{GridSpec, TrajectorySpec};
 use super::testing::{grid, p_by_hand, paper_area};
 use super::watch::MapObservation;
 use super::workings::CellsSpec;
-use crate::map::Pomdp;
 use nalgebra::{Rotation2, Vector2, Vector3};
 use std::sync::Arc;
 use world::area::Area;
@@ -153,7 +154,7 @@ fn the_pomdp_map_equals_a_brute_force_product() {
         ..CellsSpec::default()
     };
     let grid = Arc::new(spec.grid.build(&paper_area()).expect("grid"));
-    let mut mapper = Pomdp::new(&spec, (*grid).clone()).expect("mapper");
+    let mut mapper = OverCells::new(&spec, (*grid).clone(), pomdp::weigh).expect("mapper");
     let mut history = FlowHistory::new(1.0, 20.0, true);
     let mut rng = Stream::new(9, "auv0", "walk");
     let mut detections = 0;

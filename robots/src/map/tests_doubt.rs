@@ -2,9 +2,10 @@
 //! readings that repeat each other.
 
 use super::bayesian::BayesianSpec;
-use super::catalogue::{MapSpec, Mapper};
+use super::catalogue::MapSpec;
 use super::evidence::{DoubtSpec, Repeats};
 use super::hmm::HmmSpec;
+use super::mapper::Mapper;
 use super::particle_filter::ParticleFilterSpec;
 use super::pomdp::PomdpSpec;
 use super::spec::{GridSpec, TrajectorySpec};

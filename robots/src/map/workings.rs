@@ -15,12 +15,13 @@ use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::sync::Arc;
 use world::area::Area;
 use world::ranges::{Fraction, Positive};
 
 /// Parameters of a mapper that weighs cells by the back-trajectory kernel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CellsSpec {
     /// The cells.
@@ -28,23 +29,13 @@ pub struct CellsSpec {
     /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
+    #[default(Positive::new(1.0))]
     pub update_period_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
+    #[default(Fraction::new(1e-6))]
     pub false_detection: Fraction,
     /// How far the map doubts its model.
     pub doubt: DoubtSpec,
-}
-
-impl Default for CellsSpec {
-    fn default() -> Self {
-        Self {
-            grid: GridSpec::default(),
-            trajectory: TrajectorySpec::default(),
-            update_period_s: Positive::new(1.0),
-            false_detection: Fraction::new(1e-6),
-            doubt: DoubtSpec::default(),
-        }
-    }
 }
 
 impl CellsSpec {

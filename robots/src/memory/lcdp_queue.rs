@@ -7,7 +7,6 @@
 //! *Deviations*: the order along the flow is computed from the present flow whenever it is asked for; the flow at the
 //! time when a point was stored does not matter. A full queue forgets its oldest point.
 
-use super::{FixMove, NavigationFix};
 use crate::handoff::Lcdp;
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
@@ -24,7 +23,7 @@ pub fn most_up_flow_first(points: &[Lcdp], up_flow: Heading) -> Vec<Lcdp> {
 /// The points of a mission, oldest first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LcdpQueue {
-    points: Vec<Lcdp>,
+    pub(super) points: Vec<Lcdp>,
     most: usize,
 }
 
@@ -55,29 +54,6 @@ impl LcdpQueue {
     pub fn newest(&self) -> Option<Lcdp> {
         self.points.last().copied()
     }
-
-    /// All points, most up-flow first in the present flow.
-    #[must_use]
-    pub fn by_flow(&self, up_flow: Heading) -> Vec<Lcdp> {
-        most_up_flow_first(&self.points, up_flow)
-    }
-
-    /// Forgets the points within a distance of a place.
-    pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
-        (self.points).retain(|p| (p.position - place).norm() > within_m);
-    }
-
-    /// Forgets all points.
-    pub fn clear(&mut self) {
-        self.points.clear();
-    }
-
-    /// A navigation fix has moved the believed position: moves the points by the rule.
-    pub fn take_fix(&mut self, fix: &NavigationFix, rule: FixMove) {
-        for point in &mut self.points {
-            point.position += fix.shift_of(point.t_s, rule);
-        }
-    }
 }
 
 #[cfg(test)]
@@ -103,8 +79,8 @@ mod tests {
     #[test]
     fn turns_with_the_flow_and_keeps_its_times() {
         let q = queue(9, &[at(1.0, 0.0, 5.0), at(2.0, 0.0, 20.0), at(3.0, 0.0, 10.0)]);
-        assert_eq!(times(&q.by_flow(Heading::from_deg(0.0))), [2.0, 3.0, 1.0]);
-        assert_eq!(times(&q.by_flow(Heading::from_deg(180.0))), [1.0, 3.0, 2.0]);
+        assert_eq!(times(&most_up_flow_first(q.all(), Heading::from_deg(0.0))), [2.0, 3.0, 1.0]);
+        assert_eq!(times(&most_up_flow_first(q.all(), Heading::from_deg(180.0))), [1.0, 3.0, 2.0]);
         assert_eq!(times(q.all()), [1.0, 2.0, 3.0]);
         assert_eq!(q.newest(), Some(at(3.0, 0.0, 10.0)));
     }
@@ -115,8 +91,6 @@ mod tests {
         assert_eq!(times(q.all()), [2.0, 3.0, 4.0]);
         q.add(at(5.0, 0.0, 0.0));
         assert_eq!(times(q.all()), [3.0, 4.0, 5.0]);
-        q.clear();
-        assert_eq!((q.newest(), q.all().len()), (None, 0));
     }
 
     proptest! {

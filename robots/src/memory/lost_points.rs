@@ -1,16 +1,14 @@
 //! Where the plume was lost: the list that Track-In writes and that Track-Out, Reacquire and the declaration rules
 //! read.
 
-use super::{FixMove, NavigationFix};
 use crate::handoff::Lcdp;
-use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::units::Heading;
 
 /// The lost points, most up-flow first; a full list drops its most down-flow point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostPoints {
-    points: Vec<Lcdp>,
+    pub(super) points: Vec<Lcdp>,
     most: usize,
 }
 
@@ -56,18 +54,6 @@ impl LostPoints {
         &self.points
     }
 
-    /// A navigation fix has moved the believed position: moves the points by the rule.
-    pub fn take_fix(&mut self, fix: &NavigationFix, rule: FixMove) {
-        for point in &mut self.points {
-            point.position += fix.shift_of(point.t_s, rule);
-        }
-    }
-
-    /// Forgets the points within a distance of a place.
-    pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
-        (self.points).retain(|p| (p.position - place).norm() > within_m);
-    }
-
     /// Forgets all points.
     pub fn clear(&mut self) {
         self.points.clear();
@@ -96,7 +82,5 @@ mod tests {
         assert_eq!(norths(&list), [10.0, 15.0, 20.0]);
         list.drop_first();
         assert_eq!(norths(&list), [15.0, 20.0]);
-        list.forget_near(Vector2::new(0.0, 12.0), 4.0);
-        assert_eq!(norths(&list), [20.0]);
     }
 }

@@ -12,15 +12,16 @@
 //! `paper_cost.rs`), and the default cost is the length. See `search.rs` for the search, `smooth.rs` for the
 //! smoothing.
 
-use super::catalogue::PlannerParams;
 use super::ends::Ends;
 use super::paper_cost::FiveMoves;
+use super::planner::PlannerParams;
 use super::search::{Costs, Search};
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach, smooth};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -37,33 +38,26 @@ pub enum Cost {
 }
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "AStarParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Which costs.
+    #[default(Cost::Metric)]
     pub cost: Cost,
     /// Turning radius for which the path is smoothed, m; the vehicle's own if that is greater.
     #[serde(with = "world::limits::turn_m")]
+    #[default(Positive::new(12.0))]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
+    #[default(NonNegative::new(2.0))]
     pub clearance_weight: NonNegative,
     /// Clearance beyond the hull's own at which nothing is added any more, m.
+    #[default(NonNegative::new(4.0))]
     pub clearance_m: NonNegative,
     /// Cost of a metre up or down, in horizontal metres; from 1 to 20.
+    #[default(Positive::new(3.0))]
     pub climb: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            cost: Cost::Metric,
-            turn_radius_m: Positive::new(12.0),
-            clearance_weight: NonNegative::new(2.0),
-            clearance_m: NonNegative::new(4.0),
-            climb: Positive::new(3.0),
-        }
-    }
 }
 
 impl Listed for Params {
@@ -103,17 +97,12 @@ impl AStar {
     /// # Errors
     /// [`RobotError::Invalid`] if a weight is beyond what the costs can hold.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
-        let wrong = |field: &str, says: &str, got: f64| RobotError::Invalid {
-            field: format!("strategy.MapAndPlan.planner.AStar.{field}"),
-            problem: format!("must be {says}, got {got}"),
+        let must = |holds: bool, field: &str, says: &str, got: f64| {
+            require(holds, format!("strategy.MapAndPlan.planner.AStar.{field}"), format!("must be {says}, got {got}"))
         };
         let (weight, climb) = (params.clearance_weight.get(), params.climb.get());
-        if weight > 3.9 {
-            return Err(wrong("clearance_weight", "from 0 to 3.9", weight));
-        }
-        if !(1.0..=20.0).contains(&climb) {
-            return Err(wrong("climb", "from 1 to 20", climb));
-        }
+        must(weight <= 3.9, "clearance_weight", "from 0 to 3.9", weight)?;
+        must((1.0..=20.0).contains(&climb), "climb", "from 1 to 20", climb)?;
         let soft_m = params.clearance_m.get();
         let costs = Costs { climb, weight, soft_m };
         Ok(Self {

@@ -20,9 +20,9 @@ mod smooth;
 pub(crate) mod testing;
 
 pub use a_star::{AStar, Cost, Params as AStarParams};
-pub use catalogue::{PlannerParams, PlannerSpec, Planners};
+pub use catalogue::{PlannerSpec, Planners};
 pub use follow::Follow;
 pub use free_space::FreeSpace;
-pub use planner::{NoPath, Path, PathStart, Planner, Reach};
+pub use planner::{NoPath, Path, PathStart, Planner, PlannerParams, Reach};
 pub use potential_field::{Params as PotentialFieldParams, PotentialField};
 pub use revision::Revision;

@@ -8,8 +8,12 @@
 //! *Deviations*: the paper does not say what a planner answers if it cannot reach its goal: see [`Reach`].
 
 use super::FreeSpace;
+use crate::error::RobotError;
+use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use std::fmt::Debug;
+use world::cost::Cost;
+use world::registry::Spec;
 use world::units::Heading;
 
 /// Where a path begins.
@@ -73,4 +77,34 @@ pub trait Planner: Debug + Send + Sync {
     /// # Errors
     /// If no cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
     fn plan(&mut self, room: &FreeSpace, start: &PathStart, goal: &Vector3<f64>) -> Result<Path, NoPath>;
+}
+
+/// Parameters of a planner.
+pub trait PlannerParams: Spec {
+    /// Builds the planner.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
+    fn build(&self) -> Result<Box<dyn Planner>, RobotError>;
+
+    /// Checks that it fits the room in which it will plan.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] if its steps are too small for the room's cells.
+    fn check(&self, _cells: &BeliefGrid, _plane: bool) -> Result<(), RobotError> {
+        Ok(())
+    }
+
+    /// Whether it plans in the plane only.
+    fn plane_only(&self) -> bool {
+        false
+    }
+
+    /// Clearance beyond the hull's own up to which it distinguishes cells, m, and the field that sets it.
+    fn reach(&self) -> (&'static str, f64);
+
+    /// Its cost besides the room, for so many plans over a way of a length, m; paths below `planner`.
+    fn cost(&self, _way_m: f64, _plans: f64) -> Cost {
+        Cost::default()
+    }
 }

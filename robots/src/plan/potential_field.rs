@@ -13,13 +13,14 @@
 //! also ends if thirty steps bring it no farther than three should: then it is in a minimum, where the path ends and
 //! says so.
 
-use super::catalogue::PlannerParams;
+use super::planner::PlannerParams;
 use super::{FreeSpace, NoPath, Path, PathStart, Planner, Reach};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::cost::{Cost, Part};
 use world::limits::shown;
@@ -39,57 +40,25 @@ const STEPS: f64 = 8.0;
 const STEP_S: f64 = 300e-9;
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "PotentialFieldParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Slope of the attraction.
+    #[default(Positive::new(1.0))]
     pub pull: Positive,
     /// Within this distance of the goal the attraction is a bowl, m.
+    #[default(Positive::new(5.0))]
     pub near_m: Positive,
     /// Strength of the repulsion, η.
+    #[default(Positive::new(20.0))]
     pub push: Positive,
     /// Reach of the repulsion, ρ₀, m.
+    #[default(Positive::new(10.0))]
     pub push_m: Positive,
     /// Step of the descent, m.
+    #[default(Positive::new(0.5))]
     pub step_m: Positive,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self {
-            pull: Positive::new(1.0),
-            near_m: Positive::new(5.0),
-            push: Positive::new(20.0),
-            push_m: Positive::new(10.0),
-            step_m: Positive::new(0.5),
-        }
-    }
-}
-
-impl Params {
-    /// Checks that the steps are not much smaller than the room's cells: a descent of many more steps would only take
-    /// time.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] with the least legal step.
-    pub(super) fn fits(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
-        let axes = if plane { 2 } else { 3 };
-        let sides = cells.cell_m[..axes].iter();
-        let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
-        let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
-        if step >= least {
-            return Ok(());
-        }
-        Err(RobotError::Invalid {
-            field: "strategy.MapAndPlan.planner.PotentialField.step_m".into(),
-            problem: format!(
-                "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
-                shown(least),
-                shown(step)
-            ),
-        })
-    }
 }
 
 impl Listed for Params {
@@ -106,7 +75,16 @@ impl PlannerParams for Params {
     }
 
     fn check(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
-        self.fits(cells, plane)
+        let axes = if plane { 2 } else { 3 };
+        let sides = cells.cell_m[..axes].iter();
+        let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
+        let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
+        let problem = format!(
+            "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
+            shown(least),
+            shown(step)
+        );
+        require(step >= least, "strategy.MapAndPlan.planner.PotentialField.step_m", problem)
     }
 
     fn reach(&self) -> (&'static str, f64) {
@@ -134,12 +112,11 @@ impl PotentialField {
     /// [`RobotError::Invalid`] if a step is longer than the distances that it has to resolve.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let (step, reach) = (params.step_m.get(), params.push_m.get());
-        if step > reach / 2.0 {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.planner.PotentialField.step_m".into(),
-                problem: format!("must be at most half of push_m, {reach} m, got {step}"),
-            });
-        }
+        require(
+            step <= reach / 2.0,
+            "strategy.MapAndPlan.planner.PotentialField.step_m",
+            format!("must be at most half of push_m, {reach} m, got {step}"),
+        )?;
         Ok(Self { params: params.clone() })
     }
 

@@ -23,7 +23,7 @@ const UNITS: f64 = 512.0;
 const FAR: u32 = u32::MAX;
 
 /// Costs of a search.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Costs {
     pub(super) climb: f64,
     pub(super) weight: f64,
@@ -31,7 +31,7 @@ pub(super) struct Costs {
 }
 
 /// The search with its arrays, kept between plans.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Search {
     costs: Costs,
     /// The room's revision from which the arrays were made.
@@ -51,18 +51,7 @@ pub(super) struct Search {
 
 impl Search {
     pub(super) fn new(costs: Costs) -> Self {
-        Self {
-            costs,
-            of: None,
-            n: [0; 3],
-            penalty: Vec::new(),
-            octile: Octile::default(),
-            near: Neighbours::default(),
-            g: Vec::new(),
-            from: Vec::new(),
-            queue: Buckets::default(),
-            opened: 0,
-        }
+        Self { costs, ..Self::default() }
     }
 
     /// Cells opened by the last search.

@@ -1,8 +1,7 @@
 //! Shared by the planners' tests.
 
 use super::FreeSpace;
-use crate::handoff::BeliefGrid;
-use crate::handoff::testing;
+use crate::handoff::{BeliefGrid, testing};
 use nalgebra::{Vector2, Vector3};
 use world::obstacles::{Obstacle, Obstacles};
 use world::seeds::Stream;

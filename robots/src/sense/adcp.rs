@@ -12,23 +12,22 @@
 //! *Deviations:* one cell; the spread of the four beams is not modelled, and the cell is sampled on the axis at three
 //! heights. As for the Doppler log, the velocity is relative to the body's origin.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::tools::EchoTarget;
-use crate::error::RobotError;
-use crate::handoff::AdcpReading;
-use crate::handoff::Readings;
+use crate::error::{RobotError, require};
+use crate::handoff::{AdcpReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::fields::Flow;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Direction in which the instrument looks along the body's z axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -41,35 +40,28 @@ pub enum Look {
 }
 
 /// Parameters of the current profiler.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AdcpSpec {
     /// Direction in which it looks.
+    #[default(Look::Up)]
     pub look: Look,
     /// Readings per second, Hz.
+    #[default(Positive::new(1.0))]
     pub rate_hz: Positive,
     /// Range without measurement, m.
+    #[default(NonNegative::new(0.75))]
     pub dead_zone_m: NonNegative,
     /// Length of the cell beyond it, m.
+    #[default(Positive::new(0.5))]
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.02))]
     pub noise_m_s: NonNegative,
     /// Angle between the beams and the axis, degrees, below 60.
+    #[default(Finite::new(20.0))]
     pub beam_angle_deg: Finite,
-}
-
-impl Default for AdcpSpec {
-    fn default() -> Self {
-        Self {
-            look: Look::Up,
-            rate_hz: Positive::new(1.0),
-            dead_zone_m: NonNegative::new(0.75),
-            cell_m: Positive::new(0.5),
-            noise_m_s: NonNegative::new(0.02),
-            beam_angle_deg: Finite::new(20.0),
-        }
-    }
 }
 
 impl Listed for AdcpSpec {
@@ -95,16 +87,12 @@ impl Sensor for Adcp {
 /// A current profiler on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Adcp {
-    every: Every,
-    p_BS: Vector3<f64>,
+    spec: AdcpSpec,
+    at: Sampler,
     /// Axis in the body: up or down.
     axis_B: Vector3<f64>,
-    dead_zone_m: f64,
-    cell_m: f64,
-    noise_m_s: f64,
     /// Share of the distance to a boundary that the boundary's side-lobe echo leaves usable.
     usable: f64,
-    rng: Stream,
 }
 
 impl Adcp {
@@ -114,45 +102,41 @@ impl Adcp {
     /// If the rate does not fit the step, or if the beam angle is out of range.
     pub fn new(spec: &AdcpSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let angle = spec.beam_angle_deg.get();
-        if !(0.0..60.0).contains(&angle) {
-            return Err(RobotError::Invalid {
-                field: "sensors.adcp.beam_angle_deg".into(),
-                problem: format!("must be from 0 to below 60 degrees, got {angle}"),
-            });
-        }
+        require(
+            (0.0..60.0).contains(&angle),
+            "sensors.adcp.beam_angle_deg",
+            format!("must be from 0 to below 60 degrees, got {angle}"),
+        )?;
         Ok(Self {
-            every: on.every("sensors.adcp.rate_hz", spec.rate_hz.get())?,
-            p_BS,
+            at: Sampler::new("adcp", spec.rate_hz, p_BS, on)?,
+            spec: spec.clone(),
             axis_B: match spec.look {
                 Look::Up => Vector3::z(),
                 Look::Down => -Vector3::z(),
             },
-            dead_zone_m: spec.dead_zone_m.get(),
-            cell_m: spec.cell_m.get(),
-            noise_m_s: spec.noise_m_s.get(),
             usable: math::cos(angle.to_radians()),
-            rng: on.stream("adcp"),
         })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow, below: &EchoTarget) -> Option<AdcpReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
         // Drawn also if the cell is invalid, so that a lost cell does not change later numbers.
-        let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
-        let p = truth.pose.point(self.p_BS);
+        let noise = super::tools::normal3(&mut self.at.rng, self.spec.noise_m_s.get());
+        let p = self.at.place(truth);
         let axis = truth.pose.R_WB * self.axis_B;
-        let middle_m = self.dead_zone_m + self.cell_m / 2.0;
-        let end_m = self.dead_zone_m + self.cell_m;
+        let (dead_zone_m, cell_m) = (self.spec.dead_zone_m.get(), self.spec.cell_m.get());
+        let middle_m = dead_zone_m + cell_m / 2.0;
+        let end_m = dead_zone_m + cell_m;
         let valid = water_along(below, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
         let v_body_m_s = if valid {
             // The cell weighs ranges by a triangle that extends one cell length to either side of its middle: 1 : 2 :
             // 1 at the half cells has the same mean and nearly the same spread.
             let water: Vector3<f64> = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)]
                 .map(|(cells, weight)| {
-                    let at = p + axis * (middle_m + cells * self.cell_m);
+                    let at = p + axis * (middle_m + cells * cell_m);
                     flow.velocity(&at, clock.t_s()) * weight
                 })
                 .iter()
@@ -166,7 +150,7 @@ impl Adcp {
         } else {
             Vector3::zeros()
         };
-        Some(AdcpReading { v_body_m_s, above_m: self.p_BS.z + self.axis_B.z * middle_m, valid })
+        Some(AdcpReading { v_body_m_s, above_m: self.at.p_BS.z + self.axis_B.z * middle_m, valid })
     }
 }
 

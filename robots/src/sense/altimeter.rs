@@ -8,47 +8,39 @@
 //! *Deviations:* the beam has no width; it meets the bed, or an obstacle before it. The slant range is converted to
 //! height with the vehicle's tilt, here without the small noise of the tilt.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::tools::EchoTarget;
-use crate::error::RobotError;
-use crate::handoff::AltimeterReading;
-use crate::handoff::Readings;
+use crate::error::{RobotError, require};
+use crate::handoff::{AltimeterReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the altimeter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AltimeterSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(5.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.02))]
     pub noise_m: NonNegative,
     /// Least range, m.
+    #[default(NonNegative::new(0.3))]
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(30.0))]
     pub max_range_m: Positive,
-}
-
-impl Default for AltimeterSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(5.0),
-            noise_m: NonNegative::new(0.02),
-            min_range_m: NonNegative::new(0.3),
-            max_range_m: Positive::new(30.0),
-        }
-    }
 }
 
 impl Listed for AltimeterSpec {
@@ -74,11 +66,9 @@ impl Sensor for Altimeter {
 /// An altimeter on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Altimeter {
-    every: Every,
-    p_BS: Vector3<f64>,
-    noise_m: f64,
+    spec: AltimeterSpec,
+    at: Sampler,
     range_m: std::ops::RangeInclusive<f64>,
-    rng: Stream,
 }
 
 impl Altimeter {
@@ -88,29 +78,22 @@ impl Altimeter {
     /// If the rate does not fit the step, or if the range is empty.
     pub fn new(spec: &AltimeterSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let range_m = spec.min_range_m.get()..=spec.max_range_m.get();
-        if range_m.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "sensors.altimeter.max_range_m".into(),
-                problem: format!("must be at least min_range_m, {} m", range_m.start()),
-            });
-        }
-        Ok(Self {
-            every: on.every("sensors.altimeter.rate_hz", spec.rate_hz.get())?,
-            p_BS,
-            noise_m: spec.noise_m.get(),
-            range_m,
-            rng: on.stream("altimeter"),
-        })
+        require(
+            !range_m.is_empty(),
+            "sensors.altimeter.max_range_m",
+            format!("must be at least min_range_m, {} m", range_m.start()),
+        )?;
+        Ok(Self { at: Sampler::new("altimeter", spec.rate_hz, p_BS, on)?, spec: spec.clone(), range_m })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &EchoTarget) -> Option<AltimeterReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
         // Drawn also without an echo, so that a lost ping does not change later numbers.
-        let noise = self.noise_m * self.rng.normal();
-        let p = truth.pose.point(self.p_BS);
+        let noise = self.spec.noise_m.get() * self.at.rng.normal();
+        let p = self.at.place(truth);
         let down = truth.pose.R_WB * -Vector3::z();
         let echo = super::tools::range_down(below, &p, &down).filter(|range| self.range_m.contains(range));
         Some(match echo {

@@ -8,46 +8,39 @@
 //!
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::AttitudeReading;
-use crate::handoff::Readings;
+use crate::handoff::{Attitude, Readings};
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the compass.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CompassSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(25.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the heading noise, degrees.
+    #[default(NonNegative::new(0.3))]
     pub noise_deg: NonNegative,
     /// Standard deviation of the heading bias, drawn once per run, degrees.
+    #[default(NonNegative::new(1.0))]
     pub bias_deg: NonNegative,
     /// Standard deviation of the noise of roll and pitch, degrees.
+    #[default(NonNegative::new(0.2))]
     pub tilt_noise_deg: NonNegative,
     /// Standard deviation of the noise of each rate, degrees/s.
+    #[default(NonNegative::new(0.1))]
     pub gyro_noise_deg_s: NonNegative,
-}
-
-impl Default for CompassSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(25.0),
-            noise_deg: NonNegative::new(0.3),
-            bias_deg: NonNegative::new(1.0),
-            tilt_noise_deg: NonNegative::new(0.2),
-            gyro_noise_deg_s: NonNegative::new(0.1),
-        }
-    }
 }
 
 impl Listed for CompassSpec {
@@ -73,12 +66,11 @@ impl Sensor for Compass {
 /// A compass with inertial unit on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Compass {
-    every: Every,
+    at: Sampler,
     noise_rad: f64,
     bias_rad: f64,
     tilt_noise_rad: f64,
     gyro_noise_rad_s: f64,
-    rng: Stream,
 }
 
 impl Compass {
@@ -87,31 +79,29 @@ impl Compass {
     /// # Errors
     /// If the rate does not fit the step.
     pub fn new(spec: &CompassSpec, on: &OnBoard) -> Result<Self, RobotError> {
-        let mut rng = on.stream("compass");
-        let bias_rad = spec.bias_deg.get().to_radians() * rng.normal();
+        let mut at = Sampler::new("compass", spec.rate_hz, Vector3::zeros(), on)?;
         Ok(Self {
-            every: on.every("sensors.compass.rate_hz", spec.rate_hz.get())?,
+            bias_rad: spec.bias_deg.get().to_radians() * at.rng.normal(),
+            at,
             noise_rad: spec.noise_deg.get().to_radians(),
-            bias_rad,
             tilt_noise_rad: spec.tilt_noise_deg.get().to_radians(),
             gyro_noise_rad_s: spec.gyro_noise_deg_s.get().to_radians(),
-            rng,
         })
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<AttitudeReading> {
-        if !self.every.due(clock) {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<Attitude> {
+        if !self.at.due(clock) {
             return None;
         }
-        let turn = self.bias_rad + self.noise_rad * self.rng.normal();
+        let turn = self.bias_rad + self.noise_rad * self.at.rng.normal();
         let (roll, pitch_down) = truth.pose.roll_pitch();
-        Some(AttitudeReading {
+        Some(Attitude {
             heading: truth.pose.heading().turned(turn),
-            roll_rad: roll + self.tilt_noise_rad * self.rng.normal(),
+            roll_rad: roll + self.tilt_noise_rad * self.at.rng.normal(),
             // The pitch of the world's FLU axes is nose down positive, that of a vehicle nose up.
-            pitch_rad: -pitch_down + self.tilt_noise_rad * self.rng.normal(),
-            rates_rad_s: truth.w_WB_B + super::tools::normal3(&mut self.rng, self.gyro_noise_rad_s),
+            pitch_rad: -pitch_down + self.tilt_noise_rad * self.at.rng.normal(),
+            rates_rad_s: truth.w_WB_B + super::tools::normal3(&mut self.at.rng, self.gyro_noise_rad_s),
         })
     }
 }
@@ -134,7 +124,7 @@ mod tests {
         t.w_WB_B = Vector3::new(0.01, -0.02, 0.1);
         let v = run(20_000, 0.02, |clock| c.read(clock, &t));
         assert_eq!(v.len(), 10_000);
-        let of = |f: &dyn Fn(&AttitudeReading) -> f64| v.iter().map(f).collect::<Vec<f64>>();
+        let of = |f: &dyn Fn(&Attitude) -> f64| v.iter().map(f).collect::<Vec<f64>>();
         let north = Heading::from_deg(0.0);
         assert_normal(&of(&|r| north.turn_to(r.heading)), c.bias_rad, 0.3_f64.to_radians());
         assert_normal(&of(&|r| r.roll_rad), 0.0, 0.2_f64.to_radians());

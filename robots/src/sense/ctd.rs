@@ -11,39 +11,35 @@
 //! *Deviations:* it reports the density itself, not conductivity and temperature, because the simulated water has no
 //! salt and heat of its own. The depth comes from the depth sensor; this instrument measures none.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::CtdReading;
-use crate::handoff::Readings;
+use crate::handoff::{CtdReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::fields::Flow;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the CTD.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CtdSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Time constant of its response, s.
+    #[default(NonNegative::new(0.1))]
     pub response_s: NonNegative,
     /// Standard deviation of the noise, kg/m³.
+    #[default(NonNegative::new(0.01))]
     pub noise_kg_m3: NonNegative,
-}
-
-impl Default for CtdSpec {
-    fn default() -> Self {
-        Self { rate_hz: Positive::new(10.0), response_s: NonNegative::new(0.1), noise_kg_m3: NonNegative::new(0.01) }
-    }
 }
 
 impl Listed for CtdSpec {
@@ -69,14 +65,12 @@ impl Sensor for Ctd {
 /// A CTD on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Ctd {
-    every: Every,
-    p_BS: Vector3<f64>,
+    spec: CtdSpec,
+    at: Sampler,
     /// Share of the difference from the density outside that is left from one reading to the next.
     lag: f64,
-    noise_kg_m3: f64,
     /// Density in the cell, kg/m³; `None` before the first reading.
     inside: Option<f64>,
-    rng: Stream,
 }
 
 impl Ctd {
@@ -85,24 +79,22 @@ impl Ctd {
     /// # Errors
     /// If the rate does not fit the step.
     pub fn new(spec: &CtdSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let every = on.every("sensors.ctd.rate_hz", spec.rate_hz.get())?;
+        let at = Sampler::new("ctd", spec.rate_hz, p_BS, on)?;
         let response_s = spec.response_s.get();
         Ok(Self {
-            lag: if response_s > 0.0 { math::exp(-every.period_s(on.dt_s) / response_s) } else { 0.0 },
-            every,
-            p_BS,
-            noise_kg_m3: spec.noise_kg_m3.get(),
+            lag: if response_s > 0.0 { math::exp(-at.period_s(on.dt_s) / response_s) } else { 0.0 },
+            at,
+            spec: spec.clone(),
             inside: None,
-            rng: on.stream("ctd"),
         })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow) -> Option<CtdReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
-        let p = truth.pose.point(self.p_BS);
+        let p = self.at.place(truth);
         // Out of the water the cell keeps its content.
         let p = Vector3::new(p.x, p.y, p.z.min(0.0));
         let outside = flow.density(&p, clock.t_s());
@@ -113,7 +105,10 @@ impl Ctd {
         );
         let inside = outside + (self.inside.unwrap_or(outside) - outside) * self.lag;
         self.inside = Some(inside);
-        Some(CtdReading { density_kg_m3: inside + self.noise_kg_m3 * self.rng.normal(), below_m: -self.p_BS.z })
+        Some(CtdReading {
+            density_kg_m3: inside + self.spec.noise_kg_m3.get() * self.at.rng.normal(),
+            below_m: -self.at.p_BS.z,
+        })
     }
 }
 

@@ -6,37 +6,32 @@
 //!
 //! *Deviations:* the density profile causes no depth errors; the pressure from the vehicle's own motion is left out.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::DepthReading;
-use crate::handoff::Readings;
+use crate::handoff::{DepthReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::fields::Flow;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the depth sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DepthSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(25.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.01))]
     pub noise_m: NonNegative,
-}
-
-impl Default for DepthSpec {
-    fn default() -> Self {
-        Self { rate_hz: Positive::new(25.0), noise_m: NonNegative::new(0.01) }
-    }
 }
 
 impl Listed for DepthSpec {
@@ -62,10 +57,8 @@ impl Sensor for Depth {
 /// A depth sensor on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Depth {
-    every: Every,
-    p_BS: Vector3<f64>,
-    noise_m: f64,
-    rng: Stream,
+    spec: DepthSpec,
+    at: Sampler,
 }
 
 impl Depth {
@@ -74,22 +67,17 @@ impl Depth {
     /// # Errors
     /// If the rate does not fit the step.
     pub fn new(spec: &DepthSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        Ok(Self {
-            every: on.every("sensors.depth.rate_hz", spec.rate_hz.get())?,
-            p_BS,
-            noise_m: spec.noise_m.get(),
-            rng: on.stream("depth"),
-        })
+        Ok(Self { at: Sampler::new("depth", spec.rate_hz, p_BS, on)?, spec: spec.clone() })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow) -> Option<DepthReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
-        let p = truth.pose.point(self.p_BS);
+        let p = self.at.place(truth);
         let head_m = flow.head(&p, clock.t_s());
-        Some(DepthReading { depth_m: -p.z + head_m + self.noise_m * self.rng.normal() })
+        Some(DepthReading { depth_m: -p.z + head_m + self.spec.noise_m.get() * self.at.rng.normal() })
     }
 }
 

@@ -12,50 +12,42 @@
 //! beyond 60° of tilt). The velocity is that of the body's origin: the part caused by the instrument's place and the
 //! vehicle's rotation is removed with the gyros, as vehicles do, here without the small noise of the gyros.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::tools::EchoTarget;
-use crate::error::RobotError;
-use crate::handoff::DvlReading;
-use crate::handoff::Readings;
+use crate::error::{RobotError, require};
+use crate::handoff::{DvlReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 
 /// Parameters of the Doppler log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DvlSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(5.0))]
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(with = "world::limits::stream_m_s")]
+    #[default(NonNegative::new(0.004))]
     pub noise_m_s: NonNegative,
     /// Standard deviation of the relative scale error, drawn once per run.
+    #[default(NonNegative::new(0.002))]
     pub scale_error: NonNegative,
     /// Least range to the bed for bottom lock, m.
+    #[default(NonNegative::new(0.5))]
     pub min_altitude_m: NonNegative,
     /// Greatest range to the bed for bottom lock, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(30.0))]
     pub max_altitude_m: Positive,
-}
-
-impl Default for DvlSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(5.0),
-            noise_m_s: NonNegative::new(0.004),
-            scale_error: NonNegative::new(0.002),
-            min_altitude_m: NonNegative::new(0.5),
-            max_altitude_m: Positive::new(30.0),
-        }
-    }
 }
 
 impl Listed for DvlSpec {
@@ -81,12 +73,10 @@ impl Sensor for Dvl {
 /// A Doppler log on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Dvl {
-    every: Every,
-    p_BS: Vector3<f64>,
-    noise_m_s: f64,
+    spec: DvlSpec,
+    at: Sampler,
     scale: f64,
     lock_m: std::ops::RangeInclusive<f64>,
-    rng: Stream,
 }
 
 impl Dvl {
@@ -96,32 +86,24 @@ impl Dvl {
     /// If the rate does not fit the step, or if the range is empty.
     pub fn new(spec: &DvlSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let lock_m = spec.min_altitude_m.get()..=spec.max_altitude_m.get();
-        if lock_m.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "sensors.dvl.max_altitude_m".into(),
-                problem: format!("must be at least min_altitude_m, {} m", lock_m.start()),
-            });
-        }
-        let mut rng = on.stream("dvl");
-        let scale = 1.0 + spec.scale_error.get() * rng.normal();
-        Ok(Self {
-            every: on.every("sensors.dvl.rate_hz", spec.rate_hz.get())?,
-            p_BS,
-            noise_m_s: spec.noise_m_s.get(),
-            scale,
-            lock_m,
-            rng,
-        })
+        require(
+            !lock_m.is_empty(),
+            "sensors.dvl.max_altitude_m",
+            format!("must be at least min_altitude_m, {} m", lock_m.start()),
+        )?;
+        let mut at = Sampler::new("dvl", spec.rate_hz, p_BS, on)?;
+        let scale = 1.0 + spec.scale_error.get() * at.rng.normal();
+        Ok(Self { spec: spec.clone(), at, scale, lock_m })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &EchoTarget) -> Option<DvlReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
         // Drawn also without lock, so that a lost ping does not change later numbers.
-        let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
-        let p = truth.pose.point(self.p_BS);
+        let noise = super::tools::normal3(&mut self.at.rng, self.spec.noise_m_s.get());
+        let p = self.at.place(truth);
         let down = truth.pose.R_WB * -Vector3::z();
         let valid = super::tools::range_down(below, &p, &down).is_some_and(|range| self.lock_m.contains(&range));
         let v_body_m_s = if valid { truth.v_WB_B * self.scale + noise } else { Vector3::zeros() };

@@ -11,56 +11,48 @@
 //! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ is solved exactly for a concentration that is
 //! linear between two samples. Power-up time and blank drift are left out.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
-use crate::error::RobotError;
-use crate::handoff::ChemicalReading;
-use crate::handoff::Readings;
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
+use crate::error::{RobotError, require};
+use crate::handoff::{ChemicalReading, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::fields::Concentration;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
 /// Parameters of the fluorometer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FluorometerSpec {
     /// Readings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Concentration at full scale, µg/L.
+    #[default(Positive::new(10.0))]
     pub full_scale_ug_l: Positive,
     /// Output at full scale, V.
+    #[default(Positive::new(5.0))]
     pub full_scale_v: Positive,
     /// Detection threshold, as a share of full scale.
+    #[default(Fraction::new(0.04))]
     pub threshold: Fraction,
     /// Time constant of the first-order response, s.
+    #[default(NonNegative::new(0.2))]
     pub response_s: NonNegative,
     /// Standard deviation of the output noise, V.
+    #[default(NonNegative::new(0.02))]
     pub noise_v: NonNegative,
     /// Bits of the converter.
+    #[default(12)]
     pub adc_bits: u8,
-}
-
-impl Default for FluorometerSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(10.0),
-            full_scale_ug_l: Positive::new(10.0),
-            full_scale_v: Positive::new(5.0),
-            threshold: Fraction::new(0.04),
-            response_s: NonNegative::new(0.2),
-            noise_v: NonNegative::new(0.02),
-            adc_bits: 12,
-        }
-    }
 }
 
 impl Listed for FluorometerSpec {
@@ -87,16 +79,11 @@ impl Sensor for Fluorometer {
 /// A fluorometer on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Fluorometer {
-    every: Every,
-    /// Place in body axes, m.
-    p_BS: Vector3<f64>,
+    spec: FluorometerSpec,
+    at: Sampler,
     full_scale_kg_m3: f64,
-    full_scale_v: f64,
-    threshold: f64,
-    noise_v: f64,
     levels: f64,
     response: Response,
-    rng: Stream,
 }
 
 /// First-order response, exact for an input that is linear between samples.
@@ -134,47 +121,40 @@ impl Fluorometer {
     /// # Errors
     /// If the rate does not fit the step, or if the converter has no or too many bits.
     pub fn new(spec: &FluorometerSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        if !(1..=24).contains(&spec.adc_bits) {
-            return Err(RobotError::Invalid {
-                field: "sensors.fluorometer.adc_bits".into(),
-                problem: format!("must be from 1 to 24, got {}", spec.adc_bits),
-            });
-        }
-        let rate = spec.rate_hz.get();
-        let every = on.every("sensors.fluorometer.rate_hz", rate)?;
+        let bits = spec.adc_bits;
+        let problem = format!("must be from 1 to 24, got {bits}");
+        require((1..=24).contains(&bits), "sensors.fluorometer.adc_bits", problem)?;
+        let at = Sampler::new("fluorometer", spec.rate_hz, p_BS, on)?;
         Ok(Self {
-            every,
-            p_BS,
             full_scale_kg_m3: spec.full_scale_ug_l.get() * KG_M3_PER_UG_L,
-            full_scale_v: spec.full_scale_v.get(),
-            threshold: spec.threshold.get(),
-            noise_v: spec.noise_v.get(),
-            levels: f64::from((1_u32 << spec.adc_bits) - 1),
-            response: Response::new(every.period_s(on.dt_s), spec.response_s.get()),
-            rng: on.stream("fluorometer"),
+            levels: f64::from((1_u32 << bits) - 1),
+            response: Response::new(at.period_s(on.dt_s), spec.response_s.get()),
+            spec: spec.clone(),
+            at,
         })
     }
 
     /// The reading of this step, if one is due.
     pub fn read(&mut self, clock: &Clock, truth: &Truth, dye: &dyn Concentration) -> Option<ChemicalReading> {
-        if !self.every.due(clock) {
+        if !self.at.due(clock) {
             return None;
         }
-        let p = truth.pose.point(self.p_BS);
+        let p = self.at.place(truth);
         let c = dye.concentration(&p);
         assert!(
             c.is_finite(),
             "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke \
             before the fluorometer"
         );
-        let clean = self.response.next(c / self.full_scale_kg_m3) * self.full_scale_v;
-        let noisy = clean + self.noise_v * self.rng.normal();
-        let share = (noisy / self.full_scale_v).clamp(0.0, 1.0);
+        let full_scale_v = self.spec.full_scale_v.get();
+        let clean = self.response.next(c / self.full_scale_kg_m3) * full_scale_v;
+        let noisy = clean + self.spec.noise_v.get() * self.at.rng.normal();
+        let share = (noisy / full_scale_v).clamp(0.0, 1.0);
         let of_full_scale = (share * self.levels).round() / self.levels;
         Some(ChemicalReading {
-            volts: of_full_scale * self.full_scale_v,
+            volts: of_full_scale * full_scale_v,
             of_full_scale,
-            detected: of_full_scale > self.threshold,
+            detected: of_full_scale > self.spec.threshold.get(),
         })
     }
 }

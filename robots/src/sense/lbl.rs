@@ -10,13 +10,13 @@
 //! left out.
 
 use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::RobotError;
-use crate::handoff::LblFix;
-use crate::handoff::Readings;
+use crate::handoff::{LblFix, Readings};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -25,22 +25,19 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the long baseline.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LblSpec {
     /// Time between two fixes, s.
+    #[default(Positive::new(30.0))]
     pub period_s: Positive,
     /// Standard deviation of east and of north, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(5.0))]
     pub noise_m: NonNegative,
     /// Share of fixes that fail.
+    #[default(Fraction::new(0.3))]
     pub dropout: Fraction,
-}
-
-impl Default for LblSpec {
-    fn default() -> Self {
-        Self { period_s: Positive::new(30.0), noise_m: NonNegative::new(5.0), dropout: Fraction::new(0.3) }
-    }
 }
 
 impl Listed for LblSpec {
@@ -67,8 +64,7 @@ impl Sensor for Lbl {
 #[derive(Clone, Debug)]
 pub struct Lbl {
     every: Every,
-    noise_m: f64,
-    dropout: f64,
+    spec: LblSpec,
     rng: Stream,
 }
 
@@ -78,13 +74,8 @@ impl Lbl {
     /// # Errors
     /// If the period is shorter than a step.
     pub fn new(spec: &LblSpec, on: &OnBoard) -> Result<Self, RobotError> {
-        let rate_hz = 1.0 / spec.period_s.get();
-        Ok(Self {
-            every: on.every("sensors.lbl.period_s", rate_hz)?,
-            noise_m: spec.noise_m.get(),
-            dropout: spec.dropout.get(),
-            rng: on.stream("lbl"),
-        })
+        let every = on.every("sensors.lbl.period_s", 1.0 / spec.period_s.get())?;
+        Ok(Self { every, spec: spec.clone(), rng: on.stream("lbl") })
     }
 
     /// The fix of this step, if one is due and succeeds. The first is due one period after the start: the vehicle
@@ -94,9 +85,9 @@ impl Lbl {
             return None;
         }
         // All numbers are drawn for a failed fix too, so that the share of failures changes no later numbers.
-        let heard = self.rng.uniform() >= self.dropout;
+        let heard = self.rng.uniform() >= self.spec.dropout.get();
         let (east, north) = (self.rng.normal(), self.rng.normal());
-        heard.then(|| LblFix { position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.noise_m })
+        heard.then(|| LblFix { position: truth.pose.p_WB.xy() + Vector2::new(east, north) * self.spec.noise_m.get() })
     }
 }
 

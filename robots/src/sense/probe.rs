@@ -15,11 +15,12 @@
 //! and far less than the smallest scale of a simulated plume, so averaging over it would change nothing.
 
 use super::on_board::OnBoard;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
 use world::math;
@@ -27,34 +28,27 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// Parameters of the probes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProbesSpec {
     /// Scans per second, Hz.
+    #[default(Positive::new(20.0))]
     pub rate_hz: Positive,
     /// Output in clean water and at full scale, V.
+    #[default([Finite::new(-5.0), Finite::new(5.0)])]
     pub range_v: [Finite; 2],
     /// Concentration at the top of the range, kg/m³.
+    #[default(Positive::new(4.7))]
     pub full_scale_kg_m3: Positive,
     /// Standard deviation of the output noise, V.
+    #[default(NonNegative::new(0.004))]
     pub noise_v: NonNegative,
     /// Bits of the converter over the range.
+    #[default(12)]
     pub adc_bits: u8,
     /// Time constant of the first-order response, s.
+    #[default(NonNegative::new(0.0))]
     pub response_s: NonNegative,
-}
-
-impl Default for ProbesSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(20.0),
-            range_v: [Finite::new(-5.0), Finite::new(5.0)],
-            full_scale_kg_m3: Positive::new(4.7),
-            noise_v: NonNegative::new(0.004),
-            adc_bits: 12,
-            response_s: NonNegative::new(0.0),
-        }
-    }
 }
 
 /// The probes of a head, scanned together.
@@ -87,20 +81,14 @@ impl Probes {
     /// If there are none or too many, if the rate does not fit the step, if the range is empty or if the converter
     /// has no or too many bits.
     pub fn new(spec: &ProbesSpec, names: &[String], on: &OnBoard) -> Result<Self, RobotError> {
-        let invalid = |field: &str, problem: String| RobotError::Invalid { field: format!("probes{field}"), problem };
-        if names.is_empty() || names.len() > MAX_PROBES {
-            let n = names.len();
-            return Err(invalid("", format!("a head carries 1 to {MAX_PROBES} probes, got {n}")));
-        }
-        if !(1..=24).contains(&spec.adc_bits) {
-            let problem = format!("must be from 1 to 24, got {}", spec.adc_bits);
-            return Err(invalid(".adc_bits", problem));
-        }
+        let n = names.len();
+        let fits = (1..=MAX_PROBES).contains(&n);
+        require(fits, "probes", format!("a head carries 1 to {MAX_PROBES} probes, got {n}"))?;
+        let bits = spec.adc_bits;
+        require((1..=24).contains(&bits), "probes.adc_bits", format!("must be from 1 to 24, got {bits}"))?;
         let [bottom_v, top_v] = spec.range_v.map(Finite::get);
-        if top_v <= bottom_v {
-            let problem = format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
-            return Err(invalid(".range_v", problem));
-        }
+        let problem = format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
+        require(top_v > bottom_v, "probes.range_v", problem)?;
         let every = on.every("probes.rate_hz", spec.rate_hz.get())?;
         let tau_periods = spec.response_s.get() / every.period_s(on.dt_s);
         let channel = |name: &String| Channel { rng: on.stream(&format!("probe {name}")), latest: None };

@@ -11,23 +11,22 @@
 //! or by way of the surface. A beam that drops out is not reported; a beam without an echo means that the way is
 //! free.
 
-use super::on_board::OnBoard;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
-use crate::error::RobotError;
-use crate::handoff::Readings;
-use crate::handoff::{Beam, RangeScan};
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
+use super::tools::EchoTarget;
+use crate::error::{RobotError, require};
+use crate::handoff::{Beam, RangeScan, Readings};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
-use world::obstacles::Obstacles;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
 use world::terrain::Terrain;
 
 /// Most beams in a ping.
@@ -39,45 +38,38 @@ const BED_STEP: (f64, u32) = (0.5, 20);
 const BEAM_S: [f64; 3] = [0.5e-6, 0.15e-6, 30e-9];
 
 /// Parameters of the ranging.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RangingSpec {
     /// Pings per second, Hz.
+    #[default(Positive::new(2.0))]
     pub rate_hz: Positive,
     /// Beams side by side.
+    #[default(41)]
     pub beams: u32,
     /// Angle from the outermost beam on the left to the outermost on the right, °, at most 360.
+    #[default(NonNegative::new(120.0))]
     pub width_deg: NonNegative,
     /// Rows of beams, one above the other.
+    #[default(1)]
     pub rows: u32,
     /// Angle from the lowest row to the highest, °, at most 180.
+    #[default(NonNegative::new(20.0))]
     pub height_deg: NonNegative,
     /// Least range, m.
+    #[default(NonNegative::new(0.5))]
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(40.0))]
     pub max_range_m: Positive,
     /// Standard deviation of the noise, m.
     #[serde(with = "world::limits::error_m")]
+    #[default(NonNegative::new(0.1))]
     pub noise_m: NonNegative,
     /// Share of the beams that drop out.
+    #[default(Fraction::new(0.02))]
     pub dropout: Fraction,
-}
-
-impl Default for RangingSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(2.0),
-            beams: 41,
-            width_deg: NonNegative::new(120.0),
-            rows: 1,
-            height_deg: NonNegative::new(20.0),
-            min_range_m: NonNegative::new(0.5),
-            max_range_m: Positive::new(40.0),
-            noise_m: NonNegative::new(0.1),
-            dropout: Fraction::new(0.02),
-        }
-    }
 }
 
 impl Listed for RangingSpec {
@@ -104,21 +96,16 @@ impl SensorParams for RangingSpec {
 
 impl Sensor for Ranging {
     fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
-        readings.ranging = self.read(around.clock, around.truth, around.obstacles, around.terrain);
+        readings.ranging = self.read(around.clock, around.truth, &around.below());
     }
 }
 
 /// Forward ranging on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Ranging {
-    every: Every,
-    p_BS: Vector3<f64>,
+    spec: RangingSpec,
+    at: Sampler,
     dirs_B: Vec<Vector3<f64>>,
-    min_m: f64,
-    max_m: f64,
-    noise_m: f64,
-    dropout: f64,
-    rng: Stream,
 }
 
 impl Ranging {
@@ -127,22 +114,18 @@ impl Ranging {
     /// # Errors
     /// If the rate does not fit the step, or if the fan is out of range.
     pub fn new(spec: &RangingSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.ranging.{field}"), problem };
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("sensors.ranging.{field}"), problem);
         for (field, n) in [("beams", spec.beams), ("rows", spec.rows)] {
-            if n == 0 || spec.beams.saturating_mul(spec.rows) > MOST {
-                return Err(wrong(field, format!("must be at least 1, and beams times rows at most {MOST}, got {n}")));
-            }
+            let fits = n > 0 && spec.beams.saturating_mul(spec.rows) <= MOST;
+            must(fits, field, format!("must be at least 1, and beams times rows at most {MOST}, got {n}"))?;
         }
         for (field, angle, most) in [("width_deg", spec.width_deg, 360.0), ("height_deg", spec.height_deg, 180.0)] {
-            if angle.get() > most {
-                return Err(wrong(field, format!("must be from 0 to {most}, got {}", angle.get())));
-            }
+            must(angle.get() <= most, field, format!("must be from 0 to {most}, got {}", angle.get()))?;
         }
         let (min_m, max_m) = (spec.min_range_m.get(), spec.max_range_m.get());
-        if min_m >= max_m {
-            return Err(wrong("max_range_m", format!("must be greater than min_range_m, {min_m} m, got {max_m}")));
-        }
+        let problem = format!("must be greater than min_range_m, {min_m} m, got {max_m}");
+        must(min_m < max_m, "max_range_m", problem)?;
         let spread = |k: u32, n: u32, whole_deg: f64| {
             let part = if n > 1 { f64::from(k) / f64::from(n - 1) - 0.5 } else { 0.0 };
             math::sin_cos((part * whole_deg).to_radians())
@@ -155,50 +138,35 @@ impl Ranging {
                 Vector3::new(flat * forward, flat * left, up)
             })
             .collect();
-        Ok(Self {
-            every: on.every("sensors.ranging.rate_hz", spec.rate_hz.get())?,
-            p_BS,
-            dirs_B,
-            min_m,
-            max_m,
-            noise_m: spec.noise_m.get(),
-            dropout: spec.dropout.get(),
-            rng: on.stream("ranging"),
-        })
+        Ok(Self { at: Sampler::new("ranging", spec.rate_hz, p_BS, on)?, spec: spec.clone(), dirs_B })
     }
 
     /// The ping of this step, if one is due.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
-    ) -> Option<RangeScan> {
-        if !self.every.due(clock) {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, target: &EchoTarget) -> Option<RangeScan> {
+        if !self.at.due(clock) {
             return None;
         }
-        let from = truth.pose.point(self.p_BS);
+        let from = self.at.place(truth);
+        let (min_m, max_m) = (self.spec.min_range_m.get(), self.spec.max_range_m.get());
+        let (noise_m, dropout) = (self.spec.noise_m.get(), self.spec.dropout.get());
         let mut beams = Vec::with_capacity(self.dirs_B.len());
         for dir_B in &self.dirs_B {
             // Drawn for every beam, so that the scene changes no later numbers.
-            let (lost, noise) = (self.rng.uniform() < self.dropout, self.rng.normal());
+            let (lost, noise) = (self.at.rng.uniform() < dropout, self.at.rng.normal());
             if lost {
                 continue;
             }
             let dir = truth.pose.R_WB * dir_B;
-            let solid = obstacles.ray(&from, &dir, self.max_m);
-            let bed = way_to_bed(terrain, &from, &dir, solid.unwrap_or(self.max_m));
+            let solid = target.obstacles.ray(&from, &dir, max_m);
+            let bed = way_to_bed(target.terrain, &from, &dir, solid.unwrap_or(max_m));
             let echo_m = solid.into_iter().chain(bed).min_by(f64::total_cmp);
             match echo_m {
-                Some(range) if range < self.min_m => {}
-                Some(range) => {
-                    beams.push(Beam { dir_B: *dir_B, echo_m: Some((range + self.noise_m * noise).max(0.0)) })
-                }
+                Some(range) if range < min_m => {}
+                Some(range) => beams.push(Beam { dir_B: *dir_B, echo_m: Some((range + noise_m * noise).max(0.0)) }),
                 None => beams.push(Beam { dir_B: *dir_B, echo_m: None }),
             }
         }
-        Some(RangeScan { p_BS: self.p_BS, max_m: self.max_m, beams: beams.into() })
+        Some(RangeScan { p_BS: self.at.p_BS, max_m, beams: beams.into() })
     }
 }
 

@@ -4,8 +4,9 @@ use super::super::testing::{BED, assert_normal, at, nose_up, run};
 use super::*;
 use nalgebra::Vector2;
 use std::path::Path;
-use world::obstacles::{Base, CylinderShape, Obstacle, ObstacleSpec, ShapeSpec};
+use world::obstacles::{Base, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg};
+use world::terrain::Terrain;
 use world::units::Heading;
 
 fn pile(east_m: f64, north_m: f64) -> Obstacles {
@@ -30,7 +31,7 @@ fn quiet() -> RangingSpec {
 }
 
 fn ping(spec: RangingSpec, truth: &Truth, solids: &Obstacles, bed: &Terrain) -> RangeScan {
-    ranging(spec).read(&Clock::new(0.02), truth, solids, bed).unwrap()
+    ranging(spec).read(&Clock::new(0.02), truth, &EchoTarget { terrain: bed, obstacles: solids }).unwrap()
 }
 
 #[test]
@@ -63,7 +64,7 @@ fn noise_and_dropout_are_those_asked_for() {
         RangingSpec { noise_m: NonNegative::new(0.2), dropout: Fraction::new(0.1), beams: 1, ..Default::default() };
     let mut r = ranging(spec);
     let (t, solids) = (at(0.0, 0.0, -4.0), pile(0.0, 20.0));
-    let scans = run(500_000, 0.02, |c| r.read(c, &t, &solids, &BED));
+    let scans = run(500_000, 0.02, |c| r.read(c, &t, &EchoTarget { terrain: &BED, obstacles: &solids }));
     assert_eq!(scans.len(), 20_000);
     let got: Vec<f64> = scans.iter().flat_map(|s| s.beams.iter().filter_map(|b| b.echo_m)).collect();
     // 20 000 draws at 0.9: five standard errors are 212.

@@ -21,27 +21,25 @@
 //! track, and the bed is smooth without ripples. The ping is instantaneous: in the 27 ms to 20 m and back a vehicle
 //! at 2 m/s moves 5 cm.
 
-use super::on_board::OnBoard;
-use super::sidescan_fan::Fan;
-use super::suite::{Fitting, Sensor, SensorParams, Surroundings};
-use crate::error::RobotError;
-use crate::handoff::Readings;
-use crate::handoff::SidescanPing;
+use super::on_board::{OnBoard, Sampler};
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
+use super::sidescan_fan::{Fan, from_db};
+use super::tools::EchoTarget;
+use crate::error::{RobotError, require};
+use crate::handoff::{Readings, SidescanPing};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::LN_10;
 use std::sync::Arc;
 use world::catalogue::Entry;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
-use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// Most samples on a side.
 const MOST: u32 = 4096;
@@ -54,49 +52,41 @@ const SAMPLE_S: [f64; 2] = [0.2e-6, 0.1e-6];
 const PASSES_BYTES: f64 = 5e6;
 
 /// Parameters of the sidescan sonar.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SidescanSpec {
     /// Pings per second, Hz.
+    #[default(Positive::new(10.0))]
     pub rate_hz: Positive,
     /// Greatest slant range, m.
     #[serde(with = "world::limits::sonar_m")]
+    #[default(Positive::new(20.0))]
     pub range_m: Positive,
     /// Samples on a side, nearest to farthest.
+    #[default(400)]
     pub samples: u32,
     /// Width of the beam along the track, °.
+    #[default(Positive::new(0.6))]
     pub beam_deg: Positive,
     /// Width of the beam in the vertical, to half of the one-way power, °.
+    #[default(Positive::new(50.0))]
     pub aperture_deg: Positive,
     /// Angle of the beam's axis below the horizontal, °.
+    #[default(NonNegative::new(20.0))]
     pub tilt_deg: NonNegative,
     /// Backscatter strength of a square metre of bed at a grazing angle of 90°, dB.
     #[serde(with = "world::limits::level_db")]
+    #[default(Finite::new(-27.0))]
     pub bed_db: Finite,
     /// Backscatter strength whose echo from the greatest range equals the noise, dB.
     #[serde(with = "world::limits::level_db")]
+    #[default(Finite::new(-60.0))]
     pub floor_db: Finite,
     /// Absorption, dB/m.
+    #[default(NonNegative::new(0.17))]
     pub absorption_db_m: NonNegative,
     /// Whether it pings all the time, not only while the vehicle surveys.
     pub always: bool,
-}
-
-impl Default for SidescanSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(10.0),
-            range_m: Positive::new(20.0),
-            samples: 400,
-            beam_deg: Positive::new(0.6),
-            aperture_deg: Positive::new(50.0),
-            tilt_deg: NonNegative::new(20.0),
-            bed_db: Finite::new(-27.0),
-            floor_db: Finite::new(-60.0),
-            absorption_db_m: NonNegative::new(0.17),
-            always: false,
-        }
-    }
 }
 
 impl Listed for SidescanSpec {
@@ -127,16 +117,14 @@ impl SensorParams for SidescanSpec {
 
 impl Sensor for Sidescan {
     fn sense(&mut self, around: &Surroundings, readings: &mut Readings) {
-        readings.sidescan =
-            self.read(around.clock, around.truth, around.obstacles, around.terrain, around.asked.survey);
+        readings.sidescan = self.read(around.clock, around.truth, &around.below(), around.asked.survey);
     }
 }
 
 /// A sidescan sonar on a vehicle.
 #[derive(Clone, Debug)]
 pub struct Sidescan {
-    every: Every,
-    p_BS: Vector3<f64>,
+    at: Sampler,
     fan: Fan,
     /// Noise of each sample, and the reference of 0 dB, as backscatter strengths.
     noise: Vec<f64>,
@@ -144,7 +132,6 @@ pub struct Sidescan {
     always: bool,
     /// Strength of each sample of the present side, before speckle.
     echo: Vec<f64>,
-    rng: Stream,
 }
 
 impl Sidescan {
@@ -153,30 +140,23 @@ impl Sidescan {
     /// # Errors
     /// If the rate does not fit range or step, or if the beam is out of range.
     pub fn new(spec: &SidescanSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.sidescan.{field}"), problem };
-        if spec.samples == 0 || spec.samples > MOST {
-            let problem = format!("must be from 1 to {MOST}, got {}", spec.samples);
-            return Err(wrong("samples", problem));
-        }
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("sensors.sidescan.{field}"), problem);
+        let samples = spec.samples;
+        must((1..=MOST).contains(&samples), "samples", format!("must be from 1 to {MOST}, got {samples}"))?;
         for (field, angle, most) in [
             ("beam_deg", spec.beam_deg.get(), 20.0),
             ("aperture_deg", spec.aperture_deg.get(), 180.0),
             ("tilt_deg", spec.tilt_deg.get(), 90.0),
         ] {
-            if angle > most {
-                return Err(wrong(field, format!("must be at most {most}, got {angle}")));
-            }
+            must(angle <= most, field, format!("must be at most {most}, got {angle}"))?;
         }
         let (range_m, rate_hz) = (spec.range_m.get(), spec.rate_hz.get());
         let most_hz = SOUND_M_S / (2.0 * range_m);
-        if rate_hz > most_hz {
-            let problem = format!(
-                "an echo from {range_m} m takes longer than the time between two pings; at most {most_hz:.1} Hz"
-            );
-            return Err(wrong("rate_hz", problem));
-        }
-        let n = spec.samples as usize;
+        let problem =
+            format!("an echo from {range_m} m takes longer than the time between two pings; at most {most_hz:.1} Hz");
+        must(rate_hz <= most_hz, "rate_hz", problem)?;
+        let n = samples as usize;
         let floor = from_db(spec.floor_db.get());
         let noise = |k: usize| {
             let r = (k as f64 + 0.5) / n as f64 * range_m;
@@ -184,8 +164,7 @@ impl Sidescan {
             floor * part * part * part * from_db(2.0 * spec.absorption_db_m.get() * (r - range_m))
         };
         Ok(Self {
-            every: on.every("sensors.sidescan.rate_hz", rate_hz)?,
-            p_BS,
+            at: Sampler::new("sidescan", spec.rate_hz, p_BS, on)?,
             fan: Fan {
                 range_m,
                 samples: n,
@@ -198,41 +177,29 @@ impl Sidescan {
             floor,
             always: spec.always,
             echo: vec![0.0; n],
-            rng: on.stream("sidescan"),
         })
     }
 
     /// The ping of this step, if one is due; `surveying` says whether the vehicle is on a survey.
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
-        surveying: bool,
-    ) -> Option<SidescanPing> {
-        if !self.every.due(clock) || !(surveying || self.always) {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, target: &EchoTarget, surveying: bool) -> Option<SidescanPing> {
+        if !self.at.due(clock) || !(surveying || self.always) {
             return None;
         }
+        let (from, p_BS) = (self.at.place(truth), self.at.p_BS);
         let mut side = |port: bool| -> Arc<[f32]> {
             self.echo.fill(0.0);
-            let from = truth.pose.point(self.p_BS);
-            (self.fan).sound(&from, &truth.pose.R_WB, port, obstacles, terrain, &mut self.echo);
+            (self.fan).sound(&from, &truth.pose.R_WB, port, target, &mut self.echo);
             let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
                 // Echo and noise are sums of many waves of random phase, so the intensity of their sum is
                 // exponential.
-                let speckle = -math::ln(1.0 - self.rng.uniform());
+                let speckle = -math::ln(1.0 - self.at.rng.uniform());
                 let level = ((echo + noise) * speckle / self.floor).max(1e-15);
                 (10.0 / LN_10 * math::ln(level)) as f32
             });
             heard.collect()
         };
-        Some(SidescanPing { p_BS: self.p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
+        Some(SidescanPing { p_BS, max_m: self.fan.range_m, port_db: side(true), starboard_db: side(false) })
     }
-}
-
-pub(super) fn from_db(db: f64) -> f64 {
-    math::exp(db / 10.0 * LN_10)
 }
 
 #[cfg(test)]

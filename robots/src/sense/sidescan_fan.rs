@@ -12,8 +12,9 @@
 //! were plane there: edges are sharp to a sample. The beam is Gaussian in the vertical with a floor of −40 dB; along
 //! the track it has sharp edges.
 
+use super::tools::EchoTarget;
 use nalgebra::{UnitQuaternion, Vector3};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, LN_10};
 use world::math;
 use world::obstacles::{Obstacle, Obstacles};
 use world::terrain::Terrain;
@@ -58,10 +59,10 @@ impl Fan {
         from: &Vector3<f64>,
         R_WB: &UnitQuaternion<f64>,
         port: bool,
-        obstacles: &Obstacles,
-        terrain: &Terrain,
+        target: &EchoTarget,
         echo: &mut [f64],
     ) {
+        let EchoTarget { terrain, obstacles } = target;
         let axes = axes(R_WB, port);
         let near = self.near(from, &axes, obstacles);
         let (height, tilt) = self.bed_below(from, &axes, terrain);
@@ -142,7 +143,7 @@ impl Fan {
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let (way, normal, strength) = match (solid, bed) {
-            (Some((way, normal, db)), _) => (way, normal, super::sidescan::from_db(db)),
+            (Some((way, normal, db)), _) => (way, normal, from_db(db)),
             (None, Some(way)) => {
                 let p = from + dir * way;
                 (way, terrain.normal(p.x, p.y), self.bed)
@@ -192,4 +193,8 @@ fn axes(R_WB: &UnitQuaternion<f64>, port: bool) -> Axes {
     // A vehicle that stands on its tail has no level side: then use its own.
     let left = if level.norm() > 1e-6 { level.normalize() } else { R_WB * Vector3::y() };
     Axes { side: if port { left } else { -left }, down: left.cross(&ahead), ahead }
+}
+
+pub(super) fn from_db(db: f64) -> f64 {
+    math::exp(db / 10.0 * LN_10)
 }

@@ -1,9 +1,11 @@
 //! Tests of the sidescan sonar.
 
-use super::super::testing::{BED, at, run};
+use super::super::testing::{BED, at, bare, run};
 use super::*;
 use crate::handoff::testing;
 use nalgebra::Vector2;
+use world::obstacles::Obstacles;
+use world::terrain::Terrain;
 use world::units::Heading;
 
 /// A block of a metre on the bed.
@@ -18,7 +20,7 @@ fn sonar(spec: SidescanSpec) -> Sidescan {
 /// Mean strength (dB above the floor) of each sample to starboard over `pings`, by intensities.
 fn mean(truth: &Truth, solids: &Obstacles, bed: &Terrain, pings: u64) -> Vec<f64> {
     let mut s = sonar(SidescanSpec::default());
-    let got = run(5 * pings, 0.02, |c| s.read(c, truth, solids, bed, true));
+    let got = run(5 * pings, 0.02, |c| s.read(c, truth, &EchoTarget { terrain: bed, obstacles: solids }, true));
     assert_eq!(got.len() as u64, pings);
     let power = |k: usize| {
         let sum: f64 = got.iter().map(|p| from_db(f64::from(p.starboard_db[k]))).sum();
@@ -88,7 +90,7 @@ fn a_block_is_bright_and_throws_a_shadow_of_the_right_length() {
 fn speckle_is_rayleigh_in_amplitude() {
     let mut s = sonar(SidescanSpec::default());
     let t = low();
-    let got = run(50_000, 0.02, |c| s.read(c, &t, &Obstacles::default(), &BED, true));
+    let got = run(50_000, 0.02, |c| s.read(c, &t, &bare(&BED), true));
     let power: Vec<f64> = got.iter().map(|p| from_db(f64::from(p.port_db[200]))).collect();
     let n = power.len() as f64;
     let mean = power.iter().sum::<f64>() / n;
@@ -127,7 +129,7 @@ fn off_a_survey_it_is_silent_unless_told() {
     let t = low();
     let read = |always: bool, surveying: bool| {
         let mut s = sonar(SidescanSpec { always, ..Default::default() });
-        s.read(&Clock::new(0.02), &t, &Obstacles::default(), &BED, surveying).is_some()
+        s.read(&Clock::new(0.02), &t, &bare(&BED), surveying).is_some()
     };
     assert_eq!([read(false, false), read(false, true), read(true, false)], [false, true, true]);
 }

@@ -1,114 +1,21 @@
 //! All instruments of a robot, read together.
 
-use super::camera::{CameraSpec, Optics};
+use super::camera::CameraSpec;
 use super::on_board::OnBoard;
-use super::tools::EchoTarget;
+use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::{
     AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, RangingSpec,
     SidescanSpec,
 };
 use crate::error::RobotError;
-use crate::handoff::{Behaviour, Decision, Readings};
+use crate::handoff::Readings;
 use bevy_ecs::prelude::Component;
-use nalgebra::Vector3;
-use world::clock::Clock;
 use world::cost::{Cost, Times};
-use world::fields::{Concentration, Flow};
-use world::frames::{Pose, Truth};
-use world::obstacles::Obstacles;
-use world::registry::{Kind, Row, Set, Spec, Takes};
-use world::terrain::Terrain;
+use world::frames::Pose;
+use world::registry::{Kind, Row, Set, Takes};
 
 /// Share of a mission during which a vehicle surveys or uses its camera, if it does so at all.
 const SURVEYS: f64 = 0.05;
-
-/// The place where an instrument is fitted.
-#[derive(Clone, Copy)]
-pub struct Fitting<'a> {
-    /// The pose in body axes of a mount of the vehicle, by its name.
-    pub mounts: &'a dyn Fn(&str) -> Option<Pose>,
-    /// The robot.
-    pub robot: OnBoard<'a>,
-}
-
-impl Fitting<'_> {
-    /// The mount of a name.
-    ///
-    /// # Errors
-    /// If the vehicle has none.
-    pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
-        (self.mounts)(name).ok_or_else(|| RobotError::Invalid {
-            field: format!("sensors.{name}"),
-            problem: format!(
-                "the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"
-            ),
-        })
-    }
-
-    /// Its place in body axes, m.
-    ///
-    /// # Errors
-    /// If the vehicle has none.
-    pub fn place(&self, name: &str) -> Result<Vector3<f64>, RobotError> {
-        self.mount(name).map(|pose| pose.p_WB)
-    }
-}
-
-/// Everything that can be sensed in a step.
-#[derive(Clone, Copy)]
-pub struct Surroundings<'a> {
-    /// Time.
-    pub clock: &'a Clock,
-    /// The vehicle's motion.
-    pub truth: &'a Truth,
-    /// The water.
-    pub flow: &'a dyn Flow,
-    /// Dye in it.
-    pub dye: &'a dyn Concentration,
-    /// The bed.
-    pub terrain: &'a Terrain,
-    /// Solids in the water.
-    pub obstacles: &'a Obstacles,
-    /// Light in the water.
-    pub optics: &'a Optics,
-    /// Requests of the strategy.
-    pub asked: SensorRequests,
-}
-
-impl Surroundings<'_> {
-    /// What an echo sounder may hear.
-    #[must_use]
-    pub fn below(&self) -> EchoTarget<'_> {
-        EchoTarget { terrain: self.terrain, obstacles: self.obstacles }
-    }
-}
-
-/// An instrument. It draws from a stream of its own: [`OnBoard::stream`].
-pub trait Sensor: std::fmt::Debug + Send + Sync {
-    /// Reads its surroundings, and writes its readings of this step.
-    fn sense(&mut self, around: &Surroundings, readings: &mut Readings);
-}
-
-/// Parameters of an instrument; their name is the field of `sensors`.
-pub trait SensorParams: Spec {
-    /// Builds the instrument on a vehicle.
-    ///
-    /// # Errors
-    /// If a mount is missing, or if a parameter is out of range.
-    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
-
-    /// The instruments of the program whose readings it gives, too: an instrument of another crate that says so is one of
-    /// those that a strategy may need.
-    fn stands_for(&self) -> &'static [&'static str] {
-        &[]
-    }
-
-    /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
-    /// field.
-    fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
-        Cost::default()
-    }
-}
 
 /// The instruments that a scenario can fit to a robot.
 #[derive(Clone, Copy, Debug)]
@@ -160,21 +67,6 @@ pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times)
     cost
 }
 
-/// Requests of the strategy to the instruments in the step before.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SensorRequests {
-    /// A picture.
-    pub picture: bool,
-    /// The vehicle is on a survey.
-    pub survey: bool,
-}
-
-impl From<&Decision> for SensorRequests {
-    fn from(decision: &Decision) -> Self {
-        Self { picture: decision.picture, survey: decision.behaviour == Behaviour::Survey }
-    }
-}
-
 /// An instrument of a robot; of one from another crate its name, too.
 type InstrumentEntry = (Box<dyn Sensor>, Option<&'static str>);
 
@@ -212,7 +104,10 @@ impl SensorSuite {
     /// # Panics
     /// If an instrument of another crate gives a reading that is no number.
     pub fn read_into(&mut self, around: &Surroundings, readings: &mut Readings) {
-        empty(readings);
+        // The list of other instruments keeps its memory.
+        let mut other = std::mem::take(&mut readings.other);
+        other.clear();
+        *readings = Readings { other, ..Readings::default() };
         for (sensor, own) in &mut self.all {
             sensor.sense(around, readings);
             if let Some(name) = own {
@@ -229,30 +124,15 @@ impl SensorSuite {
     }
 }
 
-/// Makes readings empty, in their place: they are large.
-fn empty(readings: &mut Readings) {
-    let Readings { chemical, dvl, adcp, attitude, depth, ctd, altimeter, lbl, ranging, sidescan, picture, other } =
-        readings;
-    *chemical = None;
-    *dvl = None;
-    *adcp = None;
-    *attitude = None;
-    *depth = None;
-    *ctd = None;
-    *altimeter = None;
-    *lbl = None;
-    *ranging = None;
-    *sidescan = None;
-    *picture = None;
-    other.clear();
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::sensor::SensorRequests;
     use super::super::testing::{BED, at, run};
     use super::*;
-    use crate::sense::camera::OpticsSpec;
+    use crate::sense::camera::{Optics, OpticsSpec};
+    use nalgebra::Vector3;
     use world::fields::{Clean, Still};
+    use world::obstacles::Obstacles;
 
     fn all() -> SensorsSpec {
         SensorsSpec::default()

@@ -13,35 +13,32 @@ use super::catalogue::StrategySpec;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
     Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
-    Reply, ReplyOutcome, Setting, Vertical,
+    Reply, ReplyOutcome, Setting, Shown, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::Positive;
 use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the strategy.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExternalSpec {
     /// Simulated time between two questions, s; at least one step.
+    #[default(Positive::new(1.0))]
     pub period_s: Positive,
     /// How long the run waits for an answer, s of real time.
     #[serde(with = "world::limits::answer_s")]
+    #[default(Positive::new(1.0))]
     pub deadline_s: Positive,
     /// What the robot does without an answer.
+    #[default(OnLate::Hold)]
     pub on_late: OnLate,
-}
-
-impl Default for ExternalSpec {
-    fn default() -> Self {
-        Self { period_s: Positive::new(1.0), deadline_s: Positive::new(1.0), on_late: OnLate::Hold }
-    }
 }
 
 /// What a robot does when an answer is late, absent or of no use.
@@ -79,10 +76,10 @@ impl StrategyParams for ExternalSpec {
             OnLate::Hold => Late::Hold,
             OnLate::Abort => Late::Abort,
             OnLate::Fallback(spec) if spec.consulted().is_some() => {
-                return Err(RobotError::Invalid {
-                    field: "strategy.on_late".into(),
-                    problem: "must be a strategy of this program, got External".into(),
-                });
+                return Err(RobotError::invalid(
+                    "strategy.on_late",
+                    "must be a strategy of this program, got External",
+                ));
             }
             OnLate::Fallback(spec) => Late::Fallback(spec.build(setting)?),
         };
@@ -106,10 +103,6 @@ impl StrategyParams for ExternalSpec {
     fn needs(&self) -> Vec<Need> {
         let needs = self.fallback().map_or_else(Vec::new, |spec| spec.needs());
         needs.into_iter().map(|n| n.within("on_late")).collect()
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        self.fallback().map_or([false; 2], |spec| spec.flies_for())
     }
 
     fn wishes(&self) -> Wishes {

@@ -10,11 +10,12 @@
 //! is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared again with the
 //! survey's verdict. The mission is completed after the last place, on the spot.
 
-use super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::spec::{Strategy, StrategyParams};
 use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
+use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::behave::Stride;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Vertical,
 };
@@ -90,10 +91,6 @@ impl StrategyParams for InspectSpec {
         self.survey.needs("survey")
     }
 
-    fn flies_for(&self) -> [bool; 2] {
-        self.survey.flies_for()
-    }
-
     fn wishes(&self) -> Wishes {
         Wishes::mission(self.speed_m_s, self.vertical).survey("survey", &self.survey)
     }
@@ -116,12 +113,7 @@ impl Inspect {
     /// # Errors
     /// [`RobotError::Invalid`] without places, or if the survey's parts contradict each other.
     pub fn new(spec: &InspectSpec) -> Result<Self, RobotError> {
-        if spec.places.is_empty() {
-            return Err(RobotError::Invalid {
-                field: "strategy.places".into(),
-                problem: "must have at least 1 place, got 0".into(),
-            });
-        }
+        require(!spec.places.is_empty(), "strategy.places", "must have at least 1 place, got 0")?;
         spec.survey.check("strategy.survey")?;
         let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
         let vertical = spec.vertical.into();
@@ -137,24 +129,14 @@ impl Inspect {
         })
     }
 
-    fn begin(&mut self, manoeuvre: Manoeuvre, vertical: Vertical) {
-        self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, ..self.goal };
-    }
-
     /// One step of the survey; at its end, the declaration with its verdict.
     fn survey(&mut self, seen: &Observation) -> Option<Declaration> {
         let arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
         match self.post.step(seen, arrived) {
-            Progress::Go(Stride::Start(manoeuvre)) => {
-                let vertical = self.post.vertical().unwrap_or(self.vertical);
-                self.begin(manoeuvre, vertical);
+            Progress::Go(stride) => {
+                stride.turn(&mut self.goal, self.post.vertical().unwrap_or(self.vertical));
                 None
             }
-            Progress::Go(Stride::Adjust(manoeuvre)) => {
-                self.goal.manoeuvre = manoeuvre;
-                None
-            }
-            Progress::Go(Stride::Keep | Stride::Over) => None,
             Progress::Over(declaration) => {
                 self.surveying = false;
                 self.now += 1;
@@ -170,7 +152,7 @@ impl Inspect {
             Some(point) => {
                 let point = *point;
                 let to = Manoeuvre::GoToPoint { point, radius_m: None };
-                self.begin(to, self.vertical);
+                Stride::Start(to).turn(&mut self.goal, self.vertical);
             }
             None => self.outcome = Some(Outcome::Completed),
         }

@@ -22,10 +22,10 @@ pub use inspect::{Inspect, InspectSpec, ToldSpec};
 pub use map_and_plan::{AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec};
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use route::{Route, RouteSpec};
-pub use spec::{Strategy, StrategyParams, VerticalSpec};
+pub use spec::{Strategy, StrategyParams};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions, SubregionsSpec,
 };
 pub use subsumption::{EyesSpec, GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec};
 pub use survey::{AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify};
-pub use wishes::Wishes;
+pub use wishes::{VerticalSpec, Wishes};

@@ -7,8 +7,7 @@
 //! *Deviations*: none.
 
 use super::spec::{Strategy, StrategyParams};
-use crate::behave::TimeTable;
-use crate::behave::{Behave, Stride};
+use crate::behave::{Behave, Stride, TimeTable};
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use crate::memory::PlumeMemory;

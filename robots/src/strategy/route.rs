@@ -7,9 +7,10 @@
 //!
 //! *Deviations*: a vehicle that hovers holds its place while it stays; any other circles round it.
 
-use super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::spec::{Strategy, StrategyParams};
+use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -54,9 +55,7 @@ impl Listed for RouteSpec {
 
 impl StrategyParams for RouteSpec {
     fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        if self.points.is_empty() {
-            return Err(RobotError::Invalid { field: "points".into(), problem: "must name at least one place".into() });
-        }
+        require(!self.points.is_empty(), "points", "must name at least one place")?;
         Ok(Box::new(Route::new(self)))
     }
 
@@ -75,10 +74,8 @@ impl StrategyParams for RouteSpec {
 /// State of the strategy.
 #[derive(Debug)]
 pub struct Route {
+    spec: RouteSpec,
     points: Vec<Vector2<f64>>,
-    speed_m_s: f64,
-    vertical: Option<Vertical>,
-    stay_s: f64,
     next: usize,
     stays_until_s: Option<f64>,
     goal: Option<Goal>,
@@ -88,23 +85,16 @@ impl Route {
     /// Before its first place.
     #[must_use]
     pub fn new(spec: &RouteSpec) -> Self {
-        Self {
-            points: (spec.points.iter()).map(|(east, north)| Vector2::new(east.get(), north.get())).collect(),
-            speed_m_s: spec.speed_m_s.get(),
-            vertical: spec.vertical.map(Vertical::from),
-            stay_s: spec.stay_s.get(),
-            next: 0,
-            stays_until_s: None,
-            goal: None,
-        }
+        let points = spec.points.iter().map(|(east, north)| Vector2::new(east.get(), north.get()));
+        Self { spec: spec.clone(), points: points.collect(), next: 0, stays_until_s: None, goal: None }
     }
 
     fn to(&mut self, manoeuvre: Manoeuvre, seen: &Observation) -> Goal {
         let goal = Goal {
             id: self.goal.map_or(1, |g| g.id + 1),
             manoeuvre,
-            vertical: (self.vertical).unwrap_or(Vertical::Depth(seen.estimate.depth_m.max(0.0))),
-            speed_m_s: self.speed_m_s,
+            vertical: (self.spec.vertical).map_or(Vertical::Depth(seen.estimate.depth_m.max(0.0)), Vertical::from),
+            speed_m_s: self.spec.speed_m_s.get(),
         };
         self.goal = Some(goal);
         goal
@@ -125,8 +115,9 @@ impl Strategy for Route {
             Some(until_s) if seen.t_s < until_s => return Decision::new(Behaviour::GoTo, goal),
             Some(_) => self.stays_until_s = None,
             None if seen.guidance.done && seen.guidance.goal_id == goal.id => {
-                if self.stay_s > 0.0 {
-                    self.stays_until_s = Some(seen.t_s + self.stay_s);
+                let stay_s = self.spec.stay_s.get();
+                if stay_s > 0.0 {
+                    self.stays_until_s = Some(seen.t_s + stay_s);
                     let hold = Manoeuvre::Hold { point, heading: None };
                     return Decision::new(Behaviour::GoTo, self.to(hold, seen));
                 }

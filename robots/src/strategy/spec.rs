@@ -2,13 +2,9 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::Shown;
-use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Vertical};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown};
 use world::area::Area;
 use world::cost::{Cost, Times};
-use world::ranges::{NonNegative, Positive};
 use world::registry::Spec;
 use world::seeds::Stream;
 
@@ -50,11 +46,6 @@ pub trait StrategyParams: Spec {
         Vec::new()
     }
 
-    /// Whether it flies passes for sidescan and camera after a declaration.
-    fn flies_for(&self) -> [bool; 2] {
-        [false; 2]
-    }
-
     /// The heights and speeds that it will command. Who commands any needs instruments to hold them.
     fn wishes(&self) -> Wishes {
         Wishes::default()
@@ -83,24 +74,5 @@ pub trait StrategyParams: Spec {
     /// Its memory and time; paths below `strategy`.
     fn cost(&self, _area: &Area, _depth_m: f64, _obstacles: usize, _times: &Times) -> Cost {
         Cost::default()
-    }
-}
-
-/// Vertical part of a strategy's goals.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum VerticalSpec {
-    /// Height above the bed, m.
-    Altitude(Positive),
-    /// Depth below the surface, m.
-    Depth(NonNegative),
-}
-
-impl From<VerticalSpec> for Vertical {
-    fn from(v: VerticalSpec) -> Self {
-        match v {
-            VerticalSpec::Altitude(m) => Vertical::Altitude(m.get()),
-            VerticalSpec::Depth(m) => Vertical::Depth(m.get()),
-        }
     }
 }

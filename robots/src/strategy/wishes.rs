@@ -1,10 +1,30 @@
 //! What a strategy will demand of its vehicle, as far as its parameters tell: heights, speeds, number of
 //! declarations.
 
-use super::spec::VerticalSpec;
 use super::survey::{AfterDeclaration, SurveySpec};
 use crate::handoff::{Capabilities, Need, Vertical};
-use world::ranges::Positive;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// Vertical part of a strategy's goals.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum VerticalSpec {
+    /// Height above the bed, m.
+    Altitude(Positive),
+    /// Depth below the surface, m.
+    Depth(NonNegative),
+}
+
+impl From<VerticalSpec> for Vertical {
+    fn from(v: VerticalSpec) -> Self {
+        match v {
+            VerticalSpec::Altitude(m) => Vertical::Altitude(m.get()),
+            VerticalSpec::Depth(m) => Vertical::Depth(m.get()),
+        }
+    }
+}
 
 /// Heights and speeds, each with the path of its field below the strategy.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -9,7 +9,7 @@
 //! negative. The steering probes are the leftmost and the rightmost, whatever their names.
 
 use super::data::{Sample, Spike};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{GantryLayout, JointReadings, MAX_PROBES, ProbeScan};
 use nalgebra::Vector2;
 
@@ -33,11 +33,12 @@ impl Acquisition {
     /// # Errors
     /// [`RobotError::Invalid`] if the machine has no two probes that are apart across the stream, or too many probes.
     pub fn new(layout: &GantryLayout) -> Result<Self, RobotError> {
-        let invalid = |problem: String| RobotError::Invalid { field: "tracker.probes".into(), problem };
+        let must = |holds: bool, problem: String| require(holds, "tracker.probes", problem);
         let n = layout.probes.len();
-        if !(2..=MAX_PROBES).contains(&n) {
-            return Err(invalid(format!("bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}")));
-        }
+        must(
+            (2..=MAX_PROBES).contains(&n),
+            format!("bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}"),
+        )?;
         let offsets_m: Vec<_> = layout.probes.iter().map(|p| p.offset_m.xy()).collect();
         let (mut left, mut right) = (0, 0);
         for (i, o) in offsets_m.iter().enumerate() {
@@ -48,11 +49,10 @@ impl Acquisition {
                 right = i;
             }
         }
-        if offsets_m[left].y - offsets_m[right].y < APART_M {
-            return Err(invalid(
-                "no two probes are apart across the stream: bilateral steering needs a left and a right one".into(),
-            ));
-        }
+        must(
+            offsets_m[left].y - offsets_m[right].y >= APART_M,
+            "no two probes are apart across the stream: bilateral steering needs a left and a right one".into(),
+        )?;
         Ok(Self { range_v: layout.range_v, offsets_m, left, right })
     }
 

@@ -18,50 +18,45 @@
 use super::data::StepRecord;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::{NonNegative, Positive};
 
 /// The rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AdvanceSpec {
     /// More than before, or as predicted.
+    #[default]
     StepRule(StepRule),
     /// Any spike: odour-gated rheotaxis.
     Gated(Gated),
 }
 
-impl Default for AdvanceSpec {
-    fn default() -> Self {
-        Self::StepRule(StepRule::default())
-    }
-}
-
 /// Parameters of the step rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StepRule {
     /// The present magnitude must exceed this share of the previous one.
+    #[default(Positive::new(1.0))]
     pub ratio: Positive,
     /// Otherwise the prediction error must be below this share of the prediction.
+    #[default(NonNegative::new(0.02))]
     pub prediction_error: NonNegative,
     /// Whether more than predicted counts as no error.
+    #[default(true)]
     pub signed: bool,
 }
 
-impl Default for StepRule {
-    fn default() -> Self {
-        Self { ratio: Positive::new(1.0), prediction_error: NonNegative::new(0.02), signed: true }
-    }
-}
-
 /// Parameters of the gate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Gated {
     /// Least number of spikes in the step.
+    #[default(NonZeroUsize::MIN)]
     pub spikes: NonZeroUsize,
     /// Where the next step is measured from.
+    #[default(StepFrom::Head)]
     pub from: StepFrom,
 }
 
@@ -72,12 +67,6 @@ pub enum StepFrom {
     Head,
     /// The most up-stream place of a spike in the step before, if that is less far than the head.
     Spike,
-}
-
-impl Default for Gated {
-    fn default() -> Self {
-        Self { spikes: NonZeroUsize::MIN, from: StepFrom::Head }
-    }
 }
 
 impl AdvanceSpec {

@@ -17,6 +17,7 @@ use super::data::Spike;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 
@@ -24,14 +25,17 @@ use world::ranges::Positive;
 pub(super) const KEPT: usize = 16;
 
 /// Parameters of the full sweep.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SweepSpec {
     /// Length across the stream, m.
+    #[default(Positive::new(0.6))]
     pub span_m: Positive,
     /// What counts as its best place.
+    #[default(Best::Peak)]
     pub best: Best,
     /// Empty sweeps in a row before giving up.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub empty_sweeps: NonZeroUsize,
 }
 
@@ -42,16 +46,6 @@ pub enum Best {
     Peak,
     /// The mean place of all spikes, weighted by magnitude.
     Centroid,
-}
-
-impl Default for SweepSpec {
-    fn default() -> Self {
-        Self {
-            span_m: Positive::new(0.6),
-            best: Best::Peak,
-            empty_sweeps: NonZeroUsize::new(3).expect("3 is not zero"),
-        }
-    }
 }
 
 /// The unit.

@@ -1,6 +1,19 @@
-//! The units of the tracker by name.
+//! The searchers of a gantry, and the units of the tracker, by name.
 
+use super::chemotaxis::ChemotaxisSpec;
+use super::crab_spec::CrabSpec;
+use super::external::ExternalSpec;
+use super::spec::GantryStrategyParams;
 use world::catalogue::Entry;
+use world::kind;
+
+kind! {
+    /// Searchers that move a gantry's head by what its probes read.
+    pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
+        heading: "Searchers of a gantry (gantries: tracker)",
+        rows: [CrabSpec, ChemotaxisSpec, ExternalSpec],
+    }
+}
 
 /// Units of the tracker that can be chosen, with their names in RON; the other units follow from them.
 pub const UNITS: &[Entry] = &[

@@ -14,11 +14,12 @@
 use super::acquire::Acquisition;
 use super::command::MotionCommand;
 use super::spec::{GantryStrategy, GantryStrategyParams};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -26,28 +27,21 @@ use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the searcher.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ChemotaxisSpec {
     /// Step (along the stream, across it), m.
+    #[default([Positive::new(0.1), Positive::new(0.05)])]
     pub step_m: [Positive; 2],
     /// Speeds (along, across), m/s.
+    #[default([Positive::new(0.061), Positive::new(0.03)])]
     pub speed_m_s: [Positive; 2],
     /// Averaging time at rest, s.
+    #[default(Positive::new(1.86))]
     pub average_s: Positive,
     /// Reversals without a new greatest average that make a maximum.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub turns: NonZeroUsize,
-}
-
-impl Default for ChemotaxisSpec {
-    fn default() -> Self {
-        Self {
-            step_m: [Positive::new(0.1), Positive::new(0.05)],
-            speed_m_s: [Positive::new(0.061), Positive::new(0.03)],
-            average_s: Positive::new(1.86),
-            turns: NonZeroUsize::new(3).expect("3 is not zero"),
-        }
-    }
 }
 
 impl Listed for ChemotaxisSpec {
@@ -92,16 +86,11 @@ impl Chemotaxis {
     pub fn new(spec: &ChemotaxisSpec, layout: &GantryLayout) -> Result<Self, RobotError> {
         for (i, step) in spec.step_m.iter().enumerate() {
             let [least, greatest] = layout.travel_m[i];
-            if step.get() > greatest - least {
-                return Err(RobotError::Invalid {
-                    field: format!("tracker.Chemotaxis.step_m.{i}"),
-                    problem: format!(
-                        "must be at most {}, the gantry's travel in m, got {}",
-                        greatest - least,
-                        step.get()
-                    ),
-                });
-            }
+            require(
+                step.get() <= greatest - least,
+                format!("tracker.Chemotaxis.step_m.{i}"),
+                format!("must be at most {}, the gantry's travel in m, got {}", greatest - least, step.get()),
+            )?;
         }
         Ok(Self {
             acquisition: Acquisition::new(layout)?,

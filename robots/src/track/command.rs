@@ -29,7 +29,7 @@ pub struct Progress {
 }
 
 /// The unit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct MotionCommand {
     travel_m: [[f64; 2]; 2],
     max_speed_m_s: Vector2<f64>,
@@ -47,17 +47,7 @@ impl MotionCommand {
     #[must_use]
     pub fn new(layout: &GantryLayout) -> Self {
         let max_speed_m_s = Vector2::from(layout.max_speed_m_s);
-        Self {
-            travel_m: layout.travel_m,
-            max_speed_m_s,
-            behaviour: GantryBehaviour::Idle,
-            id: 0,
-            target_m: Vector2::zeros(),
-            speed_m_s: max_speed_m_s,
-            since_s: 0.0,
-            rest_since_s: None,
-            blocked: false,
-        }
+        Self { travel_m: layout.travel_m, max_speed_m_s, speed_m_s: max_speed_m_s, ..Self::default() }
     }
 
     /// The nearest place within the travel.

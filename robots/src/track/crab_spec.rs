@@ -2,26 +2,28 @@
 
 use super::advance::{self, AdvanceSpec};
 use super::builder::{KEPT, SweepSpec};
-use super::decide::Rules;
+use super::decide::{AtEnd, Rules};
 use super::history::{HistorySpec, Over};
 use super::pace::{self, PaceSpec};
 use super::predictor::PredictorSpec;
 use super::steer::{self, ContrastSpec};
 use super::stop::{self, StopSpec};
 use super::threshold::{HalfMean, ThresholdSpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::GantryLayout;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::{Fraction, Positive};
 
 /// The tracker's units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabSpec {
     /// Step (along the stream, across it), m.
+    #[default([Positive::new(0.1), Positive::new(0.05)])]
     pub step_m: [Positive; 2],
     /// The full sweep.
     pub sweep: SweepSpec,
@@ -40,39 +42,13 @@ pub struct CrabSpec {
     /// Decision unit, stopping.
     pub stop: StopSpec,
     /// Blocked motions in a row before it gives up.
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub blocked_limit: NonZeroUsize,
     /// Travel up-stream from where the head starts that the tracker uses, m; without it, all of the machine's.
     pub travel_m: Option<Positive>,
     /// What the up-stream end of the travel means.
+    #[default(AtEnd::Fails)]
     pub at_end: AtEnd,
-}
-
-/// What the up-stream end of the travel means.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum AtEnd {
-    /// The search has failed.
-    Fails,
-    /// The head stops there, as it does where the rule of stopping says so.
-    Stops,
-}
-
-impl Default for CrabSpec {
-    fn default() -> Self {
-        Self {
-            step_m: [Positive::new(0.1), Positive::new(0.05)],
-            sweep: SweepSpec::default(),
-            threshold: ThresholdSpec::default(),
-            predictor: PredictorSpec::default(),
-            history: HistorySpec::default(),
-            advance: AdvanceSpec::default(),
-            contrast: ContrastSpec::default(),
-            speed: PaceSpec::default(),
-            stop: StopSpec::default(),
-            blocked_limit: NonZeroUsize::new(6).expect("6 is not zero"),
-            travel_m: None,
-            at_end: AtEnd::Fails,
-        }
-    }
 }
 
 impl CrabSpec {
@@ -99,13 +75,8 @@ impl CrabSpec {
     /// [`RobotError::Invalid`] if steps, sweep or speeds exceed what the machine has.
     pub(super) fn rules(&self, layout: &GantryLayout) -> Result<Rules, RobotError> {
         let most = |field: &str, value: f64, most: f64, what: &str| {
-            if value <= most {
-                return Ok(());
-            }
-            Err(RobotError::Invalid {
-                field: format!("tracker.Crab.{field}"),
-                problem: format!("must be at most {most}, the gantry's {what}, got {value}"),
-            })
+            let problem = format!("must be at most {most}, the gantry's {what}, got {value}");
+            require(value <= most, format!("tracker.Crab.{field}"), problem)
         };
         let [along, across] = layout.travel_m;
         let [step_f, step_l] = self.step_m.map(Positive::get);
@@ -116,24 +87,22 @@ impl CrabSpec {
             let all = along[1] - along[0];
             most("travel_m", travel_m.get(), all, "travel along the stream in m")?;
         }
-        if self.history.over == Over::Time && matches!(self.predictor, PredictorSpec::Trend(_)) {
-            return Err(RobotError::Invalid {
-                field: "tracker.Crab.predictor".into(),
-                problem: "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean".into(),
-            });
-        }
+        require(
+            self.history.over != Over::Time || !matches!(self.predictor, PredictorSpec::Trend(_)),
+            "tracker.Crab.predictor",
+            "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean",
+        )?;
         let span = self.sweep.span_m.get();
         most("sweep.span_m", span, width, "travel across the stream in m")?;
         let [max_f, max_l] = layout.max_speed_m_s;
         let (speeds_f, speeds_l) = match &self.speed {
             PaceSpec::Fixed(p) => (vec![("forward_m_s", p.forward_m_s)], vec![("left_m_s", p.left_m_s)]),
             PaceSpec::Adaptive(p) => {
-                if p.least_m_s > p.most_m_s {
-                    return Err(RobotError::Invalid {
-                        field: "tracker.Crab.speed.least_m_s".into(),
-                        problem: format!("must not exceed most_m_s, {}", p.most_m_s.get()),
-                    });
-                }
+                require(
+                    p.least_m_s <= p.most_m_s,
+                    "tracker.Crab.speed.least_m_s",
+                    format!("must not exceed most_m_s, {}", p.most_m_s.get()),
+                )?;
                 let across =
                     vec![("left_m_s", p.left_m_s), ("sweep_m_s", p.sweep_m_s), ("reacquire_m_s", p.reacquire_m_s)];
                 (vec![("most_m_s", p.most_m_s)], across)
@@ -147,18 +116,12 @@ impl CrabSpec {
         }
         if let StopSpec::Experience(p) = &self.stop {
             let n = p.points.get();
-            if n > KEPT {
-                return Err(RobotError::Invalid {
-                    field: "tracker.Crab.stop.points".into(),
-                    problem: format!("must be from 1 to {KEPT}, got {n}"),
-                });
-            }
-            if p.least_hz > p.most_hz {
-                return Err(RobotError::Invalid {
-                    field: "tracker.Crab.stop.least_hz".into(),
-                    problem: format!("must not exceed most_hz, {}", p.most_hz.get()),
-                });
-            }
+            require(n <= KEPT, "tracker.Crab.stop.points", format!("must be from 1 to {KEPT}, got {n}"))?;
+            require(
+                p.least_hz <= p.most_hz,
+                "tracker.Crab.stop.least_hz",
+                format!("must not exceed most_hz, {}", p.most_hz.get()),
+            )?;
         }
         let middle = (across[0] + across[1]) / 2.0;
         Ok(Rules {

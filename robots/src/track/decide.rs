@@ -16,17 +16,27 @@
 use super::advance::AdvanceSpec;
 use super::builder::DataBuilder;
 use super::command::Progress;
-use super::crab_spec::AtEnd;
 use super::data::{StepRecord, Tally};
 use super::pace::PaceSpec;
 use super::steer::{ContrastSpec, Pull};
 use super::stop::StopRule;
 use crate::handoff::GantryBehaviour;
 use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use world::seeds::Stream;
 
 /// A shorter motion than this counts as none, m.
 const STILL_M: f64 = 1e-3;
+
+/// What the up-stream end of the travel means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum AtEnd {
+    /// The search has failed.
+    Fails,
+    /// The head stops there, as it does where the rule of stopping says so.
+    Stops,
+}
 
 /// The rules and limits of the unit.
 #[derive(Clone, Debug)]

@@ -10,34 +10,32 @@ use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
 use crate::handoff::{
     ExchangeTiming, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, MotionOrder, Outcome,
-    ReplyOutcome, TrackerState,
+    ReplyOutcome,
 };
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 use world::ranges::Positive;
 use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the searcher.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "ExternalHeadSpec")]
 #[serde(deny_unknown_fields, default)]
 pub struct ExternalSpec {
     /// Simulated time between two questions, s; at least one step.
+    #[default(Positive::new(0.2))]
     pub period_s: Positive,
     /// How long the run waits for an answer, s of real time.
     #[serde(with = "world::limits::answer_s")]
+    #[default(Positive::new(1.0))]
     pub deadline_s: Positive,
     /// What the searcher does without an answer.
+    #[default(OnLate::Hold)]
     pub on_late: OnLate,
-}
-
-impl Default for ExternalSpec {
-    fn default() -> Self {
-        Self { period_s: Positive::new(0.2), deadline_s: Positive::new(1.0), on_late: OnLate::Hold }
-    }
 }
 
 /// What a gantry does when an answer is late, absent or of no use.
@@ -65,14 +63,7 @@ impl GantryStrategyParams for ExternalSpec {
             on_late: self.on_late,
             fastest_m_s: Vector2::from(layout.max_speed_m_s),
             travel_m: layout.travel_m,
-            last: GantryDecision {
-                behaviour: GantryBehaviour::Idle,
-                id: 0,
-                target_m: Vector2::zeros(),
-                speed_m_s: Vector2::zeros(),
-                working: TrackerState::default(),
-                stopped: None,
-            },
+            last: GantryDecision::default(),
         }))
     }
 

@@ -19,6 +19,7 @@ use super::data::{Spike, StepRecord, Tally};
 use crate::handoff::MAX_PROBES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// Where a step's average begins.
@@ -40,29 +41,24 @@ pub enum Over {
 }
 
 /// Parameters of the unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HistorySpec {
     /// Weight of a centre probe's spike; a steering probe's is 1.
+    #[default(Positive::new(2.0))]
     pub centre_weight: Positive,
     /// Where a step's average begins.
+    #[default(Since::Decision)]
     pub since: Since,
     /// Over what it is taken.
+    #[default(Over::Time)]
     pub over: Over,
 }
 
-impl Default for HistorySpec {
-    fn default() -> Self {
-        Self { centre_weight: Positive::new(2.0), since: Since::Decision, over: Over::Time }
-    }
-}
-
 /// The unit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct History {
-    since: Since,
-    over: Over,
-    centre_weight: f64,
+    spec: HistorySpec,
     left: usize,
     right: usize,
     began_s: f64,
@@ -77,25 +73,13 @@ impl History {
     /// The unit, with the numbers of the steering probes.
     #[must_use]
     pub fn new(spec: &HistorySpec, left: usize, right: usize) -> Self {
-        Self {
-            since: spec.since,
-            over: spec.over,
-            centre_weight: spec.centre_weight.get(),
-            left,
-            right,
-            began_s: 0.0,
-            arrived: false,
-            tallies: Default::default(),
-            foremost_m: None,
-            previous_v: None,
-            predicted_v: None,
-        }
+        Self { spec: spec.clone(), left, right, ..Self::default() }
     }
 
     /// Weight of a probe's spikes.
     #[must_use]
     pub fn weight(&self, probe: usize) -> f64 {
-        if probe == self.left || probe == self.right { 1.0 } else { self.centre_weight }
+        if probe == self.left || probe == self.right { 1.0 } else { self.spec.centre_weight.get() }
     }
 
     /// Takes a spike.
@@ -107,7 +91,7 @@ impl History {
 
     /// The head has come to rest.
     pub fn arrive(&mut self) {
-        if !self.arrived && self.since == Since::Arrival {
+        if !self.arrived && self.spec.since == Since::Arrival {
             (self.tallies, self.foremost_m) = Default::default();
         }
         self.arrived = true;
@@ -126,7 +110,7 @@ impl History {
         StepRecord {
             period_s,
             spikes,
-            mean_v: match self.over {
+            mean_v: match self.spec.over {
                 Over::Spikes if spikes > 0 => wm / w,
                 Over::Time if period_s > 0.0 => wm / period_s,
                 _ => 0.0,

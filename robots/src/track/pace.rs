@@ -20,80 +20,66 @@
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::{NonNegative, Positive};
 
 /// The paces a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum PaceSpec {
     /// The same speeds and rest for every step.
+    #[default]
     Fixed(Fixed),
     /// Faster with more spikes, no rest if there are enough.
     Adaptive(Adaptive),
 }
 
-impl Default for PaceSpec {
-    fn default() -> Self {
-        Self::Fixed(Fixed::default())
-    }
-}
-
 /// Parameters of the fixed pace.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "FixedPace")]
 #[serde(deny_unknown_fields, default)]
 pub struct Fixed {
     /// Speed along the stream, m/s.
+    #[default(Positive::new(0.061))]
     pub forward_m_s: Positive,
     /// Speed across the stream, m/s.
+    #[default(Positive::new(0.03))]
     pub left_m_s: Positive,
     /// Time at rest before a decision, s.
+    #[default(NonNegative::new(1.86))]
     pub dwell_s: NonNegative,
 }
 
-impl Default for Fixed {
-    fn default() -> Self {
-        Self { forward_m_s: Positive::new(0.061), left_m_s: Positive::new(0.03), dwell_s: NonNegative::new(1.86) }
-    }
-}
-
 /// Parameters of the adaptive pace.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "AdaptivePace")]
 #[serde(deny_unknown_fields, default)]
 pub struct Adaptive {
     /// Forward speed without spikes, m/s.
+    #[default(Positive::new(0.1))]
     pub least_m_s: Positive,
     /// Forward speed with enough spikes, m/s.
+    #[default(Positive::new(0.15))]
     pub most_m_s: Positive,
     /// Speed across the stream, m/s.
+    #[default(Positive::new(0.15))]
     pub left_m_s: Positive,
     /// Speed of the first sweep, m/s.
+    #[default(Positive::new(0.03))]
     pub sweep_m_s: Positive,
     /// Speed of later sweeps, m/s.
+    #[default(Positive::new(0.15))]
     pub reacquire_m_s: Positive,
     /// Number of spikes in a step that is enough for a decision.
+    #[default(NonZeroUsize::MIN)]
     pub enough: NonZeroUsize,
     /// Longest time at rest, s.
+    #[default(NonNegative::new(1.5))]
     pub dwell_s: NonNegative,
     /// How long before the end of a motion the next one is decided, s.
+    #[default(NonNegative::new(0.1))]
     pub lead_s: NonNegative,
-}
-
-impl Default for Adaptive {
-    fn default() -> Self {
-        Self {
-            least_m_s: Positive::new(0.1),
-            most_m_s: Positive::new(0.15),
-            left_m_s: Positive::new(0.15),
-            sweep_m_s: Positive::new(0.03),
-            reacquire_m_s: Positive::new(0.15),
-            enough: NonZeroUsize::MIN,
-            dwell_s: NonNegative::new(1.5),
-            lead_s: NonNegative::new(0.1),
-        }
-    }
 }
 
 impl PaceSpec {

@@ -14,53 +14,40 @@ use super::data::Spike;
 use super::history::Over;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use world::ranges::{NonNegative, Positive};
 
 /// The predictors a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum PredictorSpec {
     /// Weighted mean of the memory.
+    #[default]
     Mean(Mean),
     /// Straight line through the memory.
     Trend(Trend),
 }
 
-impl Default for PredictorSpec {
-    fn default() -> Self {
-        Self::Mean(Mean::default())
-    }
-}
-
 /// Parameters of the mean.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mean {
     /// Length of the memory, s.
+    #[default(Positive::new(5.0))]
     pub memory_s: Positive,
-}
-
-impl Default for Mean {
-    fn default() -> Self {
-        Self { memory_s: Positive::new(5.0) }
-    }
 }
 
 /// Parameters of the straight line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Trend {
     /// Length of the memory, s.
+    #[default(Positive::new(5.0))]
     pub memory_s: Positive,
     /// How far ahead it looks, s.
+    #[default(NonNegative::new(1.75))]
     pub ahead_s: NonNegative,
-}
-
-impl Default for Trend {
-    fn default() -> Self {
-        Self { memory_s: Positive::new(5.0), ahead_s: NonNegative::new(1.75) }
-    }
 }
 
 /// The unit: spikes in memory as (time, s; magnitude, V; weight).

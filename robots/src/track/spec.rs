@@ -1,11 +1,7 @@
-//! Parameters of a gantry's searcher.
+//! What every searcher of a gantry does.
 
-use super::chemotaxis::ChemotaxisSpec;
-use super::crab_spec::CrabSpec;
-use super::external::ExternalSpec;
 use crate::error::RobotError;
 use crate::handoff::{ExchangeTiming, GantryDecision, GantryLayout, GantryObservation};
-use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
 
@@ -26,13 +22,5 @@ pub trait GantryStrategyParams: Spec {
     /// If a searcher outside this program decides: how often it is asked.
     fn consulted(&self) -> Option<ExchangeTiming> {
         None
-    }
-}
-
-kind! {
-    /// Searchers that move a gantry's head by what its probes read.
-    pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
-        heading: "Searchers of a gantry (gantries: tracker)",
-        rows: [CrabSpec, ChemotaxisSpec, ExternalSpec],
     }
 }

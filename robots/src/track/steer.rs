@@ -17,32 +17,30 @@
 use super::data::{StepRecord, Tally};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{Fraction, Positive};
 
 /// The steering rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum ContrastSpec {
     /// A fixed difference between the sides.
+    #[default]
     Fixed(Fixed),
     /// A difference beyond its own uncertainty.
     Adaptive(Adaptive),
 }
 
-impl Default for ContrastSpec {
-    fn default() -> Self {
-        Self::Fixed(Fixed::default())
-    }
-}
-
 /// Parameters of the fixed threshold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "FixedContrast")]
 #[serde(deny_unknown_fields, default)]
 pub struct Fixed {
     /// Least difference, as a share of the larger side.
+    #[default(Fraction::new(0.3))]
     pub threshold: Fraction,
     /// What is compared.
+    #[default(Peak::MeanPeak)]
     pub of: Peak,
 }
 
@@ -55,25 +53,14 @@ pub enum Peak {
     GreatestPeak,
 }
 
-impl Default for Fixed {
-    fn default() -> Self {
-        Self { threshold: Fraction::new(0.3), of: Peak::MeanPeak }
-    }
-}
-
 /// Parameters of the adaptive threshold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "AdaptiveContrast")]
 #[serde(deny_unknown_fields, default)]
 pub struct Adaptive {
     /// Least difference, in its standard errors.
+    #[default(Positive::new(1.5))]
     pub errors: Positive,
-}
-
-impl Default for Adaptive {
-    fn default() -> Self {
-        Self { errors: Positive::new(1.5) }
-    }
 }
 
 /// Where the contrast pulls.

@@ -26,85 +26,70 @@ use super::data::{Sample, Spike};
 use super::rate::{Count, RateWindow};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 
 /// The stop rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum StopSpec {
     /// A fixed frequency of spikes.
+    #[default]
     SpikeRate(SpikeRate),
     /// A frequency relative to the first steps, and the end of the trail.
     Experience(Experience),
 }
 
-impl Default for StopSpec {
-    fn default() -> Self {
-        Self::SpikeRate(SpikeRate::default())
-    }
-}
-
 /// Parameters of the fixed frequency.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpikeRate {
     /// Threshold frequency, Hz.
+    #[default(Positive::new(2.0))]
     pub hz: Positive,
     /// Length of the window, s.
+    #[default(Positive::new(3.5))]
     pub window_s: Positive,
     /// Whose spikes.
+    #[default(Count::Greatest)]
     pub count: Count,
-}
-
-impl Default for SpikeRate {
-    fn default() -> Self {
-        Self { hz: Positive::new(2.0), window_s: Positive::new(3.5), count: Count::Greatest }
-    }
 }
 
 /// Parameters of the frequency relative to the first steps.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Experience {
     /// Threshold divided by the frequency of the first steps.
+    #[default(Positive::new(2.5))]
     pub factor: Positive,
     /// Number of steps over which that frequency is averaged.
+    #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub reference_steps: NonZeroUsize,
     /// Least threshold, Hz.
+    #[default(Positive::new(1.0))]
     pub least_hz: Positive,
     /// Greatest threshold, Hz.
+    #[default(Positive::new(4.0))]
     pub most_hz: Positive,
     /// Assumed speed of the water when spikes met in motion are counted as at rest, m/s.
+    #[default(Positive::new(0.05))]
     pub drift_m_s: Positive,
     /// Length of the window, s.
+    #[default(Positive::new(3.5))]
     pub window_s: Positive,
     /// Whose spikes.
+    #[default(Count::Greatest)]
     pub count: Count,
     /// Whether an empty sweep after a followed plume ends the search.
+    #[default(true)]
     pub trail_end: bool,
     /// Number of spikes expected during a silence that proves the end of the trail.
+    #[default(Positive::new(7.0))]
     pub silence: Positive,
     /// Number of most up-stream spikes that mark the end of the trail.
+    #[default(NonZeroUsize::new(2).expect("2 is not zero"))]
     pub points: NonZeroUsize,
-}
-
-impl Default for Experience {
-    fn default() -> Self {
-        let count = |n| NonZeroUsize::new(n).expect("not zero");
-        Self {
-            factor: Positive::new(2.5),
-            reference_steps: count(3),
-            least_hz: Positive::new(1.0),
-            most_hz: Positive::new(4.0),
-            drift_m_s: Positive::new(0.05),
-            window_s: Positive::new(3.5),
-            count: Count::Greatest,
-            trail_end: true,
-            silence: Positive::new(7.0),
-            points: count(2),
-        }
-    }
 }
 
 /// The unit.

@@ -17,38 +17,39 @@ use super::data::Spike;
 use crate::handoff::MAX_PROBES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::math;
 use world::ranges::{Finite, Fraction, Positive};
 
 /// The analysers a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum ThresholdSpec {
     /// Half of the running average, not below a floor.
+    #[default]
     HalfMean(HalfMean),
     /// A constant level.
     Level(Level),
 }
 
-impl Default for ThresholdSpec {
-    fn default() -> Self {
-        Self::HalfMean(HalfMean::default())
-    }
-}
-
 /// Parameters of the C_avg/2 rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HalfMean {
     /// Least threshold, V.
+    #[default(Finite::new(-4.98))]
     pub floor_v: Finite,
     /// Threshold as a share of the average.
+    #[default(Fraction::new(0.5))]
     pub share: Fraction,
     /// Time constant with which the average decays, s.
+    #[default(Positive::new(10.0))]
     pub memory_s: Positive,
     /// Which local maxima are averaged.
+    #[default(Averaged::AboveFloor)]
     pub over: Averaged,
     /// Whether each probe has its own average; otherwise all share one.
+    #[default(true)]
     pub each_probe: bool,
 }
 
@@ -61,30 +62,13 @@ pub enum Averaged {
     Accepted,
 }
 
-impl Default for HalfMean {
-    fn default() -> Self {
-        Self {
-            floor_v: Finite::new(-4.98),
-            share: Fraction::new(0.5),
-            memory_s: Positive::new(10.0),
-            over: Averaged::AboveFloor,
-            each_probe: true,
-        }
-    }
-}
-
 /// Parameters of the constant level.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Level {
     /// The level, V.
+    #[default(Finite::new(-4.98))]
     pub level_v: Finite,
-}
-
-impl Default for Level {
-    fn default() -> Self {
-        Self { level_v: Finite::new(-4.98) }
-    }
 }
 
 /// A mean that decays: weights and weighted sum at the latest spike.

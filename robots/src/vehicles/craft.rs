@@ -68,10 +68,7 @@ impl Vehicle {
             least_speed_m_s,
             top_speed_m_s,
             turning_radius_m,
-            hovers: false,
-            sideways: false,
-            dives: true,
-            holds_depth: true,
+            ..Capabilities::default()
         };
         match self {
             Self::Finned(vehicle) => swims(LEAST_FIN_M_S, vehicle.top_speed_m_s(f64::MAX), turn_radius_m),

@@ -10,26 +10,22 @@
 use bevy_ecs::prelude::Component;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
 
 /// Share of the electric power that reaches the shaft of a REMUS.
 pub(super) const REMUS_SHARE: f64 = 0.7;
 
-/// A battery and what always runs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A battery and what always runs. Both defaults are ours: about what a vehicle of the REMUS's size carries and takes.
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnergySpec {
     /// Energy of the full battery, Wh. At its end the drives stop.
+    #[default(Positive::new(1000.0))]
     pub battery_wh: Positive,
     /// Hotel load: computer, instruments, lights, W.
+    #[default(NonNegative::new(30.0))]
     pub hotel_w: NonNegative,
-}
-
-/// Both are ours: about what a vehicle of the REMUS's size carries and takes.
-impl Default for EnergySpec {
-    fn default() -> Self {
-        Self { battery_wh: Positive::new(1000.0), hotel_w: NonNegative::new(30.0) }
-    }
 }
 
 /// A battery at work.

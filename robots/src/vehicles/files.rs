@@ -4,7 +4,7 @@
 //! [`Files`]; the simulation's reads the folder of the scenario file. [`InMemory`] holds the files in memory.
 
 use super::folder::VehicleFile;
-use crate::error::RobotError;
+use crate::error::{RobotError, ensure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use world::encoding;
@@ -24,7 +24,9 @@ pub trait Files {
     ///
     /// # Errors
     /// Why it cannot be read, without its path; if it is not UTF-8, with the line.
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String>;
+    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
+        encoding::text(&self.bytes(name, most_bytes)?)
+    }
 
     /// Reads the text of a `vehicle.ron`; errors call it `path`.
     ///
@@ -59,15 +61,8 @@ impl Files for InMemory {
 
     fn bytes(&self, name: &Path, most_bytes: u64) -> Result<Vec<u8>, String> {
         let bytes = self.0.get(name).ok_or("there is no such file")?;
-        if bytes.len() as u64 > most_bytes {
-            return Err(format!("it is longer than {most_bytes} bytes"));
-        }
+        ensure(bytes.len() as u64 <= most_bytes, || format!("it is longer than {most_bytes} bytes"))?;
         Ok(bytes.clone())
-    }
-
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
-        let bytes = self.bytes(name, most_bytes)?;
-        encoding::text(&bytes)
     }
 }
 

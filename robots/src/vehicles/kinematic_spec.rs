@@ -3,44 +3,37 @@
 use crate::handoff::{RateLimits, TurnLimit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
 
 /// A vehicle without dynamics: heading, speed and depth follow what is asked within limits. It has the hull, the mass
 /// and the instruments' places of the REMUS 100, or those of a URDF. Instruments, navigation, guidance and strategies
 /// are those of every robot; of the autopilot, only the limits of fins and propeller count, for tables of `OpenLoop`.
 /// The defaults are the limits of Pang 2009, section 6 (2 m/s and 10 degrees/s), and a REMUS's fastest dive.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct KinematicSpec {
     /// What its speed is relative to.
+    #[default(Moves::ThroughWater)]
     pub moves: Moves,
     /// Greatest speed ahead, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(2.0))]
     pub max_speed_m_s: Positive,
     /// How tightly it turns. The guidance asks for no faster turn than its own `heading_rate_deg_s`.
+    #[default(TurnSpec::Rate(RateSpec { deg_s: Positive::new(10.0) }))]
     pub turn: TurnSpec,
     /// Greatest speed up and down, m/s.
     #[serde(with = "world::limits::vehicle_m_s")]
+    #[default(Positive::new(0.5))]
     pub climb_m_s: Positive,
     /// Time constant with which heading, speed and depth approach what is asked, s; 0 for none.
     #[serde(with = "world::limits::response_s")]
+    #[default(NonNegative::new(0.0))]
     pub lag_s: NonNegative,
     /// URDF file with hull, mass and places of the instruments, relative to the scenario file; `None`: the built-in
     /// one of the REMUS 100.
     pub urdf: Option<String>,
-}
-
-impl Default for KinematicSpec {
-    fn default() -> Self {
-        Self {
-            moves: Moves::ThroughWater,
-            max_speed_m_s: Positive::new(2.0),
-            turn: TurnSpec::Rate(RateSpec { deg_s: Positive::new(10.0) }),
-            climb_m_s: Positive::new(0.5),
-            lag_s: NonNegative::new(0.0),
-            urdf: None,
-        }
-    }
 }
 
 /// What the speed of a kinematic vehicle is relative to.

@@ -9,8 +9,9 @@
 //! do all of a vehicle with rudder, stern plane and propeller, so that a positive set-point turns it the right way.
 
 use super::drives::{CurveSpec, DriveSpec};
-use super::urdf_parts::{UrdfText, pose_of, shape};
+use super::urdf_parts::{UrdfText, colour, pose_of, shape};
 use nalgebra::Vector3;
+use strum::IntoStaticStr;
 use urdf_rs::{Geometry, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
@@ -47,7 +48,8 @@ pub enum Form {
 }
 
 /// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum JointKind {
     /// Not at all.
     Fixed,
@@ -63,12 +65,7 @@ impl JointKind {
     /// The word of URDF.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Fixed => "fixed",
-            Self::Revolute => "revolute",
-            Self::Continuous => "continuous",
-            Self::Prismatic => "prismatic",
-        }
+        self.into()
     }
 
     /// Of a joint of a URDF. Kinds that nothing here moves count as fixed.
@@ -154,7 +151,8 @@ pub(super) fn looks(robot: &Robot, link: &Link, urdf: &UrdfText) -> Vec<Look> {
         other => shape(other, urdf).ok().map(Form::Solid),
     };
     let seen = link.visual.iter().filter_map(|visual| {
-        Some(Look { form: form(&visual.geometry)?, pose: pose_of(&visual.origin), colour: colour(robot, visual) })
+        let colour = colour(robot, visual).map(|c| c.map(|v| v as f32));
+        Some(Look { form: form(&visual.geometry)?, pose: pose_of(&visual.origin), colour })
     });
     let seen: Vec<Look> = seen.collect();
     if !seen.is_empty() {
@@ -177,15 +175,4 @@ fn triangles(name: &str, scale: &Vector3<f64>, urdf: &UrdfText) -> Option<Vec<[V
         all.iter_mut().for_each(|t| t.swap(1, 2));
     }
     Some(all)
-}
-
-/// Colour of a visual: its own, or that of the material of its name.
-fn colour(robot: &Robot, visual: &urdf_rs::Visual) -> Option<[f32; 4]> {
-    let material = visual.material.as_ref()?;
-    let named = || {
-        let same = robot.materials.iter().find(|m| m.name == material.name);
-        same.and_then(|m| m.color.clone())
-    };
-    let colour = material.color.clone().or_else(named)?;
-    Some(colour.rgba.0.map(|v| v.clamp(0.0, 1.0) as f32))
 }

@@ -4,13 +4,15 @@ use super::kinematic_spec::KinematicSpec;
 use super::remus100::ParameterSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::catalogue::Entry;
 
 /// The vehicle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum VehicleSpec {
     /// REMUS 100.
+    #[default]
     Remus100(RemusSpec),
     /// A vehicle without dynamics.
     Kinematic(KinematicSpec),
@@ -18,12 +20,6 @@ pub enum VehicleSpec {
     Shipped(String),
     /// A vehicle of one's own: its folder, with `vehicle.ron` and a URDF, relative to the scenario file.
     File(String),
-}
-
-impl Default for VehicleSpec {
-    fn default() -> Self {
-        VehicleSpec::Remus100(RemusSpec::default())
-    }
 }
 
 /// A REMUS 100.

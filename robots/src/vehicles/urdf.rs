@@ -9,7 +9,9 @@
 
 use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
-use super::urdf_parts::{Carrier, UrdfText, carriers, check_tree, finite, joined, parse, place, pose_of, root, shape};
+use super::urdf_parts::{
+    Carrier, UrdfText, carriers, check_tree, colour, finite, joined, parse, place, pose_of, root, shape,
+};
 use crate::error::RobotError;
 use std::collections::BTreeMap;
 use world::frames::Pose;
@@ -100,7 +102,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
             finite(&visual.origin, &place).map_err(fail)?;
             let shape = shape(&visual.geometry, urdf).map_err(|problem| fail(format!("{place}: {problem}")))?;
             let at = joined(&links[&link.name], &pose_of(&visual.origin));
-            visuals.push((at, shape, colour(&robot, visual)));
+            visuals.push((at, shape, web_colour(&robot, visual)));
         }
     }
     if visuals.is_empty() {
@@ -116,19 +118,13 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
 /// Colour of what has none.
 const GREY: &str = "#9a9a9a";
 
-/// Colour of a visual: its own, or that of the material of its name.
-fn colour(robot: &urdf_rs::Robot, visual: &urdf_rs::Visual) -> String {
-    let Some(material) = &visual.material else {
-        return GREY.into();
-    };
-    let named = || {
-        let same = robot.materials.iter().find(|m| m.name == material.name);
-        same.and_then(|m| m.color.clone())
-    };
-    let Some(colour) = material.color.clone().or_else(named) else {
-        return GREY.into();
-    };
-    let byte = |v: f64| (255.0 * v.clamp(0.0, 1.0) + 0.5) as u8;
-    let [r, g, b, _] = colour.rgba.0;
-    format!("#{:02x}{:02x}{:02x}", byte(r), byte(g), byte(b))
+/// Colour of a visual as a web page names it.
+fn web_colour(robot: &urdf_rs::Robot, visual: &urdf_rs::Visual) -> String {
+    colour(robot, visual).map_or_else(
+        || GREY.into(),
+        |rgba| {
+            let [r, g, b, _] = rgba.map(|v| (255.0 * v + 0.5) as u8);
+            format!("#{r:02x}{g:02x}{b:02x}")
+        },
+    )
 }

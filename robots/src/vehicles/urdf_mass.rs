@@ -10,6 +10,7 @@
 
 use super::remus100::Coefficients;
 use super::urdf_parts::{finite, joined, pose_of};
+use crate::error::ensure;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use urdf_rs::Robot;
@@ -37,9 +38,7 @@ impl Ballast {
         for link in &robot.links {
             let (name, inertial) = (&link.name, &link.inertial);
             let mass = inertial.mass.value;
-            if !(mass >= 0.0 && mass.is_finite()) {
-                return Err(format!("link \"{name}\": <mass> must be >= 0 kg, got {mass}"));
-            }
+            ensure(mass >= 0.0 && mass.is_finite(), || format!("link \"{name}\": <mass> must be >= 0 kg, got {mass}"))?;
             finite(&inertial.origin, &format!("link \"{name}\", inertial"))?;
             let i = &inertial.inertia;
             let own = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
@@ -85,42 +84,39 @@ impl Ballast {
     pub(super) fn put_into(&self, body: &str, c: &Coefficients) -> Result<(Coefficients, Vec<String>), String> {
         let near = |have: f64, want: f64| (have - want).abs() <= MASS_TOLERANCE * want;
         let mass = self.mass_kg;
-        if !near(mass, c.mass_kg) {
-            return Err(format!(
-                "link \"{body}\": <mass> is {mass} kg, but the hydrodynamic parameters are for {:.3} kg",
-                c.mass_kg
-            ));
-        }
+        ensure(near(mass, c.mass_kg), || {
+            format!("link \"{body}\": <mass> is {mass} kg, but the hydrodynamic parameters are for {:.3} kg", c.mass_kg)
+        })?;
         let (inertia, want) = (&self.inertia_kg_m2, c.inertia_kg_m2);
         for (k, axis) in ["ixx", "iyy", "izz"].into_iter().enumerate() {
             let (have, want) = (inertia[(k, k)], want[k]);
-            if !near(have, want) {
-                return Err(format!(
+            ensure(near(have, want), || {
+                format!(
                     "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for {want:.5} kg m2"
-                ));
-            }
+                )
+            })?;
         }
         for ((row, column), axis) in [((0, 1), "ixy"), ((0, 2), "ixz"), ((1, 2), "iyz")] {
             let have = inertia[(row, column)];
-            if !near(want.x + have, want.x) {
-                return Err(format!(
+            ensure(near(want.x + have, want.x), || {
+                format!(
                     "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull with zero"
-                ));
-            }
+                )
+            })?;
         }
         let [x, y, z] = [self.p_BG.x, self.p_BG.y, self.p_BG.z];
-        if !near(c.z_g_m + x, c.z_g_m) || !near(c.z_g_m + y, c.z_g_m) {
-            return Err(format!(
+        ensure(near(c.z_g_m + x, c.z_g_m) && near(c.z_g_m + y, c.z_g_m), || {
+            format!(
                 "link \"{body}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters \
                 have it under the middle"
-            ));
-        }
-        if !near(-z, c.z_g_m) {
-            return Err(format!(
+            )
+        })?;
+        ensure(near(-z, c.z_g_m), || {
+            format!(
                 "link \"{body}\": the centre of gravity is at z = {z} m, but the hydrodynamic parameters are for {} m",
                 -c.z_g_m
-            ));
-        }
+            )
+        })?;
         Ok(self.taken(c))
     }
 

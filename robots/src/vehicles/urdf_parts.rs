@@ -8,13 +8,21 @@
 
 use super::files::Files;
 use super::{mesh, urdf_form};
-use crate::error::RobotError;
+use crate::error::{RobotError, ensure};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 use std::path::Path;
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
+
+/// Colour of a visual, each part within 0 to 1: its own, or that of the material of its name.
+pub(super) fn colour(robot: &Robot, visual: &urdf_rs::Visual) -> Option<[f64; 4]> {
+    let own = visual.material.as_ref()?;
+    let named = || robot.materials.iter().find(|m| m.name == own.name)?.color.as_ref();
+    let colour = own.color.as_ref().or_else(named)?;
+    Some(colour.rgba.0.map(|v| v.clamp(0.0, 1.0)))
+}
 
 /// Longest file read, bytes: a robot is text of some kilobytes.
 const LONGEST: u64 = 16 << 20;
@@ -111,9 +119,9 @@ pub(super) fn parse(text: &str) -> Result<Robot, String> {
     }
     for joint in &robot.joints {
         for end in [&joint.parent.link, &joint.child.link] {
-            if !robot.links.iter().any(|l| &l.name == end) {
-                return Err(format!("joint \"{}\": no link \"{end}\"", joint.name));
-            }
+            ensure(robot.links.iter().any(|l| &l.name == end), || {
+                format!("joint \"{}\": no link \"{end}\"", joint.name)
+            })?;
         }
     }
     Ok(robot)
@@ -178,9 +186,9 @@ pub(super) fn carriers(robot: &Robot) -> BTreeMap<String, Carrier> {
 /// finite.
 pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     for (i, link) in robot.links.iter().enumerate() {
-        if robot.links[..i].iter().any(|l| l.name == link.name) {
-            return Err(format!("link \"{}\" occurs twice", link.name));
-        }
+        ensure(!robot.links[..i].iter().any(|l| l.name == link.name), || {
+            format!("link \"{}\" occurs twice", link.name)
+        })?;
     }
     let base = &root(robot)?.name;
     for (i, joint) in robot.joints.iter().enumerate() {
@@ -242,9 +250,7 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
             let points = (urdf.mesh(file)).map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
             let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));
             let hull = Shape::Hull { points_m: points.iter().map(|p| p.component_mul(&scale)).collect() };
-            if !hull.is_solid() {
-                return Err(format!("mesh \"{filename}\": its corners span no volume"));
-            }
+            ensure(hull.is_solid(), || format!("mesh \"{filename}\": its corners span no volume"))?;
             hull
         }
     })

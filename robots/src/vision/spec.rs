@@ -1,33 +1,42 @@
 //! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns, and of the verification of a
 //! source by a picture.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Most passes of both kinds together.
 const MOST_PASSES: u32 = 60;
 
 /// The parameters of Tian et al. 2013, section 5, with their values as defaults. Levels are of 8 bits, 0 to 255.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ColourSpec {
     /// Differences below this are wholly Zero (α₁), levels.
+    #[default(NonNegative::new(35.0))]
     pub alpha1: NonNegative,
     /// Differences from this on are wholly Negative or Positive (α₂), levels.
+    #[default(Positive::new(200.0))]
     pub alpha2: Positive,
     /// Width of the output set Matched (ρ_M), levels; Unmatched begins at ρ_U = 255 − ρ_M.
+    #[default(Positive::new(20.0))]
     pub rho_m: Positive,
     /// A pixel is extracted if its difference Δρ_F is below this (ε), levels.
+    #[default(Positive::new(80.0))]
     pub epsilon: Positive,
     /// Passes towards RED, whose union is the plume.
+    #[default(3)]
     pub plume_passes: u8,
     /// Passes towards DARK-BLUE on the rest, whose union is the source.
+    #[default(4)]
     pub source_passes: u8,
     /// How much farther from its reference than the nearest pattern a colour pattern may be (δ₁), levels.
+    #[default(NonNegative::new(40.0))]
     pub delta1: NonNegative,
     /// How far from the nearest pattern a colour pattern may be, by the shortest way over the others (δ₂), levels.
+    #[default(NonNegative::new(45.0))]
     pub delta2: NonNegative,
     /// What joins two patterns in the graph of the shortest ways.
     pub edges: Edges,
@@ -57,24 +66,6 @@ pub enum Edges {
     Reference,
 }
 
-impl Default for ColourSpec {
-    fn default() -> Self {
-        Self {
-            alpha1: NonNegative::new(35.0),
-            alpha2: Positive::new(200.0),
-            rho_m: Positive::new(20.0),
-            epsilon: Positive::new(80.0),
-            plume_passes: 3,
-            source_passes: 4,
-            delta1: NonNegative::new(40.0),
-            delta2: NonNegative::new(45.0),
-            edges: Edges::default(),
-            give_back: false,
-            dehaze: false,
-        }
-    }
-}
-
 impl ColourSpec {
     /// Checks that the parameters agree.
     ///
@@ -83,7 +74,7 @@ impl ColourSpec {
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
         match self.fault() {
             None => Ok(()),
-            Some((field, problem)) => Err(RobotError::Invalid { field: format!("{path}.{field}"), problem }),
+            Some((field, problem)) => Err(RobotError::invalid(format!("{path}.{field}"), problem)),
         }
     }
 
@@ -114,58 +105,51 @@ impl ColourSpec {
 }
 
 /// When a picture verifies a source.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerifierSpec {
     /// The extractor. If not given: the paper's with `give_back` and `dehaze`. If given: fields that it does not name
     /// have the paper's values.
+    #[default(ColourSpec::for_haze())]
     pub colours: ColourSpec,
     /// Least share of the picture that must have the dye's colours.
+    #[default(Positive::new(0.0022))]
     pub least_dye: Positive,
     /// Least difference between the dye's mean share of red in the light (R, G, B sum to 1) and that of the rest of
     /// the picture.
+    #[default(Positive::new(0.022))]
     pub least_redness: Positive,
     /// Least mean share of red in the dye's light as it was recorded. Grey has a third, and water takes red first.
+    #[default(Fraction::new(0.35))]
     pub least_red: Fraction,
     /// By how much the share of green less that of blue may be greater in the dye than in the background: rhodamine
     /// takes green out of the light.
+    #[default(Fraction::new(0.005))]
     pub most_yellow: Fraction,
     /// Greatest part of the dye's redness that may come within a hundredth of the picture's diagonal at its edge: dye
     /// thins out, things end. Does not count in pictures with a diagonal of less than 400 pixels.
+    #[default(Fraction::new(0.5))]
     pub most_edge: Fraction,
     /// With at most this part of its redness at its edge, dye may have any red hue: so soft are no things, and much dye
     /// in front of something dark glows orange.
+    #[default(Fraction::new(0.15))]
     pub soft_edge: Fraction,
     /// Least share of the picture that the source's patch must fill.
+    #[default(Positive::new(0.0022))]
     pub least_source: Positive,
     /// Least contrast by which the patch must be darker than its surroundings: 1 is black.
+    #[default(Positive::new(0.0825))]
     pub least_contrast: Positive,
     /// Greatest share of the picture that the dye may fill: dye that is everywhere cannot be told from its
     /// background.
+    #[default(Fraction::new(0.7))]
     pub most_dye: Fraction,
     /// Greatest share that the patch may fill.
+    #[default(Fraction::new(0.3))]
     pub most_source: Fraction,
     /// Greatest distance from the patch to the nearest dye, as a share of the picture's diagonal.
+    #[default(Fraction::new(0.1))]
     pub reach: Fraction,
-}
-
-impl Default for VerifierSpec {
-    fn default() -> Self {
-        Self {
-            colours: ColourSpec::for_haze(),
-            least_dye: Positive::new(0.0022),
-            least_redness: Positive::new(0.022),
-            least_red: Fraction::new(0.35),
-            most_yellow: Fraction::new(0.005),
-            most_edge: Fraction::new(0.5),
-            soft_edge: Fraction::new(0.15),
-            least_source: Positive::new(0.0022),
-            least_contrast: Positive::new(0.0825),
-            most_dye: Fraction::new(0.7),
-            most_source: Fraction::new(0.3),
-            reach: Fraction::new(0.1),
-        }
-    }
 }
 
 impl VerifierSpec {
@@ -183,12 +167,11 @@ impl VerifierSpec {
         ];
         for (field, least, most, name) in most {
             let (least, most) = (least.get(), most.get());
-            if least > most {
-                return Err(RobotError::Invalid {
-                    field: format!("{path}.{field}"),
-                    problem: format!("must be above 0 and at most {name}{most}, got {least}"),
-                });
-            }
+            require(
+                least <= most,
+                format!("{path}.{field}"),
+                format!("must be above 0 and at most {name}{most}, got {least}"),
+            )?;
         }
         Ok(())
     }

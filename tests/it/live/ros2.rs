@@ -11,7 +11,7 @@ use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};
 use rheotaxis::frame::{Frame, TimedReading};
 use rheotaxis::scenario;
 use rheotaxis::trial::Event;
-use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, Beam, DepthReading, DvlReading, RangeScan};
+use robots::handoff::{AdcpReading, AltimeterReading, Attitude, Beam, DepthReading, DvlReading, RangeScan};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use world::units::Heading;
@@ -52,12 +52,8 @@ fn told(step: u64) -> Frame {
     let v_body_m_s = Vector3::new(1.5, 0.0, 0.25);
     robot.readings.dvl = at(DvlReading { v_body_m_s, valid: true });
     robot.readings.adcp = at(AdcpReading { v_body_m_s, above_m: 1.0, valid: true });
-    robot.readings.attitude = at(AttitudeReading {
-        heading: Heading::from_deg(90.0),
-        roll_rad: 0.0,
-        pitch_rad: 0.0,
-        rates_rad_s: Vector3::z(),
-    });
+    robot.readings.attitude =
+        at(Attitude { heading: Heading::from_deg(90.0), roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::z() });
     robot.readings.depth = at(DepthReading { depth_m: 10.0 });
     robot.readings.altimeter = at(AltimeterReading { altitude_m: 2.5, valid: true });
     let beam = |dir_B, echo_m| Beam { dir_B, echo_m };

@@ -6,10 +6,18 @@
 //!
 //! *Deviations*: none.
 
-use super::path::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use world::units::{Heading, wrap_tau};
+
+/// Place and direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (east, north), m.
+    pub position: Vector2<f64>,
+    /// Direction of motion.
+    pub heading: Heading,
+}
 
 /// An arc from a pose on.
 #[derive(Clone, Copy, Debug, PartialEq)]

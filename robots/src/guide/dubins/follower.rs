@@ -10,7 +10,9 @@
 //! path's end even if place or heading were missed, and at the latest after three times the first path's duration
 //! plus a minute (however often it was planned again), so that it never circles for ever.
 
-use super::path::{DubinsPath, Pose};
+use super::arc::Pose;
+use super::path::DubinsPath;
+use crate::guide::spec::GuidanceSpec;
 use nalgebra::Vector2;
 use world::units::Heading;
 
@@ -21,24 +23,10 @@ const GRACE_S: f64 = 60.0;
 /// The vehicle takes the path's tangent this far ahead, s, to compensate its own lag.
 const LOOK_AHEAD_S: f64 = 0.5;
 
-/// Parameters of the mode.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::guide) struct FollowerLimits {
-    /// Turning radius, m.
-    pub(in crate::guide) radius_m: f64,
-    /// Heading per metre off the path, rad/m.
-    pub(in crate::guide) gain_rad_m: f64,
-    /// Greatest angle to the path while approaching it, rad.
-    pub(in crate::guide) capture_rad: f64,
-    /// Farther from the path than this, a new one is planned, m.
-    pub(in crate::guide) replan_m: f64,
-}
-
 /// State of following a path.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::guide) struct Follower {
     end: Pose,
-    limits: FollowerLimits,
     path: DubinsPath,
     s_m: f64,
     /// Pose of the path there.
@@ -49,11 +37,10 @@ pub(in crate::guide) struct Follower {
 impl Follower {
     /// Plans the first path.
     #[must_use]
-    pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, limits: FollowerLimits) -> Self {
-        let path = DubinsPath::shortest(from, end, limits.radius_m);
+    pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, spec: &GuidanceSpec) -> Self {
+        let path = DubinsPath::shortest(from, end, spec.turn_radius_m.get());
         Self {
             end,
-            limits,
             path,
             s_m: 0.0,
             foot: path.pose_at(0.0),
@@ -64,6 +51,7 @@ impl Follower {
     /// Course to take, and whether the path (or the time for it) has ended; `moving` gives the course over ground.
     pub(in crate::guide) fn step(
         &mut self,
+        spec: &GuidanceSpec,
         position: Vector2<f64>,
         moving: impl FnOnce() -> Heading,
         speed_m_s: f64,
@@ -72,23 +60,17 @@ impl Follower {
         self.left_s -= dt_s;
         let before = (self.s_m, self.foot);
         (self.s_m, self.foot) = (self.path).nearest(position, before, self.s_m + WINDOW_M);
-        if (self.foot.position - position).norm() > self.limits.replan_m {
+        if (self.foot.position - position).norm() > spec.replan_m.get() {
             let at = Pose { position, heading: moving() };
-            self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
+            self.path = DubinsPath::shortest(at, self.end, spec.turn_radius_m.get());
             self.s_m = 0.0;
             self.foot = self.path.pose_at(0.0);
         }
-        let l = &self.limits;
-        let turn = (l.gain_rad_m * self.off_m(position)).clamp(-l.capture_rad, l.capture_rad);
+        // Positive to the left of the path.
+        let off_m = self.path.unit(self.foot.heading).perp(&(position - self.foot.position));
         let ahead = self.path.heading(self.s_m + LOOK_AHEAD_S * speed_m_s);
         let at_end = self.s_m >= self.path.length_m() - 0.5;
-        (ahead.turned(turn), at_end || self.left_s <= 0.0)
-    }
-
-    /// Distance from the path, positive to its left, m.
-    fn off_m(&self, position: Vector2<f64>) -> f64 {
-        let (v, a) = (position - self.foot.position, self.path.unit(self.foot.heading));
-        a.x * v.y - a.y * v.x
+        (ahead.turned(spec.turn_to_line(off_m)), at_end || self.left_s <= 0.0)
     }
 }
 
@@ -96,15 +78,10 @@ impl Follower {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use std::f64::consts::FRAC_PI_4;
-
-    fn limits() -> FollowerLimits {
-        FollowerLimits { radius_m: 15.0, gain_rad_m: 5f64.to_radians(), capture_rad: FRAC_PI_4, replan_m: 8.0 }
-    }
 
     /// Drives a vehicle limited to 10 deg/s at 2 m/s; returns (pose at the end, steps, finished).
     fn drive(start: Pose, end: Pose, jumps: &[(usize, Vector2<f64>)]) -> (Pose, usize, bool) {
-        let mut f = Follower::new(start, end, 2.0, limits());
+        let mut f = Follower::new(start, end, 2.0, &GuidanceSpec::default());
         let mut at = start;
         for k in 0..20_000 {
             for (when, by) in jumps {
@@ -112,7 +89,7 @@ mod tests {
                     at.position += by;
                 }
             }
-            let (want, done) = f.step(at.position, || at.heading, 2.0, 0.1);
+            let (want, done) = f.step(&GuidanceSpec::default(), at.position, || at.heading, 2.0, 0.1);
             if done {
                 return (at, k, true);
             }

@@ -4,5 +4,6 @@ mod arc;
 mod follower;
 mod path;
 
-pub(super) use follower::{Follower, FollowerLimits};
-pub use path::{DubinsPath, Pose};
+pub use arc::Pose;
+pub(super) use follower::Follower;
+pub use path::DubinsPath;

@@ -7,20 +7,11 @@
 //! *Deviations*: none. As in the paper the CCC paths are left out, though one of them can be shorter for poses that
 //! are near each other.
 
-use super::arc::Arc;
+use super::arc::{Arc, Pose};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use world::math;
 use world::units::{Heading, wrap_tau};
-
-/// Place and direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// (east, north), m.
-    pub position: Vector2<f64>,
-    /// Direction of motion.
-    pub heading: Heading,
-}
 
 /// A path of two arcs joined by a straight.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,16 +19,17 @@ use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use crate::map::alternatives::Alternatives;
-use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
+use crate::map::mapper::{MapParams, Mapper};
 use crate::map::releases::Gatherer;
-use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
+use crate::map::spec::{GridSpec, TrajectorySpec, invalid, must};
 use crate::map::terms::Terms;
 use crate::map::watch::MapObservation;
 use crate::map::workings::Workings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use world::area::Area;
@@ -43,7 +44,7 @@ use world::seeds::Stream;
 const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmmSpec {
     /// The cells.
@@ -51,8 +52,10 @@ pub struct HmmSpec {
     /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Step of the chain, s.
+    #[default(Positive::new(1.0))]
     pub step_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
+    #[default(Fraction::new(1e-6))]
     pub false_detection: Fraction,
     /// How far the map doubts its model.
     pub doubt: DoubtSpec,
@@ -60,24 +63,10 @@ pub struct HmmSpec {
     /// likely meets it; not given: never.
     pub odour_every_s: Option<Positive>,
     /// Number of steps from cell to cell in that path; at most 500.
+    #[default(30)]
     pub walk_steps: u32,
     /// In a map of space, keep for each level the flow last measured there.
     pub sheared: bool,
-}
-
-impl Default for HmmSpec {
-    fn default() -> Self {
-        Self {
-            grid: GridSpec::default(),
-            trajectory: TrajectorySpec::default(),
-            step_s: Positive::new(1.0),
-            false_detection: Fraction::new(1e-6),
-            doubt: DoubtSpec::default(),
-            odour_every_s: None,
-            walk_steps: 30,
-            sheared: false,
-        }
-    }
 }
 
 /// The parameter (name and value) that spreads odour too far along an axis, and its greatest legal value for cells of
@@ -165,13 +154,9 @@ impl Hmm {
     pub fn new(spec: &HmmSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
         spec.trajectory.holds("step_s", step_s)?;
-        if h < step_s {
-            return Err(invalid("step_s", &format!("must be at most trajectory.lookback_s, {h}, got {step_s}")));
-        }
-        if spec.walk_steps > MOST_WALK {
-            let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
-            return Err(invalid("walk_steps", &problem));
-        }
+        must(h >= step_s, "step_s", format!("must be at most trajectory.lookback_s, {h}, got {step_s}"))?;
+        let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
+        must(spec.walk_steps <= MOST_WALK, "walk_steps", problem)?;
         let trajectory = &spec.trajectory;
         // The chain's steps are independent: a lasting error of the flow spreads odour as it does in the long run.
         let strayed =
@@ -179,11 +164,9 @@ impl Hmm {
         let [x, y, z] = trajectory.sigmas();
         let sigmas = [(x * x + strayed).sqrt(), (y * y + strayed).sqrt(), z];
         let with = Workings::new(grid, trajectory, [step_s; 2], spec.false_detection, &spec.doubt, spec.grid.places)?;
-        if with.places > 1 && spec.odour_every_s.is_some() {
-            let problem =
-                format!("must not be given with grid.places {}: odour is shown for one place in a cell", with.places);
-            return Err(invalid("odour_every_s", &problem));
-        }
+        let problem =
+            format!("must not be given with grid.places {}: odour is shown for one place in a cell", with.places);
+        must(with.places <= 1 || spec.odour_every_s.is_none(), "odour_every_s", problem)?;
         let (grid, places) = (with.grid.clone(), with.places as f64);
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
         // A single layer keeps everything.

@@ -8,7 +8,7 @@
 //! greatest Σ_i π_i Φ_ij(l, k). Of equal paths, the one with the lower cell numbers, counted from its end.
 
 use super::mapper::Hmm;
-use crate::map::catalogue::Mapper;
+use crate::map::mapper::Mapper;
 use world::math;
 
 /// A path takes no step of a smaller chance than this.

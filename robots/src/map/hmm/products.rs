@@ -41,13 +41,6 @@ impl Hmm {
         walk.extend(best_walk(self.grid.n, &detection, cell, steps));
         Odour { t_s, grid: self.grid.clone(), came: self.likely_odour_path(cell).unwrap_or_default(), detection, walk }
     }
-
-    /// Cells of the vehicle's path of `steps` steps from `start` that most likely leads to a detection, without the
-    /// start.
-    #[must_use]
-    pub fn path_most_likely_to_detect(&self, start: usize, steps: usize) -> Vec<usize> {
-        best_walk(self.grid.n, &self.detection_map(), start, steps)
-    }
 }
 
 /// Path of `steps` moves from `start` with the least Π (1 − p), by dynamic programming over cells and steps.

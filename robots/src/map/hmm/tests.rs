@@ -3,7 +3,7 @@
 use super::mapper::{Hmm, HmmSpec};
 use super::products::{best_walk, neighbours};
 use crate::handoff::testing::fixed;
-use crate::map::catalogue::Mapper;
+use crate::map::mapper::Mapper;
 use crate::map::spec::{GridSpec, TrajectorySpec};
 use crate::map::testing::paper_area;
 use crate::map::watch::MapObservation;

@@ -16,20 +16,22 @@
 
 use super::bands::{GREEN, Spectrum, each, spread};
 use super::waters;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
 
 /// c·V of a black thing at the range where it is just visible.
 const CONTRAST: f64 = 4.8;
 
 /// Parameters of the water's clarity.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ClaritySpec {
     /// Distance at which a dark thing is just visible on a level line, m.
     #[serde(with = "world::limits::visibility_m")]
+    #[default(Positive::new(8.0))]
     pub visibility_m: Positive,
     /// Absorption of red, green and blue, 1/m, instead of that from the visibility.
     #[serde(with = "world::limits::loss_per_m::<Option<(Positive, Positive, Positive)>>")]
@@ -37,12 +39,6 @@ pub struct ClaritySpec {
     /// Scattering of red, green and blue, 1/m, instead of that from the visibility.
     #[serde(with = "world::limits::loss_per_m::<Option<(NonNegative, NonNegative, NonNegative)>>")]
     pub scattering_per_m: Option<(NonNegative, NonNegative, NonNegative)>,
-}
-
-impl Default for ClaritySpec {
-    fn default() -> Self {
-        Self { visibility_m: Positive::new(8.0), absorption_per_m: None, scattering_per_m: None }
-    }
 }
 
 /// Inherent optical properties of the water, 1/m.
@@ -65,16 +61,11 @@ impl Clarity {
         let (pure_a, pure_b) = waters::pure();
         let least = pure_a[GREEN] + pure_b[GREEN];
         let c = CONTRAST / spec.visibility_m.get();
-        if c < least {
-            return Err(RobotError::Invalid {
-                field: "optics.clarity.visibility_m".into(),
-                problem: format!(
-                    "must be at most {:.1}, that of pure sea water, got {}",
-                    CONTRAST / least,
-                    spec.visibility_m.get()
-                ),
-            });
-        }
+        require(
+            c >= least,
+            "optics.clarity.visibility_m",
+            format!("must be at most {:.1}, that of pure sea water, got {}", CONTRAST / least, spec.visibility_m.get()),
+        )?;
         let (a, b) = waters::of_attenuation(c);
         let absorption = spec.absorption_per_m.map_or(a, spread);
         let scattering = spec.scattering_per_m.map_or(b, spread);

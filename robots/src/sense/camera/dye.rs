@@ -15,6 +15,7 @@
 use super::bands::{N, Spectrum, each, line};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{Fraction, NonNegative};
 
 /// Peak, width and height of the absorption lines.
@@ -23,25 +24,18 @@ const ABSORBS: [(f64, f64, f64); 2] = [(554.0, 40.0, 1.0), (520.0, 40.0, 0.33)];
 const GLOWS: (f64, f64) = (580.0, 45.0);
 
 /// Optical parameters of the dye.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DyeSpec {
     /// Absorption at the peak to base e, m²/kg.
+    #[default(NonNegative::new(51_000.0))]
     pub absorption_m2_kg: NonNegative,
     /// Photons emitted per absorbed photon.
+    #[default(Fraction::new(0.31))]
     pub quantum_yield: Fraction,
     /// Scattering, the same in all directions, m²/kg.
+    #[default(NonNegative::new(0.0))]
     pub scattering_m2_kg: NonNegative,
-}
-
-impl Default for DyeSpec {
-    fn default() -> Self {
-        Self {
-            absorption_m2_kg: NonNegative::new(51_000.0),
-            quantum_yield: Fraction::new(0.31),
-            scattering_m2_kg: NonNegative::new(0.0),
-        }
-    }
 }
 
 /// Optical properties of a kilogram of dye in a cubic metre.

@@ -8,13 +8,12 @@
 //! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 
 use super::super::on_board::OnBoard;
-use super::super::suite::{Fitting, Sensor, SensorParams, Surroundings};
+use super::super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::model::{CameraModel, CameraSpec, turned};
 use super::render::render;
 use super::scene::Scene;
-use crate::error::RobotError;
-use crate::handoff::Picture;
-use crate::handoff::Readings;
+use crate::error::{RobotError, require};
+use crate::handoff::{Picture, Readings};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 use world::catalogue::Entry;
@@ -84,16 +83,13 @@ impl Camera {
     /// # Errors
     /// If the rate does not fit the step, or if the picture's size or angle is out of range.
     pub fn new(spec: &CameraSpec, pose_BM: &Pose, on: &OnBoard) -> Result<Self, RobotError> {
-        let wrong =
-            |field: &str, problem: String| RobotError::Invalid { field: format!("sensors.camera.{field}"), problem };
+        let must =
+            |holds: bool, field: &str, problem: String| require(holds, format!("sensors.camera.{field}"), problem);
         for (field, n) in [("width", spec.width), ("height", spec.height)] {
-            if n == 0 || n > MOST {
-                return Err(wrong(field, format!("must be from 1 to {MOST}, got {n}")));
-            }
+            must((1..=MOST).contains(&n), field, format!("must be from 1 to {MOST}, got {n}"))?;
         }
-        if spec.view_deg.get() >= 170.0 {
-            return Err(wrong("view_deg", format!("must be less than 170, got {}", spec.view_deg.get())));
-        }
+        let view = spec.view_deg.get();
+        must(view < 170.0, "view_deg", format!("must be less than 170, got {view}"))?;
         let every = on.every("sensors.camera.rate_hz", spec.rate_hz.get())?;
         let look = turned(spec.pan_deg.get().to_radians(), spec.tilt_deg.get().to_radians());
         Ok(Self {

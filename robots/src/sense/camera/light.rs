@@ -17,10 +17,11 @@
 
 use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::PI;
 use world::math;
 use world::ranges::{Fraction, HeadingDeg, NonNegative, Positive};
@@ -31,31 +32,24 @@ pub(super) const INDEX: f64 = 1.34;
 pub(super) const SCATTER_COSINE: f64 = 0.924;
 
 /// Parameters of daylight.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightSpec {
     /// Elevation of the sun above the horizon, °, at most 90.
+    #[default(NonNegative::new(45.0))]
     pub sun_elevation_deg: NonNegative,
     /// Direction of the sun.
+    #[default(HeadingDeg::new(180.0))]
     pub sun_heading_deg: HeadingDeg,
     /// Illuminance of the surface, klx.
+    #[default(Positive::new(60.0))]
     pub illuminance_klux: Positive,
     /// Mean cosine of the light field in the water, about the refracted sun.
+    #[default(Fraction::new(0.75))]
     pub mean_cosine: Fraction,
     /// Standard deviation of the light focused by waves just below the surface, as a share of its mean.
+    #[default(Fraction::new(0.1))]
     pub flicker: Fraction,
-}
-
-impl Default for LightSpec {
-    fn default() -> Self {
-        Self {
-            sun_elevation_deg: NonNegative::new(45.0),
-            sun_heading_deg: HeadingDeg::new(180.0),
-            illuminance_klux: Positive::new(60.0),
-            mean_cosine: Fraction::new(0.75),
-            flicker: Fraction::new(0.1),
-        }
-    }
 }
 
 /// Daylight in the water.
@@ -82,12 +76,7 @@ impl Light {
     /// If the sun is higher than the zenith.
     pub fn new(spec: &LightSpec, clarity: &Clarity) -> Result<Self, RobotError> {
         let elevation = spec.sun_elevation_deg.get();
-        if elevation > 90.0 {
-            return Err(RobotError::Invalid {
-                field: "optics.light.sun_elevation_deg".into(),
-                problem: format!("must be from 0 to 90, got {elevation}"),
-            });
-        }
+        require(elevation <= 90.0, "optics.light.sun_elevation_deg", format!("must be from 0 to 90, got {elevation}"))?;
         let (up, flat) = math::sin_cos(elevation.to_radians());
         let flat_in = flat / INDEX;
         let mu = (1.0 - flat_in * flat_in).sqrt();

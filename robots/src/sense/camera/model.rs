@@ -15,25 +15,32 @@ use super::sensor::SensorSpec;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::frames::Pose;
 use world::math;
 use world::ranges::{Finite, Positive};
 
 /// Parameters of a camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
     /// Most pictures per second, Hz; a picture is taken only on request.
+    #[default(Positive::new(1.0))]
     pub rate_hz: Positive,
     /// Pixels side by side, at most 4096.
+    #[default(640)]
     pub width: u32,
     /// Pixels one above the other, at most 4096.
+    #[default(480)]
     pub height: u32,
     /// Full horizontal angle of view in the water, °, less than 170.
+    #[default(Positive::new(60.0))]
     pub view_deg: Positive,
     /// To the left of the mount's x axis, °.
+    #[default(Finite::new(0.0))]
     pub pan_deg: Finite,
     /// Down from the mount's x axis, °: 90 looks straight down.
+    #[default(Finite::new(20.0))]
     pub tilt_deg: Finite,
     /// Exposure and noise.
     pub sensor: SensorSpec,
@@ -41,44 +48,22 @@ pub struct CameraSpec {
     pub lamp: Option<LampSpec>,
 }
 
-impl Default for CameraSpec {
-    fn default() -> Self {
-        Self {
-            rate_hz: Positive::new(1.0),
-            width: 640,
-            height: 480,
-            view_deg: Positive::new(60.0),
-            pan_deg: Finite::new(0.0),
-            tilt_deg: Finite::new(20.0),
-            sensor: SensorSpec::default(),
-            lamp: None,
-        }
-    }
-}
-
 /// A lamp that shines in the camera's direction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LampSpec {
     /// Luminous intensity on its axis, cd.
+    #[default(Positive::new(2000.0))]
     pub candela: Positive,
     /// Angle from its axis at which half of that intensity is left, °.
+    #[default(Positive::new(30.0))]
     pub half_deg: Positive,
     /// Its place to the right of the camera, m.
+    #[default(Finite::new(0.2))]
     pub right_m: Finite,
     /// Its place below the camera, m.
+    #[default(Finite::new(0.0))]
     pub down_m: Finite,
-}
-
-impl Default for LampSpec {
-    fn default() -> Self {
-        Self {
-            candela: Positive::new(2000.0),
-            half_deg: Positive::new(30.0),
-            right_m: Finite::new(0.2),
-            down_m: Finite::new(0.0),
-        }
-    }
 }
 
 /// A camera: its lens, its sensor and its lamp. Camera axes: x right in the picture, y down, z into the scene.

@@ -20,6 +20,7 @@ use crate::error::RobotError;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::PI;
 use world::fields::Concentration;
 use world::math;
@@ -28,7 +29,7 @@ use world::ranges::Fraction;
 use world::terrain::Terrain;
 
 /// Parameters of light in a scenario's water.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OpticsSpec {
     /// How clear the water is.
@@ -38,22 +39,11 @@ pub struct OpticsSpec {
     /// Optical properties of the dye.
     pub dye: DyeSpec,
     /// Share of red, green and blue light that the bed reflects.
+    #[default((Fraction::new(0.30), Fraction::new(0.26), Fraction::new(0.20)))]
     pub bed_albedo: (Fraction, Fraction, Fraction),
     /// Standard deviation of the brightness of any surface, as a share of its mean.
+    #[default(Fraction::new(0.2))]
     pub texture: Fraction,
-}
-
-impl Default for OpticsSpec {
-    fn default() -> Self {
-        let f = Fraction::new;
-        Self {
-            clarity: ClaritySpec::default(),
-            light: LightSpec::default(),
-            dye: DyeSpec::default(),
-            bed_albedo: (f(0.30), f(0.26), f(0.20)),
-            texture: f(0.2),
-        }
-    }
 }
 
 /// Light in the water of a scenario.

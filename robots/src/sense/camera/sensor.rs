@@ -20,51 +20,44 @@
 use super::bands::Rgb;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::f64::consts::PI;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Parameters of the sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorSpec {
     /// Exposure, s; automatic without it.
     pub exposure_s: Option<Positive>,
     /// Mean of the picture that the automatic exposure aims for, as a share of full scale, before the transfer curve.
+    #[default(Fraction::new(0.2))]
     pub target: Fraction,
     /// Longest automatic exposure, s.
+    #[default(Positive::new(1.0 / 30.0))]
     pub max_exposure_s: Positive,
     /// Greatest automatic gain.
+    #[default(Positive::new(16.0))]
     pub max_gain: Positive,
     /// Focal length over aperture.
+    #[default(Positive::new(2.0))]
     pub f_number: Positive,
     /// Electrons of a pixel and colour for 1 lx s.
+    #[default(Positive::new(10_000.0))]
     pub electrons_per_lux_s: Positive,
     /// Electrons at full scale.
+    #[default(Positive::new(10_000.0))]
     pub full_well_e: Positive,
     /// Standard deviation of the reading noise, electrons.
+    #[default(NonNegative::new(5.0))]
     pub read_noise_e: NonNegative,
     /// Greatest factor by which red and blue are multiplied to reach green's mean; 1: none.
+    #[default(Positive::new(4.0))]
     pub white_balance: Positive,
     /// Factor on a colour's distance from grey.
+    #[default(NonNegative::new(1.7))]
     pub saturation: NonNegative,
-}
-
-impl Default for SensorSpec {
-    fn default() -> Self {
-        Self {
-            exposure_s: None,
-            target: Fraction::new(0.2),
-            max_exposure_s: Positive::new(1.0 / 30.0),
-            max_gain: Positive::new(16.0),
-            f_number: Positive::new(2.0),
-            electrons_per_lux_s: Positive::new(10_000.0),
-            full_well_e: Positive::new(10_000.0),
-            read_noise_e: NonNegative::new(5.0),
-            white_balance: Positive::new(4.0),
-            saturation: NonNegative::new(1.7),
-        }
-    }
 }
 
 /// A sensor set for one picture.

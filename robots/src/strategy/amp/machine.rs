@@ -8,21 +8,19 @@
 //! survey of the declared place (see `strategy/survey`); the mission is completed at home. After a rejected place the
 //! vehicle continues the search. A cage abort ends the mission at once.
 
-use super::super::spec::Strategy;
+use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::{PostDeclaration, Progress};
+use super::super::wishes::Wishes;
 use super::spec::{AmpSpec, Detections};
-use crate::behave::{Behave, Stride};
-use crate::behave::{GoHome, GoTo};
+use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Need, Observation, Outcome, Setting, Shown, Verdict, Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
 use world::seeds::Stream;
-use world::units::Heading;
 
 /// The behaviours it is composed of.
 #[derive(Debug)]
@@ -32,7 +30,7 @@ struct Behaviours {
     track_in: Box<dyn Behave>,
     track_out: Box<dyn Behave>,
     reacquire: Box<dyn Behave>,
-    go_home: GoHome,
+    go_home: GoTo,
 }
 
 impl Behaviours {
@@ -58,13 +56,10 @@ impl Behaviours {
 /// State of the planner.
 #[derive(Debug)]
 pub struct Amp {
-    speed_m_s: f64,
     vertical: Vertical,
     rule: DeclareSpec,
     /// What the rule looked at last.
     zone: Zone,
-    /// The newest flow (east, north), m/s, and its up-flow direction: it is measured more seldom than asked.
-    flow: Option<(Vector2<f64>, Heading)>,
     post: PostDeclaration,
     heeds_on_the_way: bool,
     behaviours: Behaviours,
@@ -80,13 +75,11 @@ impl Amp {
     /// [`RobotError::Invalid`] if a behaviour's parameters make no sense.
     pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
         spec.declare.check(spec.lost_points, spec.lcdps)?;
-        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
+        let vertical = spec.vertical.into();
         Ok(Self {
-            speed_m_s,
             vertical,
             rule: spec.declare.clone(),
             zone: Zone::default(),
-            flow: None,
             post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
             behaviours: Behaviours {
@@ -95,12 +88,12 @@ impl Amp {
                 track_in: spec.track_in.build()?,
                 track_out: spec.track_out.build()?,
                 reacquire: spec.reacquire.build()?,
-                go_home: GoHome::default(),
+                go_home: GoTo::home(),
             },
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             fixes: spec.fixes,
             now: Behaviour::Idle,
-            goal: Goal::none_yet(vertical, speed_m_s),
+            goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
             outcome: None,
         })
     }
@@ -145,28 +138,15 @@ impl Amp {
             Some(behaviour) => behaviour.step(seen, arrived, &mut self.memory, rng),
             None => Stride::Keep,
         };
-        self.ask(stride, self.vertical)
-    }
-
-    /// Turns what a behaviour asks for into the goal; true if it asks for nothing more.
-    fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
-        match stride {
-            Stride::Start(manoeuvre) => {
-                self.goal = Goal { id: self.goal.id + 1, manoeuvre, vertical, speed_m_s: self.speed_m_s }
-            }
-            Stride::Adjust(manoeuvre) => self.goal.manoeuvre = manoeuvre,
-            Stride::Keep => {}
-            Stride::Over => return true,
-        }
-        false
+        stride.turn(&mut self.goal, self.vertical);
+        stride == Stride::Over
     }
 
     /// One step of the survey of a declared place; at its end, the declaration again.
     fn survey(&mut self, seen: &Observation, arrived: bool) -> Option<Declaration> {
         match self.post.step(seen, arrived) {
             Progress::Go(stride) => {
-                let vertical = self.post.vertical().unwrap_or(self.vertical);
-                self.ask(stride, vertical);
+                stride.turn(&mut self.goal, self.post.vertical().unwrap_or(self.vertical));
                 None
             }
             Progress::Over(declaration) => {
@@ -187,28 +167,31 @@ impl Amp {
     }
 
     fn observe(&mut self, seen: &Observation) -> bool {
-        if let Some(flow) = seen.estimate.flow {
-            let known = self.flow.filter(|(of, _)| same_bits(of, &flow.velocity));
-            let (_, up_flow) = known.unwrap_or_else(|| (flow.velocity, flow.up_flow()));
-            self.flow = Some((flow.velocity, up_flow));
-            self.memory.up_flow = Some(up_flow);
-        }
-        self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
             Behaviour::GoHome | Behaviour::Survey | Behaviour::Done => false,
             Behaviour::Idle | Behaviour::GoTo => self.behaviours.go_to.is_none() || self.heeds_on_the_way,
             _ => true,
         };
-        let detected = heeded && detects(seen);
-        if detected {
-            self.memory.last_detection = Some(Lcdp::here(seen));
-        }
-        detected
+        self.memory.observe(seen, self.fixes, heeded)
     }
 }
 
-fn same_bits(a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
-    a.map(f64::to_bits) == b.map(f64::to_bits)
+impl StrategyParams for AmpSpec {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Amp::new(self)?))
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        needs.extend(self.fixes.needs());
+        needs
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical)
+            .after(&self.after_declaration)
+            .waiting("track_out", self.track_out.waits())
+    }
 }
 
 impl Strategy for Amp {

@@ -1,28 +1,27 @@
 //! Parameters of the adaptive mission planner.
 
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
-use super::super::wishes::Wishes;
-use super::machine::Amp;
+use super::super::wishes::VerticalSpec;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
-use crate::error::RobotError;
-use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::{Finite, Positive};
 use world::registry::Listed;
 
 /// Composition and parameters; every default is the paper's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AmpSpec {
     /// Speed over ground, m/s (section 6: 2).
+    #[default(Positive::new(2.0))]
     pub speed_m_s: Positive,
     /// Altitude or depth (section 6: 2 m above the bed in the single-source mission).
+    #[default(VerticalSpec::Altitude(Positive::new(2.0)))]
     pub vertical: VerticalSpec,
     /// Destination before the search; without it the search begins at once.
     pub start_at: Option<StartAt>,
@@ -37,9 +36,11 @@ pub struct AmpSpec {
     /// The declaration rule.
     pub declare: DeclareSpec,
     /// Length of the lost-points list (section 5.3: 6).
+    #[default(NonZeroUsize::new(6).expect("6 is not zero"))]
     pub lost_points: NonZeroUsize,
     /// Most last detection points for the SIZ rules; a full queue forgets the oldest (Tian et al. 2013 keep all:
     /// 1000).
+    #[default(LCDPS)]
     pub lcdps: NonZeroUsize,
     /// What happens to lost points and last detection points when a navigation fix moves the vehicle (default: they
     /// stay).
@@ -48,53 +49,12 @@ pub struct AmpSpec {
     pub after_declaration: AfterDeclaration,
 }
 
-impl Default for AmpSpec {
-    fn default() -> Self {
-        Self {
-            speed_m_s: Positive::new(2.0),
-            vertical: VerticalSpec::Altitude(Positive::new(2.0)),
-            start_at: None,
-            find: FindSpec::default(),
-            track_in: TrackInSpec::default(),
-            track_out: TrackOutSpec::default(),
-            reacquire: ReacquireSpec::default(),
-            declare: DeclareSpec::default(),
-            lost_points: NonZeroUsize::new(6).expect("6 is not zero"),
-            lcdps: LCDPS,
-            fixes: FixMove::default(),
-            after_declaration: AfterDeclaration::default(),
-        }
-    }
-}
-
 impl Listed for AmpSpec {
     const ENTRY: Entry = Entry {
         name: "Amp",
         what: "adaptive mission planner: find, track in, track out, reacquire, declare, go home",
         source: "Pang 2009, section 5, Fig. 5",
     };
-}
-
-impl StrategyParams for AmpSpec {
-    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Amp::new(self)?))
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let mut needs = self.after_declaration.needs();
-        needs.extend(self.fixes.needs());
-        needs
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        self.after_declaration.flies_for()
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical)
-            .after(&self.after_declaration)
-            .waiting("track_out", self.track_out.waits())
-    }
 }
 
 /// A destination before the search.

@@ -15,6 +15,7 @@ use crate::plan::FreeSpace;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
 use world::units::Heading;
 
@@ -24,31 +25,24 @@ const STEP_RAD: f64 = std::f64::consts::PI / 12.0;
 const HELD: (f64, f64) = (0.25, 3.0);
 
 /// Parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EvadeSpec {
     /// Turning radius, m; the vehicle's own if that is greater.
     #[serde(with = "world::limits::turn_m")]
+    #[default(Positive::new(12.0))]
     pub turn_radius_m: Positive,
     /// Distance looked ahead, m.
     #[serde(with = "world::limits::look_m")]
+    #[default(Positive::new(20.0))]
     pub look_m: Positive,
     /// How long it backs off when it is held, s.
+    #[default(NonNegative::new(10.0))]
     pub back_s: NonNegative,
     /// Propeller speed while backing off, astern, rpm.
     #[serde(with = "world::limits::rpm_limit")]
+    #[default(Positive::new(1000.0))]
     pub back_rpm: Positive,
-}
-
-impl Default for EvadeSpec {
-    fn default() -> Self {
-        Self {
-            turn_radius_m: Positive::new(12.0),
-            look_m: Positive::new(20.0),
-            back_s: NonNegative::new(10.0),
-            back_rpm: Positive::new(1000.0),
-        }
-    }
 }
 
 /// The ways that are tried: turns of this radius, m, and how far they are looked along, m.

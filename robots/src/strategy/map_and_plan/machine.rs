@@ -10,20 +10,22 @@
 //! changes: see [`AtTarget`]. A cell that is solid throughout is no target: the paper's map does not know of
 //! obstacles. The map is the robot's own (`map` in the scenario); the strategy is refused if there is none.
 
-use super::super::spec::Strategy;
+use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::AfterDeclaration;
+use super::super::wishes::{NO_DEPTH, Wishes};
 use super::pilot::Pilot;
 use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
-use crate::error::RobotError;
-use crate::handoff::Shown;
+use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Shown, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
 use nalgebra::Vector3;
+use world::area::Area;
+use world::cost::{Cost, Times};
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -37,14 +39,9 @@ const HOME_M: f64 = 10.0;
 /// State of the strategy.
 #[derive(Debug)]
 pub struct MapAndPlan {
-    speed_m_s: f64,
-    vertical: Vertical,
-    arrive_m: f64,
-    at_target: AtTarget,
-    after: AfterDeclaration,
+    spec: MapAndPlanSpec,
     find: Box<dyn Behave>,
     rule: Box<dyn BeliefRule>,
-    rule_name: &'static str,
     pilot: Pilot,
     memory: PlumeMemory,
     now: Behaviour,
@@ -55,8 +52,7 @@ pub struct MapAndPlan {
     detour: Option<Vector3<f64>>,
     /// The target cell, and which of the places near it (0: the cell itself).
     aim: Option<(usize, u32)>,
-    /// Whether a cell must be visited before it is declared, and the last visited cell.
-    visit_first: bool,
+    /// The last visited cell.
     visited: Option<usize>,
     /// The likeliest cell that is not wholly solid, and the state of map and room for which it was found.
     likeliest: Option<((u64, Revision), usize)>,
@@ -67,38 +63,28 @@ impl MapAndPlan {
     /// # Errors
     /// [`RobotError::Invalid`] if the robot keeps no map, or if parameters contradict each other.
     pub fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
-        if !setting.maps {
-            return Err(RobotError::Invalid {
-                field: "strategy".into(),
-                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
-                    Pomdp()"
-                    .into(),
-            });
-        }
-        if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
-            return Err(RobotError::Invalid {
-                field: "strategy.after_declaration".into(),
-                problem: "MapAndPlan flies no survey; use GoHome or Stop".into(),
-            });
-        }
-        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
+        require(
+            setting.maps,
+            "strategy",
+            "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
+                    Pomdp()",
+        )?;
+        require(
+            !matches!(spec.after_declaration, AfterDeclaration::Survey(_)),
+            "strategy.after_declaration",
+            "MapAndPlan flies no survey; use GoHome or Stop",
+        )?;
         Ok(Self {
-            speed_m_s,
-            vertical,
-            arrive_m: spec.arrive_m.get(),
-            at_target: spec.at_target,
-            after: spec.after_declaration.clone(),
+            spec: spec.clone(),
             find: spec.find.build()?,
             rule: spec.declare.build(),
-            rule_name: spec.declare.name(),
             pilot: Pilot::new(spec, setting)?,
             memory: PlumeMemory::default(),
             now: Behaviour::Idle,
-            goal: Goal::none_yet(vertical, speed_m_s),
+            goal: Goal::none_yet(spec.vertical.into(), spec.speed_m_s.get()),
             leg: None,
             detour: None,
             aim: None,
-            visit_first: spec.visit_first,
             visited: None,
             likeliest: None,
             outcome: None,
@@ -122,8 +108,8 @@ impl MapAndPlan {
         self.goal = Goal {
             id: self.goal.id + u32::from(anew),
             manoeuvre,
-            vertical: z_m.map_or(self.vertical, |z| Vertical::Depth(-z.min(0.0))),
-            speed_m_s: self.speed_m_s,
+            vertical: z_m.map_or(self.spec.vertical.into(), |z| Vertical::Depth(-z.min(0.0))),
+            ..self.goal
         };
     }
 
@@ -132,13 +118,13 @@ impl MapAndPlan {
         let s = self.pilot.steer(seen, wish);
         let course = Manoeuvre::Course { course: s.course };
         self.steer_by(course, s.z_m, s.replanned);
-        s.ended || (wish - seen.estimate.p_WB()).xy().norm() < self.arrive_m
+        s.ended || (wish - seen.estimate.p_WB()).xy().norm() < self.spec.arrive_m.get()
     }
 
     fn search(&mut self, seen: &Observation, rng: &mut Stream) {
         let at = seen.estimate.p_WB();
         let arrived = match self.leg {
-            Some(Manoeuvre::GoToPoint { point, .. }) => (point - at.xy()).norm() < 2.0 * self.arrive_m,
+            Some(Manoeuvre::GoToPoint { point, .. }) => (point - at.xy()).norm() < 2.0 * self.spec.arrive_m.get(),
             _ => false,
         };
         match self.find.step(seen, arrived, &mut self.memory, rng) {
@@ -215,7 +201,7 @@ impl MapAndPlan {
         self.aim = Some((belief.best, place));
         let wish = self.wish(belief, place);
         if self.towards(seen, wish) {
-            let last = match self.at_target {
+            let last = match self.spec.at_target {
                 AtTarget::Circle => 0,
                 AtTarget::Cross(_) => 2,
             };
@@ -232,7 +218,7 @@ impl MapAndPlan {
         if belief.grid.n[2] == 1 {
             p.z = self.pilot.level(p.x, p.y);
         }
-        if let (AtTarget::Cross(c), Some(up), 1..) = (self.at_target, self.memory.up_flow, place) {
+        if let (AtTarget::Cross(c), Some(up), 1..) = (self.spec.at_target, self.memory.up_flow, place) {
             let side = if place == 1 { 1.0 } else { -1.0 };
             let right = up.turned(std::f64::consts::FRAC_PI_2).unit();
             let d = right * (side * c.across_m.get()) - up.unit() * c.down_m.get();
@@ -264,21 +250,46 @@ impl MapAndPlan {
 
     fn declared(&mut self, seen: &Observation, belief: &Belief) -> Option<Declaration> {
         let position = self.rule.step(seen.t_s, belief)?;
-        if self.visit_first && self.visited != Some(belief.best) {
+        if self.spec.visit_first && self.visited != Some(belief.best) {
             return None;
         }
         // The one level of a flat map says nothing of the source's height.
         let z_m = (belief.grid.n[2] > 1).then_some(position.z);
-        Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.rule_name) })
+        Some(Declaration { z_m, ..Declaration::first(seen.t_s, position.xy(), self.spec.declare.name()) })
+    }
+}
+
+impl StrategyParams for MapAndPlanSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(MapAndPlan::new(self, setting)?))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        let cells = self.room.cells(setting)?;
+        self.planner.check(&cells, self.room.plane())
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let mut needs = self.after_declaration.needs();
+        if !self.room.plane() {
+            needs.push(Need::vital("room", "depth", NO_DEPTH));
+        }
+        needs
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
+        self.work(area, depth_m, obstacles, times)
     }
 }
 
 impl Strategy for MapAndPlan {
     fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
         self.pilot.sense(seen);
-        if let Some(flow) = seen.estimate.flow {
-            self.memory.up_flow = Some(flow.up_flow());
-        }
+        self.memory.take_flow(seen);
         if seen.guidance.aborted && self.outcome.is_none() {
             self.outcome = Some(Outcome::Aborted);
             self.turn_to(Behaviour::Done, seen);
@@ -294,7 +305,7 @@ impl Strategy for MapAndPlan {
             declared = self.declared(seen, belief);
             if declared.is_some() {
                 self.turn_to(
-                    match self.after {
+                    match self.spec.after_declaration {
                         AfterDeclaration::GoHome => Behaviour::GoHome,
                         AfterDeclaration::Stop | AfterDeclaration::Survey(_) => Behaviour::Done,
                     },

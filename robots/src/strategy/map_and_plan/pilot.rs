@@ -10,7 +10,7 @@
 
 use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
 use crate::plan::{Follow, FreeSpace, NoPath, Path, PathStart, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
@@ -47,10 +47,7 @@ pub(super) struct Pilot {
     room: FreeSpace,
     planner: Box<dyn Planner>,
     bed: Terrain,
-    vertical: Vertical,
-    look_ahead_m: f64,
-    replan_off_m: f64,
-    replan_s: f64,
+    spec: MapAndPlanSpec,
     follow: Option<Follow>,
     reach: Option<Reach>,
     wish: Vector3<f64>,
@@ -62,33 +59,24 @@ pub(super) struct Pilot {
 impl Pilot {
     pub(super) fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
         let planner = spec.planner.build()?;
-        if spec.planner.plane_only() && !spec.room.plane() {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.planner.AStar.cost".into(),
-                problem: "the paper's costs are for a room of the plane; use Metric, or room: Plane()".into(),
-            });
-        }
+        require(
+            !spec.planner.plane_only() || spec.room.plane(),
+            "strategy.MapAndPlan.planner.AStar.cost",
+            "the paper's costs are for a room of the plane; use Metric, or room: Plane()",
+        )?;
         spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
         let mut room = FreeSpace::new(cells, spec.hull_m.get(), spec.planner.reach().1);
         room.chart(&setting.chart, &setting.bed, &|x, y| level(vertical, &setting.bed, x, y));
         let lattice = room.lattice();
-        if !(0..lattice.len()).any(|cell| room.free(cell)) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room".into(),
-                problem: NoPath::Full.to_string(),
-            });
-        }
+        require((0..lattice.len()).any(|cell| room.free(cell)), "strategy.MapAndPlan.room", NoPath::Full.to_string())?;
         Ok(Self {
             revision: room.revision().clone(),
             room,
             planner,
             bed: setting.bed.clone(),
-            vertical,
-            look_ahead_m: spec.look_ahead_m.get(),
-            replan_off_m: spec.replan_off_m.get(),
-            replan_s: spec.replan_s.get(),
+            spec: spec.clone(),
             follow: None,
             reach: None,
             wish: Vector3::zeros(),
@@ -153,7 +141,7 @@ impl Pilot {
 
     /// Height at which the vehicle moves over a place (east, north) if it has no path in space, z, m.
     pub(super) fn level(&self, x: f64, y: f64) -> f64 {
-        level(self.vertical, &self.bed, x, y)
+        level(self.spec.vertical.into(), &self.bed, x, y)
     }
 
     /// What to steer to reach `wish` (ENU, m).
@@ -161,9 +149,9 @@ impl Pilot {
         let at = seen.estimate.p_WB();
         let mut steer = self.follow.as_mut().map(|f| f.step(&at));
         let moved = (wish - self.wish).norm() > SAME_M;
-        let due = seen.t_s - self.planned_s >= self.replan_s;
+        let due = seen.t_s - self.planned_s >= self.spec.replan_s.get();
         let ended = steer.is_some_and(|s| s.left_m < END_M);
-        let off = steer.is_some_and(|s| s.off_m > self.replan_off_m);
+        let off = steer.is_some_and(|s| s.off_m > self.spec.replan_off_m.get());
         let again = steer.is_none() || (due && (moved || ended || off || self.closed()));
         if again {
             let start =
@@ -173,7 +161,7 @@ impl Pilot {
                 let NoPath::Full = full;
                 Path { points: vec![at, wish], reach: Reach::Goal, leaves_solid: true, tightest_m: 0.0 }
             });
-            let mut follow = Follow::new(&path, self.look_ahead_m);
+            let mut follow = Follow::new(&path, self.spec.look_ahead_m.get());
             steer = Some(follow.step(&at));
             self.follow = Some(follow);
             self.reach = Some(path.reach);

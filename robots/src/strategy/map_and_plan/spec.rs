@@ -1,20 +1,18 @@
 //! Parameters of map and plan.
 
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
-use super::super::wishes::{NO_DEPTH, Wishes};
+use super::super::wishes::VerticalSpec;
 use super::evade::EvadeSpec;
-use super::machine::MapAndPlan;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
-use crate::error::RobotError;
-use crate::handoff::{BeliefGrid, Need, Setting};
+use crate::error::{RobotError, require};
+use crate::handoff::{BeliefGrid, Setting};
 use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::area::Area;
 use world::catalogue::Entry;
-use world::cost::{Cost, Times};
 use world::limits::shown;
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
@@ -25,12 +23,14 @@ const MOST_CELLS: f64 = 4e6;
 const FLATTEST: f64 = 100.0;
 
 /// Composition and parameters. A default with a section number is the paper's (Wang & Pang); the others are ours.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MapAndPlanSpec {
     /// Speed over ground, m/s (section III-B: 2).
+    #[default(Positive::new(2.0))]
     pub speed_m_s: Positive,
     /// Altitude or depth; in a room of space, it holds only while there is no path.
+    #[default(VerticalSpec::Altitude(Positive::new(2.0)))]
     pub vertical: VerticalSpec,
     /// Search for the plume until the first detection (section II-A: zig-zag).
     pub find: FindSpec,
@@ -42,46 +42,30 @@ pub struct MapAndPlanSpec {
     pub declare: BeliefRuleSpec,
     /// Declare a cell only after the vehicle has been there, or as near as it can get. The paper does not ask for
     /// this, but its vehicle is always on its way for longer than the map must stay unchanged.
+    #[default(true)]
     pub visit_first: bool,
     /// What to do at the believed source, until it is declared or believed elsewhere.
     pub at_target: AtTarget,
     /// What follows the declaration.
     pub after_declaration: AfterDeclaration,
     /// Hull radius with a margin for navigation and for wide turns, m.
+    #[default(NonNegative::new(1.0))]
     pub hull_m: NonNegative,
     /// The vehicle steers to a point of the path this far ahead, m.
+    #[default(Positive::new(6.0))]
     pub look_ahead_m: Positive,
     /// A place counts as reached within this distance, m.
+    #[default(Positive::new(5.0))]
     pub arrive_m: Positive,
     /// The path is planned again when the vehicle is farther from it than this, m.
+    #[default(Positive::new(8.0))]
     pub replan_off_m: Positive,
     /// Least time between two plans, s.
+    #[default(NonNegative::new(1.0))]
     pub replan_s: NonNegative,
     /// Keeps away from solids that the path passes too closely for the vehicle's turning circle, and backs off from
     /// one that holds the vehicle. Without it the vehicle follows the path whatever lies beside it.
     pub evade: Option<EvadeSpec>,
-}
-
-impl Default for MapAndPlanSpec {
-    fn default() -> Self {
-        Self {
-            speed_m_s: Positive::new(2.0),
-            vertical: VerticalSpec::Altitude(Positive::new(2.0)),
-            find: FindSpec::default(),
-            room: RoomSpec::default(),
-            planner: PlannerSpec::default(),
-            declare: BeliefRuleSpec::default(),
-            visit_first: true,
-            at_target: AtTarget::default(),
-            after_declaration: AfterDeclaration::default(),
-            hull_m: NonNegative::new(1.0),
-            look_ahead_m: Positive::new(6.0),
-            arrive_m: Positive::new(5.0),
-            replan_off_m: Positive::new(8.0),
-            replan_s: NonNegative::new(1.0),
-            evade: None,
-        }
-    }
 }
 
 impl Listed for MapAndPlanSpec {
@@ -92,74 +76,32 @@ impl Listed for MapAndPlanSpec {
     };
 }
 
-impl StrategyParams for MapAndPlanSpec {
-    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(MapAndPlan::new(self, setting)?))
-    }
-
-    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
-        let cells = self.room.cells(setting)?;
-        self.planner.check(&cells, self.room.plane())
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let mut needs = self.after_declaration.needs();
-        if !self.room.plane() {
-            needs.push(Need::vital("room", "depth", NO_DEPTH));
-        }
-        needs
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
-    }
-
-    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
-        self.work(area, depth_m, obstacles, times)
-    }
-}
-
 /// The planner's cells, over the operating area.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum RoomSpec {
     /// At one height.
+    #[default]
     Plane(PlaneSpec),
     /// From the bed to the surface.
     Space(SpaceSpec),
 }
 
-impl Default for RoomSpec {
-    fn default() -> Self {
-        Self::Plane(PlaneSpec::default())
-    }
-}
-
 /// Cells of the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlaneSpec {
     /// Sides along the area's axis and across it, m.
+    #[default((Positive::new(1.0), Positive::new(1.0)))]
     pub cell_m: (Positive, Positive),
 }
 
-impl Default for PlaneSpec {
-    fn default() -> Self {
-        Self { cell_m: (Positive::new(1.0), Positive::new(1.0)) }
-    }
-}
-
 /// Cells of space.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpaceSpec {
     /// Sides along the area's axis, across it and upwards, m.
+    #[default((Positive::new(1.0), Positive::new(1.0), Positive::new(1.0)))]
     pub cell_m: (Positive, Positive, Positive),
-}
-
-impl Default for SpaceSpec {
-    fn default() -> Self {
-        Self { cell_m: (Positive::new(1.0), Positive::new(1.0), Positive::new(1.0)) }
-    }
 }
 
 impl RoomSpec {
@@ -172,27 +114,21 @@ impl RoomSpec {
         let depth_m = if self.plane() { 1.0 } else { setting.bed.deepest_m() };
         let all: f64 = counts.iter().product();
         // Written so that it also refuses a number that is not finite.
-        if !(all <= MOST_CELLS) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room".into(),
-                problem: format!("would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"),
-            });
-        }
+        require(
+            all <= MOST_CELLS,
+            "strategy.MapAndPlan.room",
+            format!("would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"),
+        )?;
         let n = counts.map(|c| c as usize);
         let cells = BeliefGrid::over(&setting.area, 0.0, depth_m, n);
         let axes = if self.plane() { 2 } else { 3 };
         let (low, high) =
             (cells.cell_m[..axes].iter()).fold((f64::INFINITY, 0.0_f64), |(l, h), c| (c.min(l), c.max(h)));
-        if !(high <= FLATTEST * low) {
-            return Err(RobotError::Invalid {
-                field: "strategy.MapAndPlan.room.cell_m".into(),
-                problem: format!(
-                    "must have sides that differ at most {FLATTEST}-fold, got {} and {} m",
-                    shown(low),
-                    shown(high)
-                ),
-            });
-        }
+        require(
+            high <= FLATTEST * low,
+            "strategy.MapAndPlan.room.cell_m",
+            format!("must have sides that differ at most {FLATTEST}-fold, got {} and {} m", shown(low), shown(high)),
+        )?;
         Ok(cells)
     }
 
@@ -226,17 +162,13 @@ pub enum AtTarget {
 }
 
 /// Crossings down-flow of the target.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrossSpec {
     /// Distance down-flow, m.
+    #[default(NonNegative::new(5.0))]
     pub down_m: NonNegative,
     /// Distance to either side, m.
+    #[default(Positive::new(15.0))]
     pub across_m: Positive,
-}
-
-impl Default for CrossSpec {
-    fn default() -> Self {
-        Self { down_m: NonNegative::new(5.0), across_m: Positive::new(15.0) }
-    }
 }

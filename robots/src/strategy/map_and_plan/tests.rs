@@ -1,7 +1,7 @@
 //! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, with a map written by hand.
 
-use super::super::spec::VerticalSpec;
 use super::super::survey::AfterDeclaration;
+use super::super::wishes::VerticalSpec;
 use super::*;
 use crate::handoff::testing::seen;
 use crate::handoff::{

@@ -14,12 +14,11 @@
 use super::super::spec::Strategy;
 use super::edge::{Plume, crossing};
 use super::rectangles::areas;
-use super::spec::{EdgeSpec, Entry, SubregionsSpec};
-use crate::error::RobotError;
-use crate::handoff::Shown;
+use super::spec::{Entry, SubregionsSpec};
+use crate::error::{RobotError, require};
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Setting,
-    UP_FLOW_EDGE, Verdict, Vertical, detects,
+    Shown, UP_FLOW_EDGE, Verdict, detects,
 };
 use crate::places::inside;
 use nalgebra::Vector2;
@@ -49,11 +48,7 @@ enum Phase {
 pub struct Subregions {
     /// One strategy per region, fresh until its turn comes.
     searches: Vec<Box<dyn Strategy>>,
-    timeout_s: f64,
-    entry: Entry,
-    edge: EdgeSpec,
-    speed_m_s: f64,
-    vertical: Vertical,
+    spec: SubregionsSpec,
     phase: Phase,
     regions: Vec<Region>,
     up_flow: Option<Heading>,
@@ -74,31 +69,20 @@ impl Subregions {
     /// [`RobotError::Invalid`] if a region makes no sense, or if its strategy cannot be built.
     pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
         let areas = areas(&spec.regions, &setting.area)?;
-        if spec.search.has_regions() {
-            return Err(RobotError::Invalid {
-                field: "search".into(),
-                problem: "subregions cannot have subregions".into(),
-            });
-        }
+        require(!spec.search.has_regions(), "search", "subregions cannot have subregions")?;
         let search = |area: &Area| {
             let setting = Setting { area: *area, ..setting.clone() };
             spec.search.build(&setting).map_err(within_search)
         };
-        let vertical = spec.vertical.into();
-        let speed_m_s = spec.speed_m_s.get();
         let waiting = |area: &Area| Region { area: *area, state: RegionState::Waiting, from_s: None, until_s: None };
         Ok(Self {
             searches: areas.iter().map(search).collect::<Result<_, _>>()?,
-            timeout_s: spec.timeout_s.get(),
-            entry: spec.entry,
-            edge: spec.edge.clone(),
-            speed_m_s,
-            vertical,
+            spec: spec.clone(),
             phase: Phase::Begin,
             regions: areas.iter().map(waiting).collect(),
             up_flow: None,
             plume: Plume::new(spec.edge.plume_s.get()),
-            goal: Goal::none_yet(vertical, speed_m_s),
+            goal: Goal::none_yet(spec.vertical.into(), spec.speed_m_s.get()),
             goals_from: 0,
             numbers_from: 0,
             declared: Vec::new(),
@@ -110,8 +94,8 @@ impl Subregions {
         self.goal = Goal {
             id: self.goal.id + 1,
             manoeuvre: Manoeuvre::GoToPoint { point, radius_m: None },
-            vertical: self.vertical,
-            speed_m_s: self.speed_m_s,
+            vertical: self.spec.vertical.into(),
+            speed_m_s: self.spec.speed_m_s.get(),
         };
     }
 
@@ -123,7 +107,7 @@ impl Subregions {
             return;
         };
         let area = region.area;
-        let (point, aimed) = match (self.entry, self.up_flow) {
+        let (point, aimed) = match (self.spec.entry, self.up_flow) {
             (Entry::Centre, _) => (area.centre, true),
             (Entry::DownFlowCorner, Some(up)) => (down_flow_corner(&area, up), true),
             (Entry::DownFlowCorner, None) => (area.centre, false),
@@ -174,7 +158,7 @@ impl Subregions {
             decision.declared = Some(self.declare(k, own));
         }
         let crossing = if over { None } else { self.traced(region, behaviour, seen) };
-        let timed_out = region.from_s.is_some_and(|from| seen.t_s - from >= self.timeout_s);
+        let timed_out = region.from_s.is_some_and(|from| seen.t_s - from >= self.spec.timeout_s.get());
         if let (Some(place), None) = (crossing, decision.declared) {
             let number = self.declared.len() as u32;
             let at_edge = Declaration { number, ..Declaration::first(seen.t_s, place, UP_FLOW_EDGE) };
@@ -222,7 +206,7 @@ impl Subregions {
         }
         let here = seen.estimate.position;
         let plume = self.plume.note(seen.t_s, here);
-        let within_m = self.edge.within_m.get();
+        let within_m = self.spec.edge.within_m.get();
         crossing(&region.area, self.up_flow?, here, plume, within_m)
     }
 
@@ -298,7 +282,7 @@ fn down_flow_corner(area: &Area, up_flow: Heading) -> Vector2<f64> {
 fn within_search(error: RobotError) -> RobotError {
     match error {
         RobotError::Invalid { field, problem } => {
-            RobotError::Invalid { field: format!("search.{}", field.trim_start_matches("strategy.")), problem }
+            RobotError::invalid(format!("search.{}", field.trim_start_matches("strategy.")), problem)
         }
         other => other,
     }

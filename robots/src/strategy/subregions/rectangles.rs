@@ -1,7 +1,7 @@
 //! The subregions as rectangles in the world.
 
 use super::spec::{GridSpec, RectangleSpec, RegionsSpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use nalgebra::Vector2;
 use world::area::Area;
 
@@ -16,9 +16,7 @@ pub(super) fn areas(spec: &RegionsSpec, whole: &Area) -> Result<Vec<Area>, Robot
             (spec.list.iter().enumerate()).map(|(k, r)| rectangle(k, r, whole)).collect::<Result<Vec<_>, _>>()?
         }
     };
-    if areas.is_empty() {
-        return Err(invalid("regions", "must name at least one".into()));
-    }
+    require(!areas.is_empty(), "regions", "must name at least one")?;
     Ok(areas)
 }
 
@@ -27,13 +25,9 @@ fn parts(grid: &GridSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
     let (length_m, width_m) = (whole.length_m / f64::from(n), whole.width_m / f64::from(m));
     let part = |(k, &(i, j)): (usize, &(u32, u32))| {
         let field = format!("regions.order[{k}]");
-        if i >= n || j >= m {
-            let legal = format!("(0, 0) to ({}, {})", n - 1, m - 1);
-            return Err(invalid(&field, format!("must be {legal}, got ({i}, {j})")));
-        }
-        if grid.order[..k].contains(&(i, j)) {
-            return Err(invalid(&field, format!("({i}, {j}) occurs twice")));
-        }
+        let legal = format!("(0, 0) to ({}, {})", n - 1, m - 1);
+        require(i < n && j < m, &field, format!("must be {legal}, got ({i}, {j})"))?;
+        require(!grid.order[..k].contains(&(i, j)), &field, format!("({i}, {j}) occurs twice"))?;
         let at = Vector2::new(
             (f64::from(i) + 0.5) * length_m - whole.length_m / 2.0,
             (f64::from(j) + 0.5) * width_m - whole.width_m / 2.0,
@@ -46,23 +40,19 @@ fn parts(grid: &GridSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
 fn rectangle(k: usize, r: &RectangleSpec, whole: &Area) -> Result<Area, RobotError> {
     let side = |name: &str, (from, to): (f64, f64), half: f64| {
         let field = format!("regions.list[{k}].{name}");
-        if from >= to {
-            return Err(invalid(&field, format!("must begin with the smaller number, got ({from}, {to})")));
-        }
-        if from < -half - ROUNDING_M || to > half + ROUNDING_M {
-            let legal = format!("-{half} to {half} (the operating area)");
-            return Err(invalid(&field, format!("must lie in {legal}, got ({from}, {to})")));
-        }
+        require(from < to, &field, format!("must begin with the smaller number, got ({from}, {to})"))?;
+        let legal = format!("-{half} to {half} (the operating area)");
+        require(
+            from >= -half - ROUNDING_M && to <= half + ROUNDING_M,
+            &field,
+            format!("must lie in {legal}, got ({from}, {to})"),
+        )?;
         Ok((0.5 * (from + to), to - from))
     };
     let both = |(from, to): (world::ranges::Finite, world::ranges::Finite)| (from.get(), to.get());
     let (x, length_m) = side("along_m", both(r.along_m), whole.length_m / 2.0)?;
     let (y, width_m) = side("across_m", both(r.across_m), whole.width_m / 2.0)?;
     Ok(Area { centre: whole.world(Vector2::new(x, y)), length_m, width_m, axis: whole.axis })
-}
-
-fn invalid(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid { field: field.into(), problem }
 }
 
 #[cfg(test)]

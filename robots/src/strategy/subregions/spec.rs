@@ -1,13 +1,15 @@
 //! Parameters of a mission over subregions.
 
 use super::super::catalogue::StrategySpec;
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::super::spec::{Strategy, StrategyParams};
+use super::super::wishes::VerticalSpec;
 use super::super::wishes::Wishes;
 use super::machine::Subregions;
 use crate::error::RobotError;
 use crate::handoff::{Need, Setting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroU32;
 use world::area::Area;
 use world::catalogue;
@@ -69,10 +71,6 @@ impl StrategyParams for SubregionsSpec {
     fn needs(&self) -> Vec<Need> {
         let needs = self.search.needs().into_iter();
         needs.map(|n| n.within("search")).collect()
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        self.search.flies_for()
     }
 
     fn wishes(&self) -> Wishes {
@@ -154,17 +152,13 @@ pub enum Entry {
 }
 
 /// When a plume counts as traced to the up-flow edge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EdgeSpec {
     /// A detection nearer to the edge than this, or beyond the edge, has reached it, m.
+    #[default(NonNegative::new(20.0))]
     pub within_m: NonNegative,
     /// The plume's place is the mean of the detections of this time, s.
+    #[default(NonNegative::new(10.0))]
     pub plume_s: NonNegative,
-}
-
-impl Default for EdgeSpec {
-    fn default() -> Self {
-        Self { within_m: NonNegative::new(20.0), plume_s: NonNegative::new(10.0) }
-    }
 }

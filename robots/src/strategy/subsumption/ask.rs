@@ -2,9 +2,11 @@
 
 use crate::behave::Stride;
 use crate::handoff::{Behaviour, Manoeuvre};
+use strum::IntoStaticStr;
 
 /// The kinds of layers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 pub(super) enum Kind {
     Find,
     Maintain,
@@ -13,33 +15,6 @@ pub(super) enum Kind {
     Avoid,
     PlumeMap,
     GoHome,
-}
-
-impl Kind {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Kind::Find => "find",
-            Kind::Maintain => "maintain",
-            Kind::Reacquire => "reacquire",
-            Kind::Declare => "declare",
-            Kind::Avoid => "avoid",
-            Kind::PlumeMap => "plume_map",
-            Kind::GoHome => "go_home",
-        }
-    }
-
-    /// Its name in the scenario.
-    pub(super) fn variant(self) -> &'static str {
-        match self {
-            Kind::Find => "Find",
-            Kind::Maintain => "Maintain",
-            Kind::Reacquire => "Reacquire",
-            Kind::Declare => "Declare",
-            Kind::Avoid => "Avoid",
-            Kind::PlumeMap => "PlumeMap",
-            Kind::GoHome => "GoHome",
-        }
-    }
 }
 
 /// What a layer asks for.
@@ -67,15 +42,8 @@ impl Ask {
 
 /// Stores what a behaviour asks for; true if that is a new goal.
 pub(super) fn keep(command: &mut Option<Manoeuvre>, stride: Stride) -> bool {
-    match stride {
-        Stride::Start(manoeuvre) => {
-            *command = Some(manoeuvre);
-            true
-        }
-        Stride::Adjust(manoeuvre) => {
-            *command = Some(manoeuvre);
-            false
-        }
-        Stride::Keep | Stride::Over => false,
+    if let Stride::Start(manoeuvre) | Stride::Adjust(manoeuvre) = stride {
+        *command = Some(manoeuvre);
     }
+    matches!(stride, Stride::Start(_))
 }

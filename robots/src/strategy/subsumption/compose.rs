@@ -6,9 +6,9 @@ use super::maintain::Maintain;
 use super::plume::PlumeLayers;
 use super::plume_map::PlumeMap;
 use super::spec::{LayerSpec, SubsumptionSpec};
-use crate::behave::{GoHome, SoftAvoid};
+use crate::behave::{GoTo, SoftAvoid};
 use crate::declare::DeclareSpec;
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Setting;
 
 fn kind(layer: &LayerSpec) -> Kind {
@@ -31,7 +31,7 @@ pub(super) struct Layers {
     pub(super) plume: PlumeLayers,
     pub(super) declare: Option<DeclareSpec>,
     pub(super) avoid: Option<SoftAvoid>,
-    pub(super) go_home: Option<GoHome>,
+    pub(super) go_home: Option<GoTo>,
 }
 
 /// Which layer must be above which other, and why.
@@ -52,7 +52,7 @@ const ABOVE: &[(Kind, Kind, &str)] = &[
 ];
 
 fn wrong(field: &str, problem: String) -> RobotError {
-    RobotError::Invalid { field: format!("strategy.Subsumption.{field}"), problem }
+    RobotError::invalid(format!("strategy.Subsumption.{field}"), problem)
 }
 
 /// The order of the layers, after checking it.
@@ -62,8 +62,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     for (i, kind) in order.iter().enumerate() {
         let first = place(*kind).unwrap_or(i);
         if first < i {
-            let name = kind.variant();
-            let problem = format!("there already is a {name}, layers[{first}]; each layer may occur once");
+            let problem = format!("there already is a {kind:?}, layers[{first}]; each layer may occur once");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -71,10 +70,11 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         (Kind::Find, "nothing would move the vehicle before the first detection"),
         (Kind::Maintain, "detections would have no effect"),
     ] {
-        if place(kind).is_none() {
-            let name = kind.variant();
-            return Err(wrong("layers", format!("there is no {name}: {why}; add {name}(...)")));
-        }
+        require(
+            place(kind).is_some(),
+            "strategy.Subsumption.layers",
+            format!("there is no {kind:?}: {why}; add {kind:?}(...)"),
+        )?;
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
         let problem = "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";
@@ -88,8 +88,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         if let (Some(i), Some(j)) = (place(*upper), place(*lower))
             && i < j
         {
-            let (u, l) = (upper.variant(), lower.variant());
-            let problem = format!("{u} must be above (after) {l}, layers[{j}]: {why}");
+            let problem = format!("{upper:?} must be above (after) {lower:?}, layers[{j}]: {why}");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -121,7 +120,7 @@ impl Layers {
                     let problem = "needs a source map, and the robot has none; add one, for example map: Hmm()";
                     return Err(wrong(&format!("layers[{i}]"), problem.into()));
                 }
-                LayerSpec::GoHome(_) => go_home = Some(GoHome::default()),
+                LayerSpec::GoHome(_) => go_home = Some(GoTo::home()),
             }
         }
         Ok(Self {

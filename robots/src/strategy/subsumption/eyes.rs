@@ -14,31 +14,27 @@ use crate::memory::PlumeMemory;
 use crate::vision::{Verifier, VerifierSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// Parameters of looking at last detection points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EyesSpec {
     /// The camera takes a picture within this distance of the newest LCDP, m.
+    #[default(Positive::new(8.0))]
     pub within_m: Positive,
     /// Time between two pictures, s.
+    #[default(Positive::new(1.0))]
     pub period_s: Positive,
     /// The test that a picture must pass.
     pub verifier: VerifierSpec,
 }
 
-impl Default for EyesSpec {
-    fn default() -> Self {
-        Self { within_m: Positive::new(8.0), period_s: Positive::new(1.0), verifier: VerifierSpec::default() }
-    }
-}
-
 /// State of looking at last detection points.
 #[derive(Debug)]
 pub(super) struct Eyes {
-    within_m: f64,
-    period_s: f64,
+    spec: EyesSpec,
     verifier: Verifier,
     asked_s: Option<f64>,
     asks: bool,
@@ -46,13 +42,7 @@ pub(super) struct Eyes {
 
 impl Eyes {
     pub(super) fn new(spec: &EyesSpec) -> Self {
-        Self {
-            within_m: spec.within_m.get(),
-            period_s: spec.period_s.get(),
-            verifier: Verifier::new(&spec.verifier),
-            asked_s: None,
-            asks: false,
-        }
+        Self { spec: spec.clone(), verifier: Verifier::new(&spec.verifier), asked_s: None, asks: false }
     }
 
     /// Whether a picture is wanted in this tick.
@@ -69,7 +59,7 @@ impl Eyes {
     pub(super) fn step(&mut self, seen: &Observation, memory: &PlumeMemory) -> Option<Declaration> {
         self.asks = false;
         let point = memory.lcdps.newest()?;
-        if (point.position - seen.estimate.position).norm() > self.within_m {
+        if (point.position - seen.estimate.position).norm() > self.spec.within_m.get() {
             return None;
         }
         if let Some(picture) = &seen.picture
@@ -80,7 +70,7 @@ impl Eyes {
                 ..Declaration::first(seen.t_s, point.position, "Eyes")
             });
         }
-        let due = |t: f64| seen.t_s - t >= self.period_s - 1e-9;
+        let due = |t: f64| seen.t_s - t >= self.spec.period_s.get() - 1e-9;
         if self.asked_s.is_none_or(due) {
             (self.asked_s, self.asks) = (Some(seen.t_s), true);
         }

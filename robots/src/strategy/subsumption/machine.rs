@@ -22,20 +22,20 @@
 //! arrive, unless Avoid gives up. For Construct-Plume-Map see `plume_map.rs`. Without a Go-Home layer the mission is
 //! over with the declaration. A cage abort ends it at once.
 
-use super::super::spec::Strategy;
-use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
+use super::super::spec::{Strategy, StrategyParams};
+use super::super::survey::{AfterDeclaration, BLIND, PostDeclaration, Progress};
+use super::super::wishes::Wishes;
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
 use super::eyes::Eyes;
 use super::plume::PlumeRequests;
-use super::spec::SubsumptionSpec;
+use super::spec::{LayerSpec, SubsumptionSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
-use crate::handoff::Shown;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation, Outcome, Setting, Verdict,
-    Vertical, Zone, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Manoeuvre, Need, Observation, Outcome, Setting, Shown,
+    Verdict, Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use world::seeds::Stream;
@@ -79,7 +79,7 @@ impl Subsumption {
         if let Some(eyes) = &spec.eyes {
             eyes.verifier.check("strategy.eyes.verifier")?;
         }
-        let silent = |k: &Kind| Layer { name: k.name(), state: LayerState::Silent };
+        let silent = |k: &Kind| Layer { name: k.into(), state: LayerState::Silent };
         Ok(Self {
             fixes: spec.fixes,
             states: layers.order.iter().map(silent).collect(),
@@ -102,19 +102,6 @@ impl Subsumption {
             goal: Goal::none_yet(Vertical::from(spec.vertical), spec.speed_m_s.get()),
             outcome: None,
         })
-    }
-
-    /// Takes in what is new; true on a detection that reaches the plume's layers.
-    fn observe(&mut self, seen: &Observation) -> bool {
-        if let Some(flow) = seen.estimate.flow {
-            self.memory.up_flow = Some(flow.up_flow());
-        }
-        self.memory.take_fixes(seen, self.fixes);
-        let detected = !self.homing && !self.surveying && detects(seen);
-        if detected {
-            self.memory.last_detection = Some(Lcdp::here(seen));
-        }
-        detected
     }
 
     /// The rule's present answer.
@@ -256,7 +243,8 @@ impl Subsumption {
     }
 
     fn run(&mut self, seen: &Observation, rng: &mut Stream) -> Option<Declaration> {
-        let detected = self.observe(seen);
+        // A detection reaches the plume's layers only while they search.
+        let detected = self.memory.observe(seen, self.fixes, !self.homing && !self.surveying);
         let reached = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
         let mut arrived = self.holder.filter(|_| reached);
         if let (Some(Kind::Avoid), Some(avoid)) = (self.holder, &mut self.layers.avoid)
@@ -298,6 +286,44 @@ impl Subsumption {
         }
         self.command(&holder);
         None
+    }
+}
+
+impl StrategyParams for SubsumptionSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Subsumption::new(self, setting)?))
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let survey = self.survey.as_ref().map(|s| s.needs("survey"));
+        let mut needs = survey.unwrap_or_default();
+        if self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_))) {
+            let so = "sees no obstacle that its Avoid layer could turn away from";
+            needs.push(Need::vital("layers", "ranging", so));
+        }
+        if self.eyes.is_some() {
+            needs.push(Need::vital("eyes", "camera", BLIND));
+        }
+        needs.extend(self.fixes.needs());
+        needs
+    }
+
+    fn wishes(&self) -> Wishes {
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        for (k, layer) in self.layers.iter().enumerate() {
+            if let LayerSpec::Maintain(maintain) = layer {
+                let waits = maintain.track_out.as_ref().and_then(|t| t.waits());
+                wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
+            }
+        }
+        match &self.survey {
+            Some(survey) => wishes.survey("survey", survey),
+            None => wishes,
+        }
+    }
+
+    fn has_layers(&self) -> bool {
+        true
     }
 }
 

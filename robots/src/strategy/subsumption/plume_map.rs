@@ -20,24 +20,22 @@ use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Parameters of the layer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlumeMapSpec {
     /// The map counts once 95 % of its probability lie in this share of its cells.
+    #[default(Fraction::new(0.25))]
     pub most_share: Fraction,
     /// Down-flow of the likeliest cell, m.
+    #[default(NonNegative::new(30.0))]
     pub down_m: NonNegative,
     /// The vehicle does not go again to a place nearer than this to the last one, m.
+    #[default(Positive::new(40.0))]
     pub again_m: Positive,
-}
-
-impl Default for PlumeMapSpec {
-    fn default() -> Self {
-        Self { most_share: Fraction::new(0.25), down_m: NonNegative::new(30.0), again_m: Positive::new(40.0) }
-    }
 }
 
 /// State of the layer.

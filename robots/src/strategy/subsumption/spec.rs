@@ -1,18 +1,15 @@
 //! Parameters of the subsumption planner.
 
-use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
-use super::super::survey::{BLIND, SurveySpec};
-use super::super::wishes::Wishes;
+use super::super::survey::SurveySpec;
+use super::super::wishes::VerticalSpec;
 use super::eyes::EyesSpec;
-use super::machine::Subsumption;
 use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
-use crate::error::RobotError;
-use crate::handoff::{Need, Setting};
 use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::ranges::Positive;
@@ -90,49 +87,6 @@ impl Listed for SubsumptionSpec {
     };
 }
 
-impl StrategyParams for SubsumptionSpec {
-    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Subsumption::new(self, setting)?))
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let survey = self.survey.as_ref().map(|s| s.needs("survey"));
-        let mut needs = survey.unwrap_or_default();
-        if self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_))) {
-            let so = "sees no obstacle that its Avoid layer could turn away from";
-            needs.push(Need::vital("layers", "ranging", so));
-        }
-        if self.eyes.is_some() {
-            needs.push(Need::vital("eyes", "camera", BLIND));
-        }
-        needs.extend(self.fixes.needs());
-        needs
-    }
-
-    fn flies_for(&self) -> [bool; 2] {
-        let [sidescan, camera] = self.survey.as_ref().map_or([false; 2], |s| s.flies_for());
-        [sidescan, camera || self.eyes.is_some()]
-    }
-
-    fn wishes(&self) -> Wishes {
-        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
-        for (k, layer) in self.layers.iter().enumerate() {
-            if let LayerSpec::Maintain(maintain) = layer {
-                let waits = maintain.track_out.as_ref().and_then(|t| t.waits());
-                wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
-            }
-        }
-        match &self.survey {
-            Some(survey) => wishes.survey("survey", survey),
-            None => wishes,
-        }
-    }
-
-    fn has_layers(&self) -> bool {
-        true
-    }
-}
-
 /// A layer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "SubsumptionLayer")]
@@ -155,19 +109,14 @@ pub enum LayerSpec {
 }
 
 /// Maintain-Plume.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaintainSpec {
     /// In the plume.
     pub track_in: TrackInSpec,
     /// After λ s without a detection (Pang 2009); `None`: Track-Out is the rest of λ, as in Tian et al. 2013.
+    #[default(Some(TrackOutSpec::default()))]
     pub track_out: Option<TrackOutSpec>,
-}
-
-impl Default for MaintainSpec {
-    fn default() -> Self {
-        Self { track_in: TrackInSpec::default(), track_out: Some(TrackOutSpec::default()) }
-    }
 }
 
 /// Go-Home; it has no parameters.

@@ -11,6 +11,7 @@
 use crate::behave::{Passes, Stride};
 use crate::handoff::{Manoeuvre, Observation, Vertical};
 use nalgebra::Vector2;
+use smart_default::SmartDefault;
 use world::units::Heading;
 
 /// Distance from a point within which a picture counts as taken over it, m.
@@ -95,20 +96,16 @@ impl Holds {
 }
 
 /// The lines or points from which a place is looked at.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, SmartDefault, PartialEq)]
 pub(super) enum ViewPlan {
-    /// Along lines.
+    /// Along lines; by default none.
+    #[default]
     Lines(Passes),
     /// Over points.
     Points(Holds),
 }
 
 impl ViewPlan {
-    /// None.
-    pub(super) fn nothing() -> Self {
-        Self::Lines(Passes::default())
-    }
-
     /// One tick. `arrived` says whether the guidance has reached the last goal.
     pub(super) fn step(&mut self, seen: &Observation, arrived: bool) -> Stride {
         match self {

@@ -22,6 +22,7 @@ use crate::places::{MARGIN_M, inside};
 use crate::vision::Verifier;
 use crate::vision::place::{AddUpSpec, PlaceEvidence, PlacePictures, PlaceVerdict, SeenClarity, Stand};
 use nalgebra::{Vector2, Vector3};
+use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 use world::math;
@@ -80,12 +81,13 @@ impl Looks {
 }
 
 /// All pictures of a place, and the lines over it.
-#[derive(Debug)]
+#[derive(Debug, SmartDefault)]
 pub(super) struct PictureSum {
     spec: AddUpSpec,
     highest_m: f64,
     place: Option<PlacePictures>,
     told: Vector2<f64>,
+    #[default(Heading::from_deg(0.0))]
     along: Heading,
     weighed: Option<PlaceEvidence>,
     /// Sum of the jumps since the survey began, and mean of that sum over the fixes.
@@ -100,6 +102,7 @@ pub(super) struct PictureSum {
     lowest_m: f64,
     /// How far the vehicle came below the clearance, m.
     raised_m: f64,
+    #[default(FRAC_PI_2)]
     view_rad: f64,
     /// Where the camera's axis meets the bed, for each metre of height, ahead and to the left.
     looks_at: Vector2<f64>,
@@ -107,24 +110,8 @@ pub(super) struct PictureSum {
 
 impl PictureSum {
     fn new(spec: &AddUpSpec, highest_m: f64) -> Self {
-        Self {
-            spec: spec.clone(),
-            highest_m,
-            place: None,
-            told: Vector2::zeros(),
-            along: Heading::from_deg(0.0),
-            weighed: None,
-            jumped: Vector2::zeros(),
-            fixes: (0.0, Vector2::zeros()),
-            bed_m: VecDeque::new(),
-            held: false,
-            lines: 0,
-            altitude_m: highest_m,
-            lowest_m: highest_m,
-            raised_m: 0.0,
-            view_rad: FRAC_PI_2,
-            looks_at: Vector2::zeros(),
-        }
+        let (altitude_m, lowest_m) = (highest_m, highest_m);
+        Self { spec: spec.clone(), highest_m, altitude_m, lowest_m, ..Self::default() }
     }
 
     /// Begins with a told place; lines lie along `along`, against the flow. Points are `held` instead of lines.

@@ -19,14 +19,14 @@
 use super::holds::{Holding, Holds, ViewPlan};
 use super::looks::Looks;
 use super::spec::{AfterDeclaration, SurveySpec, Verify};
-use crate::behave::Passes;
-use crate::behave::Stride;
+use crate::behave::{Passes, Stride};
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Declaration, Observation, Verdict, Vertical};
 use crate::places::{MARGIN_M, inside};
 use crate::survey::{Object, Waterfall, detect, merge};
 use crate::vision::place::PlaceVerdict;
 use nalgebra::Vector2;
+use smart_default::SmartDefault;
 use std::f64::consts::FRAC_PI_2;
 use world::units::Heading;
 
@@ -43,15 +43,16 @@ pub enum Progress {
 }
 
 /// The passes being flown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum SurveyPhase {
+    #[default]
     None,
     Sidescan,
     Camera,
 }
 
 /// State of the time after declarations.
-#[derive(Debug)]
+#[derive(Debug, SmartDefault)]
 pub struct PostDeclaration {
     after: AfterDeclaration,
     /// What the camera has seen; `None` without passes for it.
@@ -60,6 +61,7 @@ pub struct PostDeclaration {
     made: u32,
     phase: SurveyPhase,
     declaration: Option<Declaration>,
+    #[default(Heading::from_deg(0.0))]
     along: Heading,
     flown: ViewPlan,
     /// Whether the places were told, and are not declared by the vehicle itself.
@@ -83,21 +85,7 @@ impl PostDeclaration {
             spec.check("strategy.after_declaration")?;
             looks = spec.camera.as_ref().map(Looks::new);
         }
-        Ok(Self {
-            after: after.clone(),
-            looks,
-            made: 0,
-            phase: SurveyPhase::None,
-            declaration: None,
-            along: Heading::from_deg(0.0),
-            flown: ViewPlan::nothing(),
-            told: false,
-            line: None,
-            objects: Vec::new(),
-            by_sidescan: None,
-            picture: false,
-            asked_s: None,
-        })
+        Ok(Self { after: after.clone(), looks, ..Self::default() })
     }
 
     /// The same for told places, which are surer than declared ones.
@@ -147,7 +135,7 @@ impl PostDeclaration {
         self.phase = phase;
         let holding = self.holding(seen).filter(|_| phase == SurveyPhase::Camera);
         self.flown = match (offsets, holding) {
-            (None, _) => ViewPlan::nothing(),
+            (None, _) => ViewPlan::default(),
             (Some((offsets, half_m)), None) => {
                 let area = &seen.area;
                 ViewPlan::Lines(Passes::over(place, self.along, &offsets, half_m, area))
@@ -163,7 +151,7 @@ impl PostDeclaration {
             && let Some(Looks::Added(added)) = &mut self.looks
         {
             added.begin(place, self.along, seen, holding.is_some());
-            self.flown = ViewPlan::nothing();
+            self.flown = ViewPlan::default();
             self.fly_on(seen);
         }
     }
@@ -191,7 +179,7 @@ impl PostDeclaration {
             Some(holding) => (added.next_point(seen)).map(|point| ViewPlan::Points(Holds::new(vec![point], holding))),
         };
         let some = next.is_some();
-        self.flown = next.unwrap_or_else(ViewPlan::nothing);
+        self.flown = next.unwrap_or_default();
         some
     }
 

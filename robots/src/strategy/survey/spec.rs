@@ -1,12 +1,13 @@
 //! Parameters of the time after a declaration.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::Need;
 use crate::survey::DetectSpec;
 use crate::vision::VerifierSpec;
 use crate::vision::place::AddUpSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{Finite, Positive};
 
 /// Most lines of either kind.
@@ -40,28 +41,22 @@ impl AfterDeclaration {
             Self::GoHome | Self::Stop => Vec::new(),
         }
     }
-
-    /// Whether passes are flown for sidescan and camera.
-    #[must_use]
-    pub fn flies_for(&self) -> [bool; 2] {
-        match self {
-            Self::Survey(spec) => spec.flies_for(),
-            Self::GoHome | Self::Stop => [false; 2],
-        }
-    }
 }
 
 /// A survey of a declared place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SurveySpec {
     /// Passes for the sidescan; its best object becomes the centre of the camera's passes.
+    #[default(Some(SidescanPasses::default()))]
     pub sidescan: Option<SidescanPasses>,
     /// Passes for the camera, after the sidescan's.
     pub camera: Option<CameraPasses>,
     /// What must have seen a source.
+    #[default(Verify::Sidescan)]
     pub verify: Verify,
     /// Points where the plume was lost are forgotten within this distance of a rejected place, m.
+    #[default(Positive::new(30.0))]
     pub forget_m: Positive,
 }
 
@@ -83,88 +78,54 @@ impl SurveySpec {
         }
         needs.into_iter().map(|n| n.within(path)).collect()
     }
-
-    /// Whether passes are flown for sidescan and camera.
-    #[must_use]
-    pub fn flies_for(&self) -> [bool; 2] {
-        [self.sidescan.is_some(), self.camera.is_some()]
-    }
-}
-
-impl Default for SurveySpec {
-    fn default() -> Self {
-        Self {
-            sidescan: Some(SidescanPasses::default()),
-            camera: None,
-            verify: Verify::Sidescan,
-            forget_m: Positive::new(30.0),
-        }
-    }
 }
 
 /// Lines for the sidescan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SidescanPasses {
     /// Distances of the lines from the place, across the flow, m; the lines lie along the flow.
+    #[default([-8.0, 8.0].map(Finite::new).into())]
     pub offsets_m: Vec<Finite>,
     /// Half their length, m.
+    #[default(Positive::new(30.0))]
     pub half_length_m: Positive,
     /// Height above the bed, m.
+    #[default(Positive::new(3.0))]
     pub altitude_m: Positive,
     /// An object counts only within this distance of the declared place, m.
+    #[default(Positive::new(30.0))]
     pub within_m: Positive,
     /// When a bright return counts as an object.
     pub detect: DetectSpec,
 }
 
-impl Default for SidescanPasses {
-    fn default() -> Self {
-        Self {
-            offsets_m: [-8.0, 8.0].map(Finite::new).into(),
-            half_length_m: Positive::new(30.0),
-            altitude_m: Positive::new(3.0),
-            within_m: Positive::new(30.0),
-            detect: DetectSpec::default(),
-        }
-    }
-}
-
 /// Lines for the camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraPasses {
     /// Distances of the lines from the place, across the flow, m.
+    #[default([Finite::new(0.0)].into())]
     pub offsets_m: Vec<Finite>,
     /// Half their length, m.
+    #[default(Positive::new(15.0))]
     pub half_length_m: Positive,
     /// Height above the bed, m.
+    #[default(Positive::new(2.0))]
     pub altitude_m: Positive,
     /// Time between two pictures, s.
+    #[default(Positive::new(1.0))]
     pub period_s: Positive,
     /// Pictures that a vehicle that hovers takes over each point that it holds, up to 50: over the points that
     /// `add_up` asks for, and over the middle of each line at a place that `Inspect` was told. Others fly lines; 0: all
     /// do.
+    #[default(10)]
     pub held_pictures: u32,
     /// When a picture shows a source.
     pub verifier: VerifierSpec,
     /// Adds up all pictures of the place instead; `offsets_m` and `verifier` are then not used, `altitude_m` is the
     /// highest altitude, and lines are flown where and as low as the pictures ask for.
     pub add_up: Option<AddUpSpec>,
-}
-
-impl Default for CameraPasses {
-    fn default() -> Self {
-        Self {
-            offsets_m: vec![Finite::new(0.0)],
-            half_length_m: Positive::new(15.0),
-            altitude_m: Positive::new(2.0),
-            period_s: Positive::new(1.0),
-            held_pictures: 10,
-            verifier: VerifierSpec::default(),
-            add_up: None,
-        }
-    }
 }
 
 /// Which instruments must have seen a source for a declaration to be verified; otherwise it is rejected. An
@@ -188,16 +149,15 @@ impl SurveySpec {
     /// # Errors
     /// Names the field below `path` and the legal values.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
-        let wrong =
-            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
+        let must = |holds: bool, field: &str, problem: String| require(holds, format!("{path}.{field}"), problem);
         let offsets = [
             ("sidescan", self.sidescan.as_ref().map(|p| &p.offsets_m)),
             ("camera", self.camera.as_ref().map(|p| &p.offsets_m)),
         ];
         for (part, offsets) in offsets {
-            if let Some(n) = offsets.map(Vec::len).filter(|n| *n == 0 || *n > MOST_LINES) {
+            if let Some(n) = offsets.map(Vec::len) {
                 let problem = format!("must have from 1 to {MOST_LINES} lines, got {n}");
-                return wrong(&format!("{part}.offsets_m"), problem);
+                must((1..=MOST_LINES).contains(&n), &format!("{part}.offsets_m"), problem)?;
             }
         }
         let (sonar, eyes) = (self.sidescan.is_some(), self.camera.is_some());
@@ -207,17 +167,13 @@ impl SurveySpec {
             Verify::Either => sonar || eyes,
             Verify::Both => sonar && eyes,
         };
-        if !flown {
-            let problem =
-                format!("{:?} needs passes that are not flown: add them, or choose another `verify`", self.verify);
-            return wrong("verify", problem);
-        }
+        let problem =
+            format!("{:?} needs passes that are not flown: add them, or choose another `verify`", self.verify);
+        must(flown, "verify", problem)?;
         match &self.camera {
             Some(c) => {
-                if c.held_pictures > MOST_HELD {
-                    let problem = format!("must be from 0 to {MOST_HELD}, got {}", c.held_pictures);
-                    return wrong("camera.held_pictures", problem);
-                }
+                let problem = format!("must be from 0 to {MOST_HELD}, got {}", c.held_pictures);
+                must(c.held_pictures <= MOST_HELD, "camera.held_pictures", problem)?;
                 c.verifier.check(&format!("{path}.camera.verifier"))?;
                 c.add_up.as_ref().map_or(Ok(()), |a| a.check(&format!("{path}.camera.add_up"), c.altitude_m.get()))
             }

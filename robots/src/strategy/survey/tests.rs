@@ -4,7 +4,7 @@ use super::*;
 use crate::behave::Stride;
 use crate::handoff::testing::{self, area, seen};
 use crate::handoff::{Behaviour, Declaration, Manoeuvre, Observation, Picture, Verdict, Vertical};
-use crate::sense::{OnBoard, Sidescan, SidescanSpec};
+use crate::sense::{EchoTarget, OnBoard, Sidescan, SidescanSpec};
 use crate::vision::place::AddUpSpec;
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -70,7 +70,8 @@ fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) 
         o.estimate.altitude_m = Some(altitude);
         let p = o.estimate.position - off;
         let truth = Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, altitude - 8.0), o.estimate.attitude.heading));
-        o.sidescan = (sea.sonar).then(|| sonar.read(&clock, &truth, &sea.solids, &BED, true)).flatten();
+        let target = EchoTarget { terrain: &BED, obstacles: &sea.solids };
+        o.sidescan = (sea.sonar).then(|| sonar.read(&clock, &truth, &target, true)).flatten();
         let progress = post.step(o, arrived);
         o.picture = None;
         if post.picture() {

@@ -8,6 +8,7 @@
 //! full thrust off at most.
 
 use super::spec::CurveSpec;
+use crate::error::ensure;
 use crate::handoff::ThrustTable;
 
 /// Pieces of a polynomial on each side of zero.
@@ -21,17 +22,17 @@ pub(in crate::vehicles) fn table(spec: &CurveSpec) -> Result<ThrustTable, String
     let points: Vec<(f64, f64)> = match spec {
         CurveSpec::Newtons((astern, ahead)) => {
             let (astern, ahead) = (astern.get(), ahead.get());
-            if !(astern <= 0.0 && ahead >= 0.0 && ahead > astern) {
-                return Err(format!("Newtons: must go from a thrust <= 0 to a thrust >= 0, got {astern} to {ahead}"));
-            }
+            ensure(astern <= 0.0 && ahead >= 0.0 && ahead > astern, || {
+                format!("Newtons: must go from a thrust <= 0 to a thrust >= 0, got {astern} to {ahead}")
+            })?;
             vec![(astern, astern), (ahead, ahead)]
         }
         CurveSpec::Table(pairs) => pairs.iter().map(|(i, n)| (i.get(), n.get())).collect(),
         CurveSpec::Polynomial((c_1, c_2, from, to)) => {
             let (from, to) = (from.get(), to.get());
-            if !(from <= 0.0 && to >= 0.0 && to > from) {
-                return Err(format!("Polynomial: must go from an input <= 0 to an input >= 0, got {from} to {to}"));
-            }
+            ensure(from <= 0.0 && to >= 0.0 && to > from, || {
+                format!("Polynomial: must go from an input <= 0 to an input >= 0, got {from} to {to}")
+            })?;
             let at = |n: f64| (n, c_1.get() * n * n.abs() + c_2.get() * n);
             let share = |k: usize| k as f64 / PIECES as f64;
             let below = (1..=PIECES).rev().map(|k| from * share(k));
@@ -47,15 +48,15 @@ pub(in crate::vehicles) fn table(spec: &CurveSpec) -> Result<ThrustTable, String
     }
     for pair in points.windows(2) {
         let [(i, n), (j, m)] = [pair[0], pair[1]];
-        if j <= i || m < n {
-            return Err(format!("inputs must rise and thrusts must not fall, but {i} gives {n} N and {j} gives {m} N"));
-        }
+        ensure(j > i && m >= n, || {
+            format!("inputs must rise and thrusts must not fall, but {i} gives {n} N and {j} gives {m} N")
+        })?;
     }
     let table = ThrustTable(points);
     let [least, most] = table.thrusts_n();
-    if least > 0.0 || most < 0.0 || most == least {
-        return Err(format!("thrusts must include zero, got {least} to {most} N"));
-    }
+    ensure(least <= 0.0 && most >= 0.0 && most != least, || {
+        format!("thrusts must include zero, got {least} to {most} N")
+    })?;
     Ok(table)
 }
 

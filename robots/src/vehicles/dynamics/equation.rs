@@ -16,6 +16,7 @@
 //! *Deviations:* a hull partly out of the water keeps its added mass; buoyancy falls with the share under water, and
 //! the terms say how they do.
 
+use super::axes::{flip, turned};
 use super::body::{Body, coriolis};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
@@ -70,10 +71,20 @@ pub(in crate::vehicles) enum Stage {
     End,
 }
 
+/// A state of drives that the integrator carries along.
+pub(in crate::vehicles) trait Carried: Copy {
+    /// The state after `h` seconds at a rate.
+    fn moved(&self, rate: &Self, h: f64) -> Self;
+}
+
+impl Carried for () {
+    fn moved(&self, (): &Self, _: f64) -> Self {}
+}
+
 /// Forces of the water on a hull and of its drives, during one step.
 pub(in crate::vehicles) trait Terms {
     /// State of the drives, as far as the integrator carries it.
-    type Drives: super::motion::Carried;
+    type Drives: Carried;
 
     /// Force and moment about the origin, FRD, with those of the added mass's Coriolis term.
     fn forces(&self, body: &Body, at: &Relative, drives: &Self::Drives, stage: Stage) -> (Vector3<f64>, Vector3<f64>);
@@ -87,18 +98,6 @@ pub(in crate::vehicles) trait Terms {
 pub(in crate::vehicles) struct Equation {
     pub(in crate::vehicles) body: Body,
     inverse_mass: Matrix6<f64>,
-}
-
-/// FLU to FRD and back: y and z change sign, also of angular vectors (a half turn about x). A zero becomes +0: the
-/// published REMUS model starts from it, and in a following current atan2(±0, −u) is ±π.
-pub(in crate::vehicles) fn flip(v: Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, 0.0 - v.y, 0.0 - v.z)
-}
-
-/// A block of FLU in FRD, and back. A zero stays +0.
-pub(in crate::vehicles) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
-    let turns = |k: usize| !k.is_multiple_of(3);
-    Matrix6::from_fn(|i, j| if turns(i) == turns(j) { block[(i, j)] } else { 0.0 - block[(i, j)] })
 }
 
 impl Equation {

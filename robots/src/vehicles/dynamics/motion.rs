@@ -8,22 +8,12 @@
 //! current is turned by yaw only, the step is done in axes that move with the sampled water: a uniform current then
 //! changes nothing but the drift, to the last bits (Galilean invariance).
 
-use super::equation::{Equation, HullWater, Stage, Terms};
+use super::equation::{Carried, Equation, HullWater, Stage, Terms};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 
-/// A state of drives that the integrator carries along.
-pub(in crate::vehicles) trait Carried: Copy {
-    /// The state after `h` seconds at a rate.
-    fn moved(&self, rate: &Self, h: f64) -> Self;
-}
-
 /// Nothing to carry: the drives are known at every instant of the step.
-impl Carried for () {
-    fn moved(&self, (): &Self, _: f64) -> Self {}
-}
-
 #[derive(Clone, Copy)]
 struct State<D> {
     p: Vector3<f64>,

@@ -8,7 +8,7 @@
 //! *Deviations:* the wetted share of a part is taken as linear in its draught (an error of at most 6 % of a round
 //! slice), and boxes stay upright when the hull heels; no waves at the surface.
 
-use super::equation::flip;
+use super::axes::flip;
 use nalgebra::Vector3;
 use world::frames::Pose;
 use world::physics::Shape;

@@ -7,6 +7,7 @@
 //!
 //! *Deviations:* a document type is refused, and with it all entities of a file's own.
 
+use crate::error::ensure;
 use nalgebra::Matrix6;
 use roxmltree::{Document, Error, ParsingOptions};
 use std::collections::BTreeMap;
@@ -34,9 +35,9 @@ const LONGEST_QUOTE: usize = 80;
 /// # Errors
 /// If it is not XML, or beyond a limit; with the line.
 pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
-    if text.matches("xmlns").count() > MOST_NAMESPACES {
-        return Err(format!("\"xmlns\" occurs more than {MOST_NAMESPACES} times"));
-    }
+    ensure(text.matches("xmlns").count() <= MOST_NAMESPACES, || {
+        format!("\"xmlns\" occurs more than {MOST_NAMESPACES} times")
+    })?;
     check_tags(text)?;
     let limits = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text, limits).map_err(|e| match e {
@@ -192,13 +193,11 @@ impl Report {
     /// All numbers of an element; finite.
     pub(super) fn numbers(&self, node: Node<'_>) -> Result<Vec<f64>, String> {
         let number = |word: &str| {
-            if word.len() > LONGEST_NUMBER {
-                return Err(format!("\"{}\" is no number of at most {LONGEST_NUMBER} characters", quote(word)));
-            }
+            ensure(word.len() <= LONGEST_NUMBER, || {
+                format!("\"{}\" is no number of at most {LONGEST_NUMBER} characters", quote(word))
+            })?;
             let value: f64 = (word.parse()).map_err(|_| format!("\"{word}\" is not a number"))?;
-            if !(value.abs() <= GREATEST) {
-                return Err(format!("must be from -{GREATEST:e} to {GREATEST:e}, got {word}"));
-            }
+            ensure(value.abs() <= GREATEST, || format!("must be from -{GREATEST:e} to {GREATEST:e}, got {word}"))?;
             Ok(value)
         };
         let words = self.text_of(node, None)?;

@@ -8,6 +8,7 @@
 //! *Deviations:* none.
 
 use super::blocks::Damping;
+use crate::error::ensure;
 use crate::vehicles::dynamics::Body;
 use nalgebra::{Matrix6, SymmetricEigen};
 
@@ -28,8 +29,8 @@ pub(super) fn symmetric(added: &Matrix6<f64>, told: &mut Vec<String>) -> Result<
             let apart = (added[(i, j)] - added[(j, i)]).abs();
             // A product of inertia is compared with the geometric mean: kg m with the root of kg and kg m².
             let scale = (added[(i, i)] * added[(j, j)]).abs().sqrt();
-            if apart > ASYMMETRIC * scale && apart > ROUNDING {
-                return Err(format!(
+            ensure(apart <= ASYMMETRIC * scale || apart <= ROUNDING, || {
+                format!(
                     "hydrodynamics.added_mass: must be symmetric, but row {} column {} is {} and row {} column {} is {}",
                     i + 1,
                     j + 1,
@@ -37,8 +38,8 @@ pub(super) fn symmetric(added: &Matrix6<f64>, told: &mut Vec<String>) -> Result<
                     j + 1,
                     i + 1,
                     added[(j, i)]
-                ));
-            }
+                )
+            })?;
             if apart > ROUNDING * scale {
                 told.push(format!(
                     "hydrodynamics.added_mass is not quite symmetric ({} against {}, {} and {}): the mean is used",
@@ -61,14 +62,14 @@ pub(super) fn resists(damping: &Damping, told: &mut Vec<String>) -> Result<(), S
         ("forward_damping", &damping.forward),
     ] {
         for k in 0..6 {
-            if block[(k, k)] < 0.0 {
-                return Err(format!(
+            ensure(block[(k, k)] >= 0.0, || {
+                format!(
                     "hydrodynamics.{name}: {} must be >= 0, got {}: positive damping resists (force = -D v), so change \
                      the signs of a table that prints forces",
                     DIRECTIONS[k],
                     block[(k, k)]
-                ));
-            }
+                )
+            })?;
         }
         let even = (block + block.transpose()) / 2.0;
         let eigen = SymmetricEigen::new(even).eigenvalues;

@@ -7,6 +7,7 @@
 //! *Deviations:* a drive acts along the axis of the joint that carries its link, as in gz-sim's Thruster plugin. URDF
 //! says that a fixed joint has none: there the drive acts along an axis of the link.
 
+use crate::error::ensure;
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::drives::{Drive, DriveSpec, Fin, Follows, Kind, Thruster, table};
 use crate::vehicles::dynamics::flip;
@@ -17,9 +18,7 @@ use world::spelling::choose;
 
 /// The drives on their links.
 pub(super) fn drives(specs: &[DriveSpec], shell: &Shell, told: &mut Vec<String>) -> Result<Vec<Drive>, String> {
-    if specs.len() > MOST_DRIVES {
-        return Err(format!("drives: at most {MOST_DRIVES}, got {}", specs.len()));
-    }
+    ensure(specs.len() <= MOST_DRIVES, || format!("drives: at most {MOST_DRIVES}, got {}", specs.len()))?;
     let mut all = Vec::new();
     for (k, spec) in specs.iter().enumerate() {
         let mut doubts = Vec::new();

@@ -14,7 +14,7 @@ use super::folder_vehicle::{FolderVehicle, Rates};
 use super::hull_blocks::{HullBlocks, given};
 use super::plant;
 use super::spec::VehicleFile;
-use crate::error::RobotError;
+use crate::error::{RobotError, ensure};
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::dynamics::{Body, Equation, Mass, cells_of, flip, turned};
 use crate::vehicles::files::Files;
@@ -96,19 +96,19 @@ fn rigid(shell: &Shell) -> Result<Mass, String> {
     let body = &shell.body;
     let moments = SymmetricEigen::new(inertia).eigenvalues;
     let least = moments.min();
-    if least <= 0.0 {
-        return Err(format!(
+    ensure(least > 0.0, || {
+        format!(
             "link \"{body}\": <inertia> must be positive in every direction, but its least moment is {least:.3e} kg m2"
-        ));
-    }
+        )
+    })?;
     let [a, b, c] = [moments.x, moments.y, moments.z];
     let worst = (a - b - c).max(b - a - c).max(c - a - b);
-    if worst > 1e-6 * moments.max() {
-        return Err(format!(
+    ensure(worst <= 1e-6 * moments.max(), || {
+        format!(
             "link \"{body}\": no body has moments of inertia of {a:.3e}, {b:.3e} and {c:.3e} kg m2, because one is \
              greater than the sum of the others"
-        ));
-    }
+        )
+    })?;
     let half_turn = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
     Ok(Mass::about_centre(kg, flip(p_BG), &(half_turn * inertia * half_turn)))
 }
@@ -123,12 +123,12 @@ fn hull(given: &HullBlocks, mass: &Mass, shell: &Shell, told: &mut Vec<String>) 
     let added = symmetric(&given.added.unwrap_or_else(Matrix6::zeros), told)?;
     let whole = mass.matrix() + added;
     let least = SymmetricEigen::new(whole).eigenvalues.min();
-    if least <= 0.0 {
-        return Err(format!(
+    ensure(least > 0.0, || {
+        format!(
             "hydrodynamics.added_mass: mass and added mass together must be positive in every direction, but their \
              least eigenvalue is {least:.3e}"
-        ));
-    }
+        )
+    })?;
     if SymmetricEigen::new(added).eigenvalues.min() < -1e-9 * added.amax() {
         told.push(
             "hydrodynamics.added_mass is negative in some direction: water that moves along gives energy away".into(),

@@ -153,10 +153,7 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
             least_speed_m_s: spec.least_speed_m_s(),
             top_speed_m_s,
             turning_radius_m: turning_m(spec.turn_radius_m, spec.design_speed_m_s.get(), spec.heading_rate_deg_s),
-            hovers: false,
-            sideways: false,
-            dives: true,
-            holds_depth: true,
+            ..Capabilities::default()
         },
         PilotSpec::Glider(spec) => {
             let speed = glide_m_s(plant, spec.pitch_deg.get(), spec.volume_share.get());
@@ -164,10 +161,8 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
                 least_speed_m_s: 0.5 * speed,
                 top_speed_m_s: speed,
                 turning_radius_m: turning_m(spec.turn_radius_m, speed, spec.heading_rate_deg_s),
-                hovers: false,
-                sideways: false,
-                dives: true,
                 holds_depth: false,
+                ..Capabilities::default()
             }
         }
     }

@@ -6,7 +6,6 @@ use crate::error::RobotError;
 use crate::vehicles::files::Files;
 use crate::vehicles::urdf_parts::UrdfText;
 use std::path::{Path, PathBuf};
-use world::encoding;
 
 /// A vehicle that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -63,11 +62,6 @@ impl Files for BuiltIn<'_> {
             .ok_or_else(|| "there is no such file".into())
     }
 
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
-        let bytes = self.bytes(name, most_bytes)?;
-        encoding::text(&bytes)
-    }
-
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
         self.reader.vehicle(path, text)
     }
@@ -99,10 +93,10 @@ pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Fold
 fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotError> {
     let Some(shipped) = ShippedVehicle::named(name) else {
         let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
-        return Err(RobotError::Invalid {
-            field: "vehicle".into(),
-            problem: format!("no vehicle \"{name}\" comes with the program; there are {}", names.join(", ")),
-        });
+        return Err(RobotError::invalid(
+            "vehicle",
+            format!("no vehicle \"{name}\" comes with the program; there are {}", names.join(", ")),
+        ));
     };
     Ok(BuiltIn { shipped, reader })
 }

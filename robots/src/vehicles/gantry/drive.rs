@@ -20,7 +20,7 @@ use world::seeds::Stream;
 const CUT: f64 = 3.0;
 
 /// Limits of an axis in the URDF.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct AxisLimits {
     pub(super) travel_m: [f64; 2],
     pub(super) speed_m_s: f64,
@@ -28,7 +28,7 @@ pub(super) struct AxisLimits {
 }
 
 /// Drive of one axis and its state. Positions of motor and encoder are without the carriage's error.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Drive {
     limits: AxisLimits,
     /// The profile's position, m, and speed, m/s.
@@ -50,20 +50,7 @@ pub(super) struct Drive {
 
 impl Drive {
     pub(super) fn new(limits: AxisLimits) -> Self {
-        Self {
-            limits,
-            at_m: 0.0,
-            speed_m_s: 0.0,
-            target_m: 0.0,
-            limit_m_s: 0.0,
-            error_from_m: 0.0,
-            error_to_m: 0.0,
-            began_m: 0.0,
-            direction: 0.0,
-            lagging_s: 0.0,
-            encoder_m: 0.0,
-            dt_s: 0.0,
-        }
+        Self { limits, ..Self::default() }
     }
 
     /// Takes the axis's present place as known and as target.

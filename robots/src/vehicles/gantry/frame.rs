@@ -12,7 +12,7 @@
 
 use super::super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use super::drive::AxisLimits;
-use crate::error::RobotError;
+use crate::error::{RobotError, ensure};
 use crate::handoff::{MAX_PROBES, ProbeMount};
 use nalgebra::Vector3;
 use urdf_rs::{Joint, JointLimit, JointType, Robot};
@@ -58,24 +58,24 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
     let moving = chain(&robot)?;
     let links = place(&robot, base)?;
     let part = |link: &str| part_of(&robot, &moving, link);
-    if part(&moving[1].parent.link) != 1 {
-        return Err(format!(
+    ensure(part(&moving[1].parent.link) == 1, || {
+        format!(
             "joint \"{}\" is not carried by joint \"{}\": the base must carry one slide, and that slide the other",
             moving[1].name, moving[0].name
-        ));
-    }
+        )
+    })?;
     let slide = |k: usize| -> Result<Slide, String> {
         let joint = moving[k];
         let (axis, sign) = along(joint, &links[&joint.child.link])?;
         Ok(Slide { joint: joint.name.clone(), axis, sign, limits: limits(joint)?, mass_kg: 0.0, shapes: Vec::new() })
     };
     let mut slides = [slide(0)?, slide(1)?];
-    if slides[0].axis == slides[1].axis {
-        return Err(format!(
+    ensure(slides[0].axis != slides[1].axis, || {
+        format!(
             "joints \"{}\" and \"{}\" are parallel: one must lie along x of \"{base}\", the other along y",
             moving[0].name, moving[1].name
-        ));
-    }
+        )
+    })?;
     let head = &moving[1].child.link;
     let head_B = links[head].p_WB;
     let mut base_shapes = Vec::new();
@@ -102,23 +102,17 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
             }
         }
         if name.starts_with(PROBE) {
-            if on != 2 {
-                return Err(format!("link \"{name}\" is a probe, but not fixed to the head \"{head}\""));
-            }
+            ensure(on == 2, || format!("link \"{name}\" is a probe, but not fixed to the head \"{head}\""))?;
             probes.push(ProbeMount { name: name.clone(), offset_m: at.p_WB - head_B });
         }
     }
-    if probes.is_empty() {
-        return Err(format!("no probe: no link whose name begins with \"{PROBE}\" is fixed to the head \"{head}\""));
-    }
-    if probes.len() > MAX_PROBES {
-        return Err(format!("{} probes, but at most {MAX_PROBES} are possible", probes.len()));
-    }
-    if slides[1].shapes.is_empty() {
-        return Err(format!(
-            "link \"{head}\" has no <collision>, nor has any link fixed to it: it could not touch anything"
-        ));
-    }
+    ensure(!probes.is_empty(), || {
+        format!("no probe: no link whose name begins with \"{PROBE}\" is fixed to the head \"{head}\"")
+    })?;
+    ensure(probes.len() <= MAX_PROBES, || format!("{} probes, but at most {MAX_PROBES} are possible", probes.len()))?;
+    ensure(!slides[1].shapes.is_empty(), || {
+        format!("link \"{head}\" has no <collision>, nor has any link fixed to it: it could not touch anything")
+    })?;
     Ok(Frame { base_shapes, slides, head_B, probes })
 }
 
@@ -175,12 +169,9 @@ fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
 fn along(joint: &Joint, child_B: &Pose) -> Result<(usize, f64), String> {
     let given = Vector3::from(joint.axis.xyz.0);
     let length = given.norm();
-    if !(length > 0.0 && length.is_finite()) {
-        return Err(format!(
-            "joint \"{}\": <axis> must have a length > 0, got {} {} {}",
-            joint.name, given.x, given.y, given.z
-        ));
-    }
+    ensure(length > 0.0 && length.is_finite(), || {
+        format!("joint \"{}\": <axis> must have a length > 0, got {} {} {}", joint.name, given.x, given.y, given.z)
+    })?;
     let along_B = child_B.R_WB * (given / length);
     for axis in 0..2 {
         if 1.0 - along_B[axis].abs() < SKEW * SKEW {
@@ -195,16 +186,12 @@ fn along(joint: &Joint, child_B: &Pose) -> Result<(usize, f64), String> {
 
 fn limits(joint: &Joint) -> Result<AxisLimits, String> {
     let (name, l) = (&joint.name, &joint.limit);
-    if *l == JointLimit::default() {
-        return Err(format!("joint \"{name}\" has no <limit>"));
-    }
-    if !(l.lower.is_finite() && l.upper.is_finite() && l.lower < l.upper) {
-        return Err(format!("joint \"{name}\", limit: lower must be less than upper, got {} and {}", l.lower, l.upper));
-    }
+    ensure(*l != JointLimit::default(), || format!("joint \"{name}\" has no <limit>"))?;
+    ensure(l.lower.is_finite() && l.upper.is_finite() && l.lower < l.upper, || {
+        format!("joint \"{name}\", limit: lower must be less than upper, got {} and {}", l.lower, l.upper)
+    })?;
     for (what, v, unit) in [("velocity", l.velocity, "m/s"), ("effort", l.effort, "N")] {
-        if !(v > 0.0 && v.is_finite()) {
-            return Err(format!("joint \"{name}\", limit: {what} must be > 0 {unit}, got {v}"));
-        }
+        ensure(v > 0.0 && v.is_finite(), || format!("joint \"{name}\", limit: {what} must be > 0 {unit}, got {v}"))?;
     }
     Ok(AxisLimits { travel_m: [l.lower, l.upper], speed_m_s: l.velocity, effort_N: l.effort })
 }

@@ -12,7 +12,7 @@ use super::super::urdf_parts::UrdfText;
 use super::drive::Drive;
 use super::frame::{self, Frame};
 use super::spec::{CrabGantrySpec, GantrySpec};
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use crate::handoff::{GantryDecision, GantryLayout, JointReadings};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
@@ -45,30 +45,27 @@ impl Gantry {
     pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
         let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
-        let invalid = |field: &str, problem: String| RobotError::Invalid { field: field.into(), problem };
-        if spec.settle_m.get() < spec.encoder_m.get() {
-            return Err(invalid(
-                "settle_m",
-                format!(
-                    "must be at least encoder_m, {} m, got {}: the encoder cannot resolve less",
-                    spec.encoder_m.get(),
-                    spec.settle_m.get()
-                ),
-            ));
-        }
+        require(
+            spec.settle_m.get() >= spec.encoder_m.get(),
+            "settle_m",
+            format!(
+                "must be at least encoder_m, {} m, got {}: the encoder cannot resolve less",
+                spec.encoder_m.get(),
+                spec.settle_m.get()
+            ),
+        )?;
         let [first, second] = &frame.slides;
         for (slide, mass_kg) in [(first, first.mass_kg + second.mass_kg), (second, second.mass_kg)] {
             let (a, effort_N) = (spec.acceleration_m_s2.get(), slide.limits.effort_N);
-            if a * mass_kg > effort_N {
-                return Err(invalid(
-                    "acceleration_m_s2",
-                    format!(
-                        "must be at most {} m/s2, got {a}: joint \"{}\" has {effort_N} N for {mass_kg} kg",
-                        effort_N / mass_kg,
-                        slide.joint
-                    ),
-                ));
-            }
+            require(
+                a * mass_kg <= effort_N,
+                "acceleration_m_s2",
+                format!(
+                    "must be at most {} m/s2, got {a}: joint \"{}\" has {effort_N} N for {mass_kg} kg",
+                    effort_N / mass_kg,
+                    slide.joint
+                ),
+            )?;
         }
         let drives = [Drive::new(first.limits), Drive::new(second.limits)];
         Ok(Self { spec: spec.clone(), frame, drives, homed: false, latest: None, blocked: false, halted: false })
@@ -80,16 +77,9 @@ impl Gantry {
     /// If the position gain is too great for it.
     pub fn check_step(&self, dt_s: f64) -> Result<(), RobotError> {
         let most = MAX_GAIN_STEP / dt_s;
-        if self.spec.position_gain_per_s.get() <= most {
-            return Ok(());
-        }
-        Err(RobotError::Invalid {
-            field: "position_gain_per_s".into(),
-            problem: format!(
-                "must be at most {most} 1/s at a step of {dt_s} s, got {}",
-                self.spec.position_gain_per_s.get()
-            ),
-        })
+        let gain = self.spec.position_gain_per_s.get();
+        let problem = format!("must be at most {most} 1/s at a step of {dt_s} s, got {gain}");
+        require(gain <= most, "position_gain_per_s", problem)
     }
 
     /// The body for the physics, with its base at `base` (x up-stream, y to the left, z = 0 on the bed) and the head
@@ -100,12 +90,11 @@ impl Gantry {
     pub fn body_spec(&self, id: &str, base: &Pose, start_m: Vector2<f64>) -> Result<GantryBodySpec, RobotError> {
         let travel_m = self.travel_m();
         for (k, [low, high]) in travel_m.into_iter().enumerate() {
-            if !(low..=high).contains(&start_m[k]) {
-                return Err(RobotError::Invalid {
-                    field: format!("start.{}", ["forward_m", "left_m"][k]),
-                    problem: format!("must be from {low} to {high} m, got {}", start_m[k]),
-                });
-            }
+            require(
+                (low..=high).contains(&start_m[k]),
+                format!("start.{}", ["forward_m", "left_m"][k]),
+                format!("must be from {low} to {high} m, got {}", start_m[k]),
+            )?;
         }
         let axis = |k: usize| {
             let slide = &self.frame.slides[k];

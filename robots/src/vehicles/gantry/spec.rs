@@ -2,64 +2,52 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
 
 /// Which gantry.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum GantrySpec {
     /// The gantry of the blue-crab tracker, or another one with two level slides.
+    #[default]
     CrabGantry(CrabGantrySpec),
-}
-
-impl Default for GantrySpec {
-    fn default() -> Self {
-        GantrySpec::CrabGantry(CrabGantrySpec::default())
-    }
 }
 
 /// A gantry: the URDF describes its frame, these numbers its drives. Travel, greatest speeds, greatest forces,
 /// masses, shapes and probes are in the URDF. Of the drives, the paper gives only the speeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabGantrySpec {
     /// URDF file, relative to the scenario file; `None`: the built-in one, which `rheotaxis init --gantry` writes.
     pub urdf: Option<String>,
     /// Acceleration and braking of each axis, m/s²: top speed within 0.3 s.
+    #[default(Positive::new(0.5))]
     pub acceleration_m_s2: Positive,
     /// Standard deviation of the place where a move ends, drawn for each move and axis, m. Two of them are 0.1 mm,
     /// the order of the ± 0.05 to 0.2 mm that makers of belt-driven rodless units state as repeatability.
+    #[default(NonNegative::new(5e-5))]
     pub repeatability_m: NonNegative,
     /// Lost motion between motor and carriage on reversal, m: 0 for a preloaded belt or screw.
+    #[default(NonNegative::new(0.0))]
     pub backlash_m: NonNegative,
     /// One count of the encoder at the carriage, m: 8000 counts per turn of a belt pulley of 80 mm.
+    #[default(Positive::new(1e-5))]
     pub encoder_m: Positive,
     /// Position loop: speed per metre of error, 1/s.
+    #[default(Positive::new(10.0))]
     pub position_gain_per_s: Positive,
     /// Time constant of the speed loop, s.
+    #[default(Positive::new(0.005))]
     pub response_s: Positive,
     /// A target counts as reached when the encoder is this close to it, m (CiA 402, object 6067h).
+    #[default(Positive::new(2e-4))]
     pub settle_m: Positive,
     /// Greatest following error, m (CiA 402, object 6065h).
+    #[default(Positive::new(0.005))]
     pub following_error_m: Positive,
     /// How long the following error may be greater before the drive stops and reports `blocked`, s (CiA 402, object
     /// 6066h).
+    #[default(NonNegative::new(0.1))]
     pub following_time_s: NonNegative,
-}
-
-impl Default for CrabGantrySpec {
-    fn default() -> Self {
-        Self {
-            urdf: None,
-            acceleration_m_s2: Positive::new(0.5),
-            repeatability_m: NonNegative::new(5e-5),
-            backlash_m: NonNegative::new(0.0),
-            encoder_m: Positive::new(1e-5),
-            position_gain_per_s: Positive::new(10.0),
-            response_s: Positive::new(0.005),
-            settle_m: Positive::new(2e-4),
-            following_error_m: Positive::new(0.005),
-            following_time_s: NonNegative::new(0.1),
-        }
-    }
 }

@@ -10,16 +10,8 @@ use super::coefficients::Coefficients;
 use crate::handoff::ActuatorCommand;
 use crate::vehicles::dynamics::Carried;
 
-/// State of the actuators.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Actuators {
-    /// Rudder, positive turns to starboard, rad.
-    pub rudder_rad: f64,
-    /// Stern plane, positive pitches the nose down, rad.
-    pub stern_rad: f64,
-    /// Propeller, rpm.
-    pub rpm: f64,
-}
+/// State of the actuators: what they would do if it was commanded.
+pub type Actuators = ActuatorCommand;
 
 impl Carried for Actuators {
     fn moved(&self, rate: &Self, h: f64) -> Self {
@@ -44,8 +36,7 @@ impl Actuators {
 
     /// The commanded state, limited unless the limits act on the state.
     pub(in crate::vehicles) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
-        let asked = Self { rudder_rad: command.rudder_rad, stern_rad: command.stern_rad, rpm: command.rpm };
-        if c.limits_on_state { asked } else { asked.limited(c) }
+        if c.limits_on_state { *command } else { command.limited(c) }
     }
 
     /// Rate of change of each towards the command, per second.

@@ -1,54 +1,48 @@
 //! Parameters of adding up the pictures of a place.
 
-use crate::error::RobotError;
+use crate::error::{RobotError, require};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use smart_default::SmartDefault;
 use world::ranges::Positive;
 
 /// How the pictures of a place are added up to one answer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AddUpSpec {
     /// A source may be as far as this from the told place, m: the error of that place and of the navigation, from 0.5
     /// to 20.
+    #[default(Positive::new(3.0))]
     pub within_m: Positive,
     /// Side of the cells of the ground, m, from 0.05 to 0.25.
+    #[default(Positive::new(0.1))]
     pub cell_m: Positive,
     /// Largest shift of a picture against those before it that overlap is searched for, m, at most 3.
+    #[default(Positive::new(1.0))]
     pub shift_m: Positive,
     /// Standard deviation of the bed's brightness from cell to cell, as a share of its mean; from 0.01 to 1. The
     /// clearness of the water is read from how much of it the pictures show.
+    #[default(Positive::new(0.18))]
     pub bed_texture: Positive,
     /// Verified from this natural logarithm of the Bayes factor on: 4.6 is a hundred to one. At least 1.
+    #[default(Positive::new(4.6))]
     pub verify_at: Positive,
     /// Rejected from this natural logarithm of the Bayes factor against a source on: 3 is twenty to one. At least 1.
+    #[default(Positive::new(3.0))]
     pub reject_at: Positive,
     /// The vehicle goes as high as this share of the bed's contrast arrives, for a wide picture; from 0.05 to 0.95.
+    #[default(Positive::new(0.3))]
     pub contrast_left: Positive,
     /// No line is planned lower than this above the bed, m; at least 0.5 and at most the camera's `altitude_m`.
+    #[default(Positive::new(1.4))]
     pub least_altitude_m: Positive,
     /// Height above bed or body that the vehicle keeps, m: lines are raised by as much as the altimeter has shown less
     /// of it. From 0.2 to `least_altitude_m`.
+    #[default(Positive::new(0.6))]
     pub clearance_m: Positive,
     /// Most lines flown over a place, from 1 to 32.
+    #[default(8)]
     pub most_lines: u32,
-}
-
-impl Default for AddUpSpec {
-    fn default() -> Self {
-        Self {
-            within_m: Positive::new(3.0),
-            cell_m: Positive::new(0.1),
-            shift_m: Positive::new(1.0),
-            bed_texture: Positive::new(0.18),
-            verify_at: Positive::new(4.6),
-            reject_at: Positive::new(3.0),
-            contrast_left: Positive::new(0.3),
-            least_altitude_m: Positive::new(1.4),
-            clearance_m: Positive::new(0.6),
-            most_lines: 8,
-        }
-    }
 }
 
 impl AddUpSpec {
@@ -66,28 +60,19 @@ impl AddUpSpec {
             ("reject_at", self.reject_at, 1.0, 20.0),
             ("contrast_left", self.contrast_left, 0.05, 0.95),
         ];
-        let wrong =
-            |field: &str, problem: String| Err(RobotError::Invalid { field: format!("{path}.{field}"), problem });
+        let must = |holds: bool, field: &str, problem: String| require(holds, format!("{path}.{field}"), problem);
         for (field, value, least, most) in ranges {
             let value = value.get();
-            if !(least..=most).contains(&value) {
-                return wrong(field, format!("must be from {least} to {most}, got {value}"));
-            }
+            must((least..=most).contains(&value), field, format!("must be from {least} to {most}, got {value}"))?;
         }
         let least = self.least_altitude_m.get();
-        if !(0.5..=altitude_m).contains(&least) {
-            let range = format!("must be from 0.5 to the camera's altitude_m, {altitude_m}");
-            return wrong("least_altitude_m", format!("{range}, got {least}"));
-        }
+        let range = format!("must be from 0.5 to the camera's altitude_m, {altitude_m}");
+        must((0.5..=altitude_m).contains(&least), "least_altitude_m", format!("{range}, got {least}"))?;
         let clearance = self.clearance_m.get();
-        if !(0.2..=least).contains(&clearance) {
-            let range = format!("must be from 0.2 to least_altitude_m, {least}");
-            return wrong("clearance_m", format!("{range}, got {clearance}"));
-        }
-        if !(1..=32).contains(&self.most_lines) {
-            let range = "must be from 1 to 32";
-            return wrong("most_lines", format!("{range}, got {}", self.most_lines));
-        }
+        let range = format!("must be from 0.2 to least_altitude_m, {least}");
+        must((0.2..=least).contains(&clearance), "clearance_m", format!("{range}, got {clearance}"))?;
+        let range = "must be from 1 to 32";
+        must((1..=32).contains(&self.most_lines), "most_lines", format!("{range}, got {}", self.most_lines))?;
         Ok(())
     }
 }

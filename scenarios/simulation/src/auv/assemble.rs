@@ -17,7 +17,7 @@ use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::actuate::Pilot;
 use robots::error::RobotError;
-use robots::estimate::{Estimator, Start};
+use robots::estimate::Start;
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
@@ -103,7 +103,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
     let start = Start { position: fix, heading, depth_m: -p_W.z };
     // A first estimate from the data of the launch alone; the estimator itself starts with the first tick.
-    let estimate = Estimator::new(&spec.estimator, start, dt_s).step(&Clock::new(dt_s), &Readings::default());
+    let estimate = spec.estimator.build(start, dt_s).step(&Clock::new(dt_s), &Readings::default());
     let goal = Goal {
         id: 0,
         manoeuvre: Manoeuvre::Course { course: heading },
@@ -119,7 +119,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
         Hull { vehicle, body },
         suite,
         Readings::default(),
-        Estimator::new(&spec.estimator, start, dt_s),
+        spec.estimator.build(start, dt_s),
         estimate,
         (
             SearcherParts {

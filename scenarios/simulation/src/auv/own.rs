@@ -6,7 +6,7 @@ use crate::incidents::{FaultLog, IncidentMonitor};
 use crate::machines::own;
 use crate::searchers::SearcherId;
 use robots::actuate::Pilot;
-use robots::estimate::Estimator;
+use robots::estimate::DeadReckoning;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Readings};
@@ -23,7 +23,7 @@ own! {
         hull: Hull,
         suite: SensorSuite,
         readings: Readings,
-        estimator: Estimator,
+        estimator: DeadReckoning,
         estimate: Estimate,
         searching: SearcherParts,
         briefing: Briefing,

@@ -11,7 +11,7 @@ use crate::searchers::{SearcherId, must_be_sound};
 use bevy_ecs::prelude::{Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
-use robots::estimate::Estimator;
+use robots::estimate::DeadReckoning;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{
@@ -47,7 +47,7 @@ pub(crate) fn read_instruments(
     }
 }
 
-pub(crate) fn estimate_state(mut robots: Query<(&OnboardTime, &Readings, &mut Estimator, &mut Estimate)>) {
+pub(crate) fn estimate_state(mut robots: Query<(&OnboardTime, &Readings, &mut DeadReckoning, &mut Estimate)>) {
     for (now, readings, mut estimator, mut estimate) in &mut robots {
         *estimate = estimator.step(&now.0, readings);
     }

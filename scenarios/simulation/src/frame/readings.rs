@@ -1,6 +1,6 @@
 //! What a robot's instruments reported between two frames.
 
-use robots::handoff::{AdcpReading, AltimeterReading, AttitudeReading, DepthReading, DvlReading, RangeScan, Readings};
+use robots::handoff::{AdcpReading, AltimeterReading, Attitude, DepthReading, DvlReading, RangeScan, Readings};
 
 /// A reading and its time.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct NewestReadings {
     /// Water track.
     pub adcp: Option<TimedReading<AdcpReading>>,
     /// Compass and inertial unit.
-    pub attitude: Option<TimedReading<AttitudeReading>>,
+    pub attitude: Option<TimedReading<Attitude>>,
     /// Depth.
     pub depth: Option<TimedReading<DepthReading>>,
     /// Altitude.

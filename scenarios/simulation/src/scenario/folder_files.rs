@@ -19,10 +19,6 @@ impl Files for FolderFiles<'_> {
         files::read(&self.path(name), most_bytes).map_err(|e| e.to_string())
     }
 
-    fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
-        files::read_text(&self.path(name), most_bytes).map_err(|e| e.to_string())
-    }
-
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
         reader::read::<VehicleFile>(path, text, &|_| Vec::new()).map_err(|e| {
             let lines = match &e {
