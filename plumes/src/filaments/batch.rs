@@ -19,7 +19,6 @@ use super::image::NearWall;
 use super::moving_packet::MovingPacket;
 use super::packet::{CUT_SIGMAS, LANES, PACKET_64, Packet64, Whole, felt_by};
 use crate::simd::dispatch::InstructionSet;
-use crate::simd::movemask::{self, Movemask};
 
 /// Filaments in a small packet.
 pub(super) const PACKET_16: usize = 16;
@@ -105,16 +104,10 @@ impl Batch {
         asked: impl FnOnce() -> GroupQuery<'a>,
     ) -> i64 {
         let mut hits = [0; WORDS];
-        let total = match path {
-            // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { sum::<movemask::Portable>(self, p, &mut hits) },
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { sum_avx2(self, p, &mut hits) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { sum_avx512(self, p, &mut hits) },
-        };
+        let total = path.run(
+            #[inline(always)]
+            || sum(self, p, &mut hits),
+        );
         if self.walled.is_empty() || hits == [0; WORDS] {
             return total;
         }
@@ -184,31 +177,13 @@ impl Packet16 {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_avx2(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
-    // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { sum::<movemask::Avx2>(batch, p, hits) }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
-    // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { sum::<movemask::Avx512>(batch, p, hits) }
-}
-
 /// The sum of the small packets that are hit, and which these are: their boxes hold the point.
-///
-/// # Safety
-/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn sum<M: Movemask>(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+fn sum(batch: &Batch, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     let mut total = Whole::default();
     let packets16 = batch.packets16.chunks(BOXES);
     for ((boxes, packets16), hits) in batch.boxes.iter().zip(packets16).zip(hits) {
-        // SAFETY: as the caller promises.
-        *hits = unsafe { boxes.held::<M>(p) };
+        *hits = boxes.held(p);
         for hit in set(*hits) {
             packets16[hit].add(p, &mut total);
         }

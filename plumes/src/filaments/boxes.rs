@@ -7,7 +7,7 @@
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
 use crate::simd::dispatch::InstructionSet;
-use crate::simd::movemask::{self, LaneMask, Movemask, mark};
+use crate::simd::movemask::{LaneMask, bits, mark};
 
 /// Boxes side by side.
 pub(super) const BOXES: usize = 32;
@@ -40,46 +40,22 @@ impl Boxes {
 
     /// Those that hold a point, a bit each.
     pub(super) fn hold(&self, path: InstructionSet, p: [f32; 3]) -> u32 {
-        match path {
-            // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { self.held::<movemask::Portable>(p) },
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { hold_avx2(self, p) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { hold_avx512(self, p) },
-        }
+        path.run(
+            #[inline(always)]
+            || self.held(p),
+        )
     }
 
     /// The same for vector code that calls it.
-    ///
-    /// # Safety
-    /// The machine must have the instructions of `M`.
     #[inline(always)]
-    pub(super) unsafe fn held<M: Movemask>(&self, p: [f32; 3]) -> u32 {
+    pub(super) fn held(&self, p: [f32; 3]) -> u32 {
         let mut marks: LaneMask = [0; BOXES];
         for (l, one) in marks.iter_mut().enumerate() {
             let along = |d: usize| (p[d] >= self.lo[d][l]) & (p[d] <= self.hi[d][l]);
             *one = mark(along(0) & along(1) & along(2));
         }
-        // SAFETY: as the caller promises.
-        unsafe { M::bits(&marks) }
+        bits(&marks)
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn hold_avx2(boxes: &Boxes, p: [f32; 3]) -> u32 {
-    // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { boxes.held::<movemask::Avx2>(p) }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn hold_avx512(boxes: &Boxes, p: [f32; 3]) -> u32 {
-    // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { boxes.held::<movemask::Avx512>(p) }
 }
 
 /// From the least to the greatest of both. What is no number does not count.

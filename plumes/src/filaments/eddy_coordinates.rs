@@ -13,9 +13,6 @@ use super::rows::Rows;
 use super::store::Store;
 use crate::flow::eddies::{Life, Small, Weights};
 use crate::simd::dispatch::InstructionSet;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::f32x4::AvxPair;
-use crate::simd::f32x4::{Pair, PortablePair};
 use nalgebra::Vector3;
 use std::ops::Range;
 use world::bits::{Reader, Unreadable, Writer};
@@ -149,36 +146,17 @@ pub(super) fn carry(
     let Some(mut labels) = store.labels.take() else {
         return;
     };
-    match path {
-        // SAFETY: a pair that every machine of the target has.
-        InstructionSet::Portable => unsafe { moved::<PortablePair>(&mut labels, small, store, range, span) },
-        // SAFETY: this variant is only made after the feature was detected.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { moved_avx2(&mut labels, small, store, range, span) },
-    }
+    path.run(
+        #[inline(always)]
+        || moved(&mut labels, small, store, range, span),
+    );
     labels.pass_source(small, flow, source, span.to_s);
     store.labels = Some(labels);
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn moved_avx2(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
-    // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { moved::<AvxPair>(labels, small, store, range, span) };
-}
-
 /// Moves filaments and their rows.
-///
-/// # Safety
-/// The machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn moved<P: Pair>(
-    labels: &mut EddyCoordinates,
-    small: &Small,
-    store: &mut Store,
-    range: Range<usize>,
-    span: Span,
-) {
+fn moved(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
     let middle = (middle_s, &*lives);
@@ -197,16 +175,14 @@ unsafe fn moved<P: Pair>(
         let place = [store.x[n], store.y[n], store.z[n]];
         let row = &mut labels.at[n * patterns..(n + 1) * patterns];
         // Half the step ahead first, so that an even cloud stays even to second order.
-        // SAFETY: here and below, as the caller promises.
-        let v = unsafe { small.velocity::<P>(&lives, place[2], &weights, row) };
+        let v = small.velocity(&lives, place[2], &weights, row);
         let half = v.map(|v| 0.5 * dt * v);
         let mut ahead = [[0.0; 3]; MOST];
         for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
             *ahead = std::array::from_fn(|d| at[d] + half[d]);
         }
         let ahead = &ahead[..row.len()];
-        // SAFETY: as above.
-        let v = unsafe { small.velocity::<P>(&lives, place[2] + half[2], &weights, ahead) };
+        let v = small.velocity(&lives, place[2] + half[2], &weights, ahead);
         let way = v.map(|v| dt * v);
         for at in row {
             for d in 0..3 {

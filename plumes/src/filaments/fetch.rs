@@ -234,5 +234,5 @@ unsafe fn one<P: Pair>(
 unsafe fn both<P: Pair>(nodes: &[[f32; 4]], n: usize) -> P {
     debug_assert!(n + 1 < nodes.len());
     // SAFETY: as the caller promises.
-    unsafe { P::new(&*nodes.as_ptr().add(n).cast()) }
+    unsafe { P::new(nodes.get_unchecked(n), nodes.get_unchecked(n + 1)) }
 }

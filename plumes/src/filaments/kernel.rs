@@ -40,7 +40,7 @@ use super::noise::{level_normals, normals};
 use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::f32x4::AvxPair;
-use crate::simd::f32x4::{Pair, PortablePair};
+use crate::simd::f32x4::{F32x4, Pair};
 
 /// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
@@ -120,30 +120,18 @@ fn step_first<const N: usize>(
     block: &mut Block,
     work: &mut Work,
 ) {
-    match path {
-        // SAFETY: these instructions are part of every machine of the target.
-        InstructionSet::Portable => unsafe { body::<PortablePair, N>(cells, nodes, key, block, work) },
-        // SAFETY: this variant is only made after the feature was detected.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => unsafe { body_avx2::<N>(cells, nodes, key, block, work) },
-        // SAFETY: as above.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => unsafe { body_avx512::<N>(cells, nodes, key, block, work) },
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn body_avx512<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
-    // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<AvxPair, N>(cells, nodes, key, block, work) };
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn body_avx2<const N: usize>(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
-    // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<AvxPair, N>(cells, nodes, key, block, work) };
+    path.run_known(
+        #[inline(always)]
+        |path| match path {
+            // SAFETY: a pair that every machine of the target has.
+            InstructionSet::Portable => unsafe { body::<[F32x4; 2], N>(cells, nodes, key, block, work) },
+            // SAFETY: the pair needs AVX, which is part of both versions.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe {
+                body::<AvxPair, N>(cells, nodes, key, block, work);
+            },
+        },
+    );
 }
 
 /// # Safety

@@ -79,7 +79,7 @@ fn cells_read_the_grid_as_the_grid_reads_itself() {
             let (q, rise) = unsafe {
                 let weight = weights(c.f, c.g);
                 let (below, part) = (level.below, level.part);
-                trilinear::<PortablePair>(&cells, &grid.data, c.at, weight, below, part)
+                trilinear::<[F32x4; 2]>(&cells, &grid.data, c.at, weight, below, part)
             };
             let got = F32x4::columns([q; 4]).map(|v| v[0]);
             let want = grid.sample(b.x[l], b.y[l], b.z[l]);

@@ -149,27 +149,10 @@ impl Lookup {
 
 /// The lower corners of the column cells in which up to [`BLOCK`] filaments are.
 pub(super) fn places(path: InstructionSet, cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
-    match path {
-        InstructionSet::Portable => places_of(cells, x, y, at),
-        // SAFETY: this variant is only made after the feature was detected.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => unsafe { places_avx2(cells, x, y, at) },
-        // SAFETY: as above.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => unsafe { places_avx512(cells, x, y, at) },
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn places_avx512(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
-    places_of(cells, x, y, at);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn places_avx2(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
-    places_of(cells, x, y, at);
+    path.run(
+        #[inline(always)]
+        || places_of(cells, x, y, at),
+    );
 }
 
 #[inline(always)]

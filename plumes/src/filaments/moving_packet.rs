@@ -83,15 +83,10 @@ impl MovingPacket {
         let (parts, count) = self.parts(moment);
         packet.count = count;
         let way = MotionInputs { moving: self, parts, size, now_s: moment.now_s };
-        match path {
-            InstructionSet::Portable => fill(&way, packet),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { fill_avx2(&way, packet) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { fill_avx512(&way, packet) },
-        }
+        path.run(
+            #[inline(always)]
+            || fill(&way, packet),
+        );
     }
 }
 
@@ -108,18 +103,6 @@ struct MotionInputs<'a> {
     parts: [f32; PACKET_64],
     size: &'a Size,
     now_s: f64,
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn fill_avx2(way: &MotionInputs, packet: &mut Packet64) {
-    fill(way, packet);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn fill_avx512(way: &MotionInputs, packet: &mut Packet64) {
-    fill(way, packet);
 }
 
 /// A coordinate when a part of the way is gone.

@@ -96,43 +96,21 @@ impl Packet64 {
     /// Works out what follows from the sizes, which `h` and `v` hold until then, of filaments of `kg` each, in which the
     /// unit of mass is that of a quantum in a m³.
     pub(super) fn seal(&mut self, path: InstructionSet, kg: f64) {
-        match path {
-            InstructionSet::Portable => seal(self, kg),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { seal_avx2(self, kg) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { seal_avx512(self, kg) },
-        }
+        path.run(
+            #[inline(always)]
+            || seal(self, kg),
+        );
     }
 
     /// Concentration at a point in the water, in quanta.
     #[inline]
     pub(super) fn concentration(&self, path: InstructionSet, p: [f32; 3]) -> i64 {
         let images = [-p[2] <= self.reach, p[2] - self.highest_bed <= self.reach, self.reach > -self.highest_bed];
-        match path {
-            InstructionSet::Portable => sum(self, images, p),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { sum_avx2(self, images, p) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { sum_avx512(self, images, p) },
-        }
+        path.run(
+            #[inline(always)]
+            || sum(self, images, p),
+        )
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn seal_avx2(packet: &mut Packet64, kg: f64) {
-    seal(packet, kg);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn seal_avx512(packet: &mut Packet64, kg: f64) {
-    seal(packet, kg);
 }
 
 /// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
@@ -159,18 +137,6 @@ fn seal(packet: &mut Packet64, kg: f64) {
     }
     packet.reach = CUT_SIGMAS * tallest.into_iter().fold(0.0, f32::max);
     packet.highest_bed = highest.into_iter().fold(f32::MIN, f32::max);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn sum_avx2(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
-    sum(packet, images, p)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
-    sum(packet, images, p)
 }
 
 #[inline(always)]

@@ -125,27 +125,10 @@ impl Pollock {
         block: &mut Block,
         way: &mut PollockScratch,
     ) {
-        match path {
-            InstructionSet::Portable => self.body(lookup, grid, block, way),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { self.body_avx2(lookup, grid, block, way) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { self.body_avx512(lookup, grid, block, way) },
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-    fn body_avx512(&self, lookup: &Lookup, grid: &FlowGrid, block: &mut Block, way: &mut PollockScratch) {
-        self.body(lookup, grid, block, way);
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn body_avx2(&self, lookup: &Lookup, grid: &FlowGrid, block: &mut Block, way: &mut PollockScratch) {
-        self.body(lookup, grid, block, way);
+        path.run(
+            #[inline(always)]
+            || self.body(lookup, grid, block, way),
+        );
     }
 
     #[inline(always)]

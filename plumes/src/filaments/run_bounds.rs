@@ -8,7 +8,7 @@
 
 use super::group::GROUP;
 use crate::simd::dispatch::InstructionSet;
-use crate::simd::movemask::{self, LaneMask, Movemask, mark};
+use crate::simd::movemask::{LaneMask, bits, mark};
 
 /// Neighbours in a run.
 pub(super) const RUN: usize = 32;
@@ -30,15 +30,10 @@ pub(super) struct RunBounds {
 
 impl RunBounds {
     pub(super) fn new(path: InstructionSet, ways: Ways) -> Self {
-        match path {
-            InstructionSet::Portable => side(ways),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { side_avx2(ways) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { side_avx512(ways) },
-        }
+        path.run(
+            #[inline(always)]
+            || side(ways),
+        )
     }
 
     /// Between which coordinates a member is within `reach`.
@@ -54,43 +49,11 @@ impl RunBounds {
 
     /// The runs that are within reach along three axes, a bit each.
     pub(super) fn runs(path: InstructionSet, sides: [&Self; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-        match path {
-            // SAFETY: these instructions are part of every machine of the target.
-            InstructionSet::Portable => unsafe { runs::<movemask::Portable>(sides, p, reach) },
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => unsafe { runs_avx2(sides, p, reach) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => unsafe { runs_avx512(sides, p, reach) },
-        }
+        path.run(
+            #[inline(always)]
+            || runs(sides, p, reach),
+        )
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn side_avx2(ways: Ways) -> RunBounds {
-    side(ways)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn side_avx512(ways: Ways) -> RunBounds {
-    side(ways)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn runs_avx2(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-    // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { runs::<movemask::Avx2>(sides, p, reach) }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn runs_avx512(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-    // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { runs::<movemask::Avx512>(sides, p, reach) }
 }
 
 #[inline(always)]
@@ -130,10 +93,8 @@ fn most(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
-/// # Safety
-/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn runs<M: Movemask>(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
+fn runs(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
     let mut near: LaneMask = [0; RUNS];
     for (run, near) in near.iter_mut().enumerate() {
         let along = |d: usize| {
@@ -142,8 +103,7 @@ unsafe fn runs<M: Movemask>(sides: [&RunBounds; 3], p: [f32; 3], reach: [f32; 3]
         };
         *near = mark(along(0) & along(1) & along(2));
     }
-    // SAFETY: as the caller promises.
-    unsafe { M::bits(&near) }
+    bits(&near)
 }
 
 #[cfg(test)]

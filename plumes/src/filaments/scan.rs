@@ -7,8 +7,7 @@ use super::contribution::{GroupQuery, PresentMembers};
 use super::moving_packet::{MovingPacket, on_way};
 use super::packet::PACKET_64;
 use super::run_bounds::{RUN, RUNS};
-use crate::simd::dispatch::InstructionSet;
-use crate::simd::movemask::{self, LaneMask, Movemask, mark};
+use crate::simd::movemask::{LaneMask, bits, mark};
 
 /// Coordinates of the members at the start and at the end of their step.
 type Ways<'a> = [[&'a [f32]; 2]; 3];
@@ -27,16 +26,10 @@ pub(super) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
     let way = |d: usize| [&s.start[d], [&s.x, &s.y, &s.z][d]].map(|v| &v[range.clone()]);
     let ways = [way(0), way(1), way(2)];
     let mut near = [0; RUNS];
-    match asked.q.path {
-        // SAFETY: these instructions are part of every machine of the target.
-        InstructionSet::Portable => unsafe { look::<movemask::Portable>(asked, &ways, runs, &mut near) },
-        // SAFETY: this variant is only made after the feature was detected.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
-        // SAFETY: as above.
-        #[cfg(target_arch = "x86_64")]
-        InstructionSet::Avx512 => unsafe { look_avx512(asked, &ways, runs, &mut near) },
-    }
+    asked.q.path.run(
+        #[inline(always)]
+        || look(asked, &ways, runs, &mut near),
+    );
     for m in on_time..n {
         near[m / RUN] |= 1 << (m % RUN);
     }
@@ -74,26 +67,9 @@ fn sum(asked: &GroupQuery, near: &Near) -> i64 {
     total
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn look_avx2(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
-    // SAFETY: the marks need AVX2, which is this function's.
-    unsafe { look::<movemask::Avx2>(asked, ways, runs, near) };
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn look_avx512(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
-    // SAFETY: the marks need AVX-512, which is this function's.
-    unsafe { look::<movemask::Avx512>(asked, ways, runs, near) };
-}
-
 /// Notes the members within reach.
-///
-/// # Safety
-/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn look<M: Movemask>(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
+fn look(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
     let n = ways[0][0].len();
     let mut left = runs;
     while left != 0 {
@@ -101,8 +77,7 @@ unsafe fn look<M: Movemask>(asked: &GroupQuery, ways: &Ways, runs: u32, near: &m
         left &= left - 1;
         let from = run * RUN;
         if from + RUN <= n {
-            // SAFETY: here and below, as the caller promises.
-            near[run] = unsafe { within::<M>(asked, ways, from) };
+            near[run] = within(asked, ways, from);
         } else if from < n {
             let mut last = [[[0.0; RUN]; 2]; 3];
             for d in 0..3 {
@@ -112,19 +87,14 @@ unsafe fn look<M: Movemask>(asked: &GroupQuery, ways: &Ways, runs: u32, near: &m
             }
             let [[x, x1], [y, y1], [z, z1]] = &last;
             let last = [[x, x1], [y, y1], [z, z1]].map(|ends| ends.map(|end| &end[..]));
-            // SAFETY: as above.
-            let bits = unsafe { within::<M>(asked, &last, 0) };
-            near[run] = bits & ((1 << (n - from)) - 1);
+            near[run] = within(asked, &last, 0) & ((1 << (n - from)) - 1);
         }
     }
 }
 
 /// One bit for each of a run that is within reach.
-///
-/// # Safety
-/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn within<M: Movemask>(asked: &GroupQuery, ways: &Ways, from: usize) -> u32 {
+fn within(asked: &GroupQuery, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
     let flat = asked.flat_reach();
     let [[x, x1], [y, y1], [z, z1]] = ways;
@@ -139,6 +109,5 @@ unsafe fn within<M: Movemask>(asked: &GroupQuery, ways: &Ways, from: usize) -> u
         let near = (dx * dx + dy * dy <= flat * flat) & (dz.abs() <= asked.reach[2]);
         inside[l] = mark(near);
     }
-    // SAFETY: as the caller promises.
-    unsafe { M::bits(&inside) }
+    bits(&inside)
 }

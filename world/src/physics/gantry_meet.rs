@@ -1,6 +1,6 @@
 //! A gantry as bodies meet it: two joints with their masses. rapier moves it, and bodies that run into it push it.
 
-use super::convert::pose;
+use crate::convert::pose;
 use super::course::Course;
 use super::gantry::{Gantry, JointState};
 use super::gantry_report::Solid;

@@ -1,6 +1,6 @@
 //! What a gantry ran into: which slide, what it touched, where and how hard.
 
-use super::convert::from_vector;
+use crate::convert::from_vector;
 use super::gantry::GantryId;
 use super::solid::{BodyId, ContactReport, Physics};
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! Fixed things: the bed as a height field, and obstacles as they are. Rays and distances are computed directly from
 //! them, so that the answer does not depend on whether the solver has run.
 
-use super::convert::{pose, vector};
+use crate::convert::{pose, vector};
 use crate::area::Area;
 use crate::frames::Pose;
 use crate::terrain::Terrain;

@@ -13,7 +13,7 @@
 //! Velocity that an impulse adds is kept apart from that motion until the end of the step; the forces of the water
 //! include it from the next step on.
 
-use super::convert::pose;
+use crate::convert::pose;
 use super::course::{Course, Who, note};
 use super::gaps::{PlacedShape, Point};
 use super::impulses::{Row, solve};

@@ -1,6 +1,6 @@
 //! Bodies of every shape, thrown at random against solids of every shape.
 
-use super::convert::pose;
+use crate::convert::pose;
 use super::{BodySpec, Physics, Shape, Solver};
 use crate::area::Area;
 use crate::frames::{Pose, Truth};

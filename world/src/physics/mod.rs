@@ -1,6 +1,5 @@
 //! Rigid bodies and contacts. Only this module uses rapier3d.
 
-mod convert;
 mod course;
 mod gantry;
 mod gantry_meet;
@@ -13,7 +12,6 @@ mod impulses;
 mod meet;
 #[cfg(test)]
 mod meet_tests;
-mod rapier_alone;
 mod shape;
 mod solid;
 #[cfg(test)]

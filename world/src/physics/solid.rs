@@ -4,17 +4,16 @@
 //! *Source:* added mass as a force is stable with a lag of one step, however short, only if ρ(M_RB⁻¹ M_A) < 1; a REMUS
 //! hull has 1.09. Therefore the owner of a body solves its equation with the added mass on the left side, and contacts
 //! use the same mass matrix (`meet.rs`). rapier moves the gantries only, because it knows a scalar mass only
-//! (`rapier_alone.rs` compares the two).
+//! (`tests/it/rapier_alone.rs` compares the two).
 //!
 //! *Parameters:* `mass`: that of the body with its added mass.
 //!
 //! *Deviations:* a body on which no impulse acts is put where its own equation takes it. No contacts are searched while
 //! no body has anything in reach and there is no gantry; the result is the same to the last bit.
 
-use super::convert::{pose, vector};
+use crate::convert::{pose, vector};
 use super::gantry::Gantry;
 use super::ground::{Bed, FixedSolid};
-use super::rapier_alone::Twin;
 use super::shape::Shape;
 use crate::area::Area;
 use crate::frames::{NOT_FINITE, Pose, Truth};
@@ -38,9 +37,6 @@ pub enum Solver {
     WhenInReach,
     /// All steps, with the same result.
     Always,
-    /// None: rapier moves its own rigid bodies alone, as a cross-check (`rapier_alone.rs`). Not possible with gantries.
-    /// To be chosen before bodies are added.
-    RapierAlone,
 }
 
 /// A body as the solver needs it.
@@ -94,8 +90,6 @@ pub(super) struct Body {
     /// A sphere without anything fixed in it: its middle and radius, m.
     clear: (Vector3<f64>, f64),
     pub(super) contact: ContactReport,
-    /// Its rigid body in rapier's world, if rapier alone moves it.
-    pub(super) twin: Option<Twin>,
 }
 
 impl Body {
@@ -234,7 +228,7 @@ impl Physics {
         let mut to_G = Matrix6::identity();
         let lever = -spec.p_BG.cross_matrix();
         to_G.fixed_view_mut::<3, 3>(0, 3).copy_from(&lever);
-        let mut body = Body {
+        self.bodies.push(Body {
             id: spec.id,
             truth: spec.truth,
             free: None,
@@ -245,12 +239,7 @@ impl Physics {
             reach_m,
             clear: (Vector3::zeros(), 0.0),
             contact: ContactReport::default(),
-            twin: None,
-        };
-        if self.solver == Solver::RapierAlone {
-            body.twin = Some(self.add_twin(&body));
-        }
-        self.bodies.push(body);
+        });
         BodyId(self.bodies.len() - 1)
     }
 
@@ -305,10 +294,6 @@ impl Physics {
                 body.id,
                 body.truth
             );
-        }
-        if self.solver == Solver::RapierAlone {
-            self.step_alone();
-            return;
         }
         if !self.gantries.is_empty() {
             self.world.step();

@@ -58,18 +58,10 @@ pub(super) struct RisingLanes<const N: usize> {
 impl<const N: usize> RisingLanes<N> {
     /// Lets them rise in the water that `at` tells at each height.
     pub(super) fn rise(&mut self, path: InstructionSet, thread: &Thread, at: impl Fn(f64) -> Around) {
-        match path {
-            InstructionSet::Portable => self.risen(thread, at),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.risen_avx2(thread, at) },
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn risen_avx2(&mut self, thread: &Thread, at: impl Fn(f64) -> Around) {
-        self.risen(thread, at);
+        path.run(
+            #[inline(always)]
+            || self.risen(thread, at),
+        );
     }
 
     #[inline(always)]
