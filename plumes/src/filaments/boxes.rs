@@ -6,7 +6,6 @@
 //!
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
-use crate::simd::dispatch::InstructionSet;
 use crate::simd::movemask::{LaneMask, bits, mark};
 
 /// Boxes side by side.
@@ -38,15 +37,7 @@ impl Boxes {
         new
     }
 
-    /// Those that hold a point, a bit each.
-    pub(super) fn hold(&self, path: InstructionSet, p: [f32; 3]) -> u32 {
-        path.run(
-            #[inline(always)]
-            || self.held(p),
-        )
-    }
-
-    /// The same for vector code that calls it.
+    /// Those that hold a point, a bit each; for vector code that calls it.
     #[inline(always)]
     pub(super) fn held(&self, p: [f32; 3]) -> u32 {
         let mut marks: LaneMask = [0; BOXES];
@@ -76,6 +67,7 @@ pub(super) fn set(mut bits: u32) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simd::dispatch::InstructionSet;
 
     #[test]
     fn boxes_that_hold_a_point_have_their_bits_set() {
@@ -96,7 +88,7 @@ mod tests {
                 let inside = |e: &Ends| (0..3).all(|d| p[d] >= e[d][0] && p[d] <= e[d][1]);
                 let want: Vec<usize> = (0..n).filter(|l| inside(&ends[*l])).collect();
                 for path in InstructionSet::all() {
-                    let hold = boxes.hold(path, p);
+                    let hold = path.run(|| boxes.held(p));
                     assert_eq!(set(hold).collect::<Vec<_>>(), want, "{path:?}");
                 }
                 seen += want.len();

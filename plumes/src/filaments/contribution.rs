@@ -12,7 +12,7 @@ use super::bands::Moment;
 use super::image::{NearWall, QueryPoint};
 use super::index::Question;
 use super::moving_packet::MovingPacket;
-use super::packet::{CUT_SIGMAS, MOST, Packet64, peak};
+use super::packet::{CUT_SIGMAS, MOST, Packet, peak};
 use super::store::Store;
 
 /// A question to one group.
@@ -34,8 +34,8 @@ pub(super) struct GroupQuery<'a> {
 /// Filaments at a time, and those that feel a wall and are therefore not in the packet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PresentMembers {
-    packet: Packet64,
-    walled: Vec<NearWall>,
+    pub(super) packet: Packet,
+    pub(super) walled: Vec<NearWall>,
 }
 
 /// Quanta in the peak of the largest filament, if the smallest allows it.
@@ -82,13 +82,16 @@ impl GroupQuery<'_> {
 }
 
 impl PresentMembers {
-    /// Becomes those of a packet on its way that are released at the present time.
-    pub(super) fn work_out(&mut self, moving: &MovingPacket, asked: &GroupQuery) {
-        let GroupQuery { s, q, spot, .. } = asked;
+    /// Becomes those of a packet on its way that are released at the present time, not sealed yet.
+    pub(super) fn fill(&mut self, moving: &MovingPacket, asked: &GroupQuery) {
+        moving.fill(asked.q.path, &asked.s.size, &asked.moment, &mut self.packet);
+    }
+
+    /// Takes those that feel a wall out of the packet, and seals it.
+    pub(super) fn seal(&mut self, asked: &GroupQuery) {
         let Self { packet, walled } = self;
-        moving.fill(q.path, &s.size, &asked.moment, packet);
         walled.clear();
-        if !spot.room.is_open() {
+        if !asked.spot.room.is_open() {
             packet.retain(|p, sizes| {
                 let felt = asked.walled(p, sizes);
                 let free = felt.is_none();
@@ -96,7 +99,7 @@ impl PresentMembers {
                 free
             });
         }
-        packet.seal(q.path, s.filament_kg * asked.quanta);
+        packet.seal(asked.q.path, asked.s.filament_kg * asked.quanta);
     }
 
     /// Its contribution, in quanta.

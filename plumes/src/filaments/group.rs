@@ -7,7 +7,6 @@
 //! *Deviations*: none.
 
 use super::batch::Batch;
-use super::boxes::Ends;
 use super::contribution::{GroupQuery, quanta, reach};
 use super::image::QueryPoint;
 use super::index::Question;
@@ -23,7 +22,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 pub(super) const GROUP: usize = 1024;
 
 /// To make a batch takes as long as so many questions without one. It holds for one time only.
-pub(super) const SCANS: u32 = 32;
+const SCANS: u32 = 32;
 
 /// Up to [`GROUP`] neighbours in the order of release.
 #[derive(Clone, Debug)]
@@ -43,7 +42,7 @@ pub(super) struct Group {
 
 /// How often something was asked about the present time.
 #[derive(Debug, Default)]
-pub(super) struct Count(AtomicU32);
+struct Count(AtomicU32);
 
 impl Clone for Count {
     fn clone(&self) -> Self {
@@ -53,13 +52,13 @@ impl Clone for Count {
 
 impl Count {
     /// One more; returns whether that is often. If several threads ask at once, some of them may not be counted.
-    pub(super) fn often(&self) -> bool {
+    fn often(&self) -> bool {
         let before = self.0.load(Ordering::Relaxed);
         self.0.store(before.saturating_add(1), Ordering::Relaxed);
         before >= SCANS
     }
 
-    pub(super) fn forget(&mut self) {
+    fn forget(&mut self) {
         *self.0.get_mut() = 0;
     }
 }
@@ -96,11 +95,6 @@ impl Group {
     pub(super) fn near(&self, q: &Question, s: &Store, p: [f32; 3], axes: [usize; 3]) -> bool {
         let near = |d: usize| self.side(q, s, d).near(p[d], self.reach[d]);
         axes.into_iter().all(near)
-    }
-
-    /// The box that holds all points at which one of its members is felt during the step.
-    pub(super) fn ends(&self, q: &Question, s: &Store) -> Ends {
-        [0, 1, 2].map(|d| self.side(q, s, d).ends(self.reach[d]))
     }
 
     /// What its members contribute at a point [near](Self::near) them, kg/m³.

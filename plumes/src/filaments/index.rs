@@ -6,14 +6,13 @@
 //!
 //! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
 //! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or made a batch
-//! (`batch`) once it is asked often; then the bounds of all groups of the band are looked at together, too. The bounds
-//! hold for the whole step that the filaments take. All ways of searching give the same sum to the last bit (`felt`),
-//! so answers do not depend on earlier questions, and a viewer that asks too changes nothing.
+//! (`batch`) once it is asked often. The bounds hold for the whole step that the filaments take. All ways of searching
+//! give the same sum to the last bit (`felt`), so answers do not depend on earlier questions, and a viewer that asks too
+//! changes nothing.
 
 use super::bands::{Bands, MOST};
-use super::boxes::{BOXES, Boxes, set};
 use super::domain::Domain;
-use super::group::{Count, GROUP, Group};
+use super::group::{GROUP, Group};
 use super::image::QueryPoint;
 use super::lookup::Lookup;
 pub use super::packet::CUT_SIGMAS;
@@ -35,9 +34,6 @@ struct Groups {
     all: Vec<Group>,
     /// The axes, from the one along which the band is longest.
     axes: [usize; 3],
-    asked: Count,
-    /// A box around each group, once the band is asked often.
-    boxes: OnceLock<Vec<Boxes>>,
 }
 
 /// What a question is answered from.
@@ -73,7 +69,6 @@ impl Index {
         let groups = self.stores.iter_mut().flatten();
         let groups = groups.filter_map(OnceLock::get_mut);
         for groups in groups {
-            groups.asked.forget();
             groups.all.iter_mut().for_each(Group::forget);
         }
     }
@@ -102,29 +97,11 @@ impl Index {
 impl Groups {
     /// Adds what each contributes at a point, kg/m³, in their order.
     fn add(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize, total: &mut f64) {
-        let boxes = match self.boxes.get() {
-            None if self.asked.often() => Some(self.boxes.get_or_init(|| self.boxes(q, s))),
-            boxes => boxes,
-        };
-        if let Some(boxes) = boxes {
-            for (boxes, groups) in boxes.iter().zip(self.all.chunks(BOXES)) {
-                for k in set(boxes.hold(q.path, spot.p)) {
-                    *total += groups[k].felt(q, spot, s, band);
-                }
-            }
-        } else {
-            for group in &self.all {
-                if group.near(q, s, spot.p, self.axes) {
-                    *total += group.felt(q, spot, s, band);
-                }
+        for group in &self.all {
+            if group.near(q, s, spot.p, self.axes) {
+                *total += group.felt(q, spot, s, band);
             }
         }
-    }
-
-    fn boxes(&self, q: &Question, s: &Store) -> Vec<Boxes> {
-        let some = self.all.chunks(BOXES);
-        let boxes = some.map(|groups| Boxes::new(groups.iter().map(|g| g.ends(q, s))));
-        boxes.collect()
     }
 }
 
@@ -153,6 +130,6 @@ impl Question<'_> {
             let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
             axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
         }
-        Groups { all, axes, asked: Count::default(), boxes: OnceLock::new() }
+        Groups { all, axes }
     }
 }

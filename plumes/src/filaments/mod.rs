@@ -47,6 +47,8 @@ mod tests_even;
 #[cfg(test)]
 mod tests_even_obstacles;
 #[cfg(test)]
+mod tests_even_quay;
+#[cfg(test)]
 mod tests_evenness;
 #[cfg(test)]
 mod tests_flume;

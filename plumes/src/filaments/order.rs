@@ -7,8 +7,8 @@
 //! *Deviations*: members are halved along their longest side, in units of the kernel's reach, so that all leaves but
 //! the last are full. They are halved by where their step ends, so that the order holds for all of the step.
 
-use super::batch::PACKET_16;
 use super::boxes::{EMPTY, Ends, wider};
+use super::packet::PACKET;
 
 /// Members of a group by number, of those at `ends` (m, along the three axes), felt as far as `reach` (m).
 pub(super) fn order(ends: [&[f32]; 3], reach: [f32; 3]) -> Vec<u16> {
@@ -26,7 +26,7 @@ const NUMBER: u32 = 10;
 /// sides takes as long as all the rest.
 fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3], sides: Ends) {
     let n = members.len();
-    if n <= PACKET_16 {
+    if n <= PACKET {
         return;
     }
     let long = |d: usize| (sides[d][1] - sides[d][0]) * weight[d];
@@ -44,7 +44,7 @@ fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3], sides: Ends
         let key = ((ends[d][*m as usize] - lo) * scale).min(4_194_300.0);
         *m |= (key as u32) << NUMBER;
     }
-    let half = n.div_ceil(PACKET_16) / 2 * PACKET_16;
+    let half = n.div_ceil(PACKET) / 2 * PACKET;
     members.select_nth_unstable(half);
     for m in &mut *members {
         *m &= (1 << NUMBER) - 1;
@@ -79,8 +79,8 @@ mod tests {
                 f64::from(hi - lo)
             };
             let volume = |some: &[u16]| (0..3).map(|d| wide(d, some)).product::<f64>();
-            let packets16: Vec<f64> = order.chunks(PACKET_16).map(volume).collect();
-            let mean = packets16.iter().sum::<f64>() / packets16.len() as f64;
+            let packets: Vec<f64> = order.chunks(PACKET).map(volume).collect();
+            let mean = packets.iter().sum::<f64>() / packets.len() as f64;
             assert!(n < 1000 || mean < 0.02, "{mean}");
         }
     }

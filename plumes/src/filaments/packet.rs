@@ -10,7 +10,8 @@
 //! of the uncut kernel. The bed counts as level under each filament, at its height there. There is one image at each
 //! boundary and, where the kernel reaches it, one more of each; vertical sizes of at most half the depth need no
 //! others. The exponential is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments
-//! within reach of any other wall are not in leaves; see the file `image`.
+//! within reach of any other wall are not in packets; see the file `image`. An image at the surface or at the bed is
+//! worked out only if one of a packet may be felt.
 
 use crate::simd::dispatch::InstructionSet;
 
@@ -25,16 +26,10 @@ const WITHIN_CUT: f64 = 0.998_865_98;
 pub(super) const MOST: f32 = 281_474_976_710_656.0;
 
 /// Filaments in a packet.
-pub(super) const PACKET_64: usize = 32;
+pub(super) const PACKET: usize = 16;
 
-/// Filaments that are worked out at a time.
-pub(super) const LANES: usize = 8;
-
-/// The first places of the eights in which so many filaments are. The compiler sees that all eight are in the packet.
-#[inline(always)]
-pub(super) fn eights(count: usize) -> impl Iterator<Item = usize> {
-    (0..count.div_ceil(LANES).min(PACKET_64 / LANES)).map(|n| LANES * n)
-}
+/// Contributions that are added at a time.
+const LANES: usize = 8;
 
 /// Concentration at the centre of a filament of `kg` with horizontal and vertical sizes (m), kg/m³.
 pub(super) fn peak(kg: f64, [horizontal, vertical]: [f64; 2]) -> f64 {
@@ -42,42 +37,53 @@ pub(super) fn peak(kg: f64, [horizontal, vertical]: [f64; 2]) -> f64 {
     kg / (WITHIN_CUT * tau * tau.sqrt() * horizontal * horizontal * vertical)
 }
 
-/// Neighbouring filaments in arrays of fixed length; empty places have no mass.
+/// Neighbouring filaments in arrays of fixed length, of which no vector lies across two lines of the processor's cache.
+/// Empty places have no mass once it is sealed.
 #[derive(Clone, Debug)]
-pub(super) struct Packet64 {
-    pub(super) x: [f32; PACKET_64],
-    pub(super) y: [f32; PACKET_64],
-    pub(super) z: [f32; PACKET_64],
-    pub(super) bed: [f32; PACKET_64],
+#[repr(align(64))]
+pub(super) struct Packet {
+    pub(super) x: [f32; PACKET],
+    pub(super) y: [f32; PACKET],
+    pub(super) z: [f32; PACKET],
+    pub(super) bed: [f32; PACKET],
     /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths. Until it is sealed: the sizes.
-    pub(super) h: [f32; PACKET_64],
-    pub(super) v: [f32; PACKET_64],
+    pub(super) h: [f32; PACKET],
+    pub(super) v: [f32; PACKET],
     /// Concentration at the centre, in quanta.
-    pub(super) peak: [f32; PACKET_64],
+    pub(super) peak: [f32; PACKET],
     pub(super) count: usize,
-    /// Greatest vertical reach, m; highest bed, m; least depth, m.
+    images: Images,
+}
+
+/// Where images of a packet's filaments may be felt.
+#[derive(Clone, Copy, Debug)]
+struct Images {
+    /// Those at the surface: not deeper than this, m.
+    surface: f32,
+    /// Those at the bed: not higher than this, m.
+    bed: f32,
+    /// Greatest vertical reach, m; highest bed, m.
     reach: f32,
     highest_bed: f32,
 }
 
-impl Default for Packet64 {
+impl Default for Packet {
     fn default() -> Self {
         Self {
-            x: [0.0; PACKET_64],
-            y: [0.0; PACKET_64],
-            z: [0.0; PACKET_64],
-            bed: [-1.0; PACKET_64],
-            h: [1.0; PACKET_64],
-            v: [1.0; PACKET_64],
-            peak: [0.0; PACKET_64],
+            x: [0.0; PACKET],
+            y: [0.0; PACKET],
+            z: [0.0; PACKET],
+            bed: [-1.0; PACKET],
+            h: [1.0; PACKET],
+            v: [1.0; PACKET],
+            peak: [0.0; PACKET],
             count: 0,
-            reach: 0.0,
-            highest_bed: f32::MIN,
+            images: Images { surface: f32::MIN, bed: f32::MIN, reach: 0.0, highest_bed: f32::MIN },
         }
     }
 }
 
-impl Packet64 {
+impl Packet {
     /// Keeps the filaments of which `keep` says so, given place and sizes (m), in their order.
     pub(super) fn retain(&mut self, mut keep: impl FnMut([f32; 3], [f32; 2]) -> bool) {
         let mut to = 0;
@@ -105,71 +111,67 @@ impl Packet64 {
     /// Concentration at a point in the water, in quanta.
     #[inline]
     pub(super) fn concentration(&self, path: InstructionSet, p: [f32; 3]) -> i64 {
-        let images = [-p[2] <= self.reach, p[2] - self.highest_bed <= self.reach, self.reach > -self.highest_bed];
+        let mut total = Whole::default();
         path.run(
             #[inline(always)]
-            || sum(self, images, p),
-        )
+            || self.add(p, &mut total),
+        );
+        total.sum()
     }
-}
 
-/// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
-#[inline(always)]
-fn seal(packet: &mut Packet64, kg: f64) {
-    let peak_of_one = peak(kg, [1.0; 2]) as f32;
-    let (mut tallest, mut highest) = ([0.0_f32; LANES], [f32::MIN; LANES]);
-    for from in eights(packet.count) {
-        for l in 0..LANES {
-            let n = from + l;
-            let used = n < packet.count;
-            let sh = if used { packet.h[n] } else { 1.0 };
-            let sv = if used { packet.v[n] } else { 1.0 };
-            let tall = if used { sv } else { 0.0 };
-            let bed = if used { packet.bed[n] } else { f32::MIN };
-            tallest[l] = if tall > tallest[l] { tall } else { tallest[l] };
-            highest[l] = if bed > highest[l] { bed } else { highest[l] };
-            packet.h[n] = 1.0 / (16.0 * sh * sh);
-            packet.v[n] = 1.0 / (16.0 * sv * sv);
-            let peak = peak_of_one / (sh * sh * sv);
-            let peak = if peak < MOST { peak } else { MOST };
-            packet.peak[n] = if used { peak } else { 0.0 };
+    /// Adds what they contribute at a point; for vector code that calls it.
+    #[inline(always)]
+    pub(super) fn add(&self, p: [f32; 3], total: &mut Whole) {
+        let Images { surface, bed, reach, highest_bed } = self.images;
+        match (reach > -highest_bed, -p[2] <= surface, p[2] <= bed) {
+            (true, ..) => self.add_with::<true, true, true>(p, total),
+            (_, true, true) => self.add_with::<true, true, false>(p, total),
+            (_, true, false) => self.add_with::<true, false, false>(p, total),
+            (_, false, true) => self.add_with::<false, true, false>(p, total),
+            _ => self.add_with::<false, false, false>(p, total),
         }
     }
-    packet.reach = CUT_SIGMAS * tallest.into_iter().fold(0.0, f32::max);
-    packet.highest_bed = highest.into_iter().fold(f32::MIN, f32::max);
-}
 
-#[inline(always)]
-fn sum(packet: &Packet64, images: [bool; 3], p: [f32; 3]) -> i64 {
-    match images {
-        [_, _, true] => sum_with::<true, true, true>(packet, p),
-        [true, true, _] => sum_with::<true, true, false>(packet, p),
-        [true, false, _] => sum_with::<true, false, false>(packet, p),
-        [false, true, _] => sum_with::<false, true, false>(packet, p),
-        [false, false, _] => sum_with::<false, false, false>(packet, p),
+    #[inline(always)]
+    fn add_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(&self, p: [f32; 3], total: &mut Whole) {
+        let mut felt = [0.0; PACKET];
+        for (l, felt) in felt.iter_mut().enumerate() {
+            let at = [self.x[l], self.y[l], self.z[l], self.bed[l]];
+            *felt = felt_by::<SURFACE, BED, AGAIN>(at, [self.h[l], self.v[l], self.peak[l]], p);
+        }
+        total.add(&felt);
     }
 }
 
+/// Replaces sizes by factors of exponents, sets peaks, and finds where images are felt.
 #[inline(always)]
-#[expect(clippy::needless_range_loop, reason = "one index into many arrays is what becomes vector code")]
-fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(packet: &Packet64, p: [f32; 3]) -> i64 {
-    let mut felt = [0.0; PACKET_64];
-    let used = packet.count.next_multiple_of(LANES).min(PACKET_64);
-    for n in 0..used {
-        let at = [packet.x[n], packet.y[n], packet.z[n], packet.bed[n]];
-        felt[n] = felt_by::<SURFACE, BED, AGAIN>(at, [packet.h[n], packet.v[n], packet.peak[n]], p);
+fn seal(packet: &mut Packet, kg: f64) {
+    let peak_of_one = peak(kg, [1.0; 2]) as f32;
+    let [mut surface, mut low, mut highest] = [[f32::MIN; PACKET]; 3];
+    let mut tallest = [0.0; PACKET];
+    for n in 0..PACKET {
+        let used = n < packet.count;
+        let sh = if used { packet.h[n] } else { 1.0 };
+        let sv = if used { packet.v[n] } else { 1.0 };
+        let (z, bed, more) = (packet.z[n], packet.bed[n], CUT_SIGMAS * 1.000_1 * sv);
+        surface[n] = if used { z + more } else { f32::MIN };
+        low[n] = if used { 2.0 * bed - z + more } else { f32::MIN };
+        tallest[n] = if used { CUT_SIGMAS * sv } else { 0.0 };
+        highest[n] = if used { bed } else { f32::MIN };
+        packet.h[n] = 1.0 / (16.0 * sh * sh);
+        packet.v[n] = 1.0 / (16.0 * sv * sv);
+        let peak = peak_of_one / (sh * sh * sv);
+        let peak = if peak < MOST { peak } else { MOST };
+        packet.peak[n] = if used { peak } else { 0.0 };
     }
-    let mut whole = Whole::default();
-    for from in eights(packet.count) {
-        whole.add(&felt, from);
-    }
-    whole.sum()
+    let most = |all: [f32; PACKET]| all.into_iter().fold(f32::MIN, f32::max);
+    packet.images = Images { surface: most(surface), bed: most(low), reach: most(tallest), highest_bed: most(highest) };
 }
 
 /// What one filament contributes at a point, in quanta, given its place and bed, and its sealed sizes and peak. An
 /// image that is not felt adds a zero; so where none is felt, the bits are those without it.
 #[inline(always)]
-pub(super) fn felt_by<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
+fn felt_by<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
     [x, y, z, bed]: [f32; 4],
     [h, v, peak]: [f32; 3],
     p: [f32; 3],
@@ -196,7 +198,7 @@ pub(super) fn felt_by<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
 /// A sum of contributions, each rounded to a whole number of quanta.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Whole {
-    /// Sums of the bits of [`Self::NUMBER`] and the contributions, wrapped, and how many are in each.
+    /// Sums of the bits of [`Self::NUMBER`] and the contributions, wrapped, and how many there are.
     bits: [u64; LANES],
     count: u64,
 }
@@ -205,20 +207,21 @@ impl Whole {
     /// Added to a number below 2⁵¹, it leaves the nearest whole number in the last bits of the sum.
     const NUMBER: f64 = 6_755_399_441_055_744.0;
 
-    /// Adds the eight contributions from a place on, apart from where they are worked out: there, vector code works on
-    /// eight numbers of 32 bits at a time, here on four of 64 bits.
+    /// Adds contributions, apart from where they are worked out: there, vector code works on eight numbers of 32 bits at
+    /// a time, here on four of 64 bits.
     #[inline(always)]
-    pub(super) fn add<const N: usize>(&mut self, felt: &[f32; N], from: usize) {
-        for l in 0..LANES {
-            let whole = f64::from(felt[from + l]) + Self::NUMBER;
-            self.bits[l] = self.bits[l].wrapping_add(whole.to_bits());
+    fn add(&mut self, felt: &[f32; PACKET]) {
+        for some in felt.as_chunks::<LANES>().0 {
+            for (bits, felt) in self.bits.iter_mut().zip(some) {
+                *bits = bits.wrapping_add((f64::from(*felt) + Self::NUMBER).to_bits());
+            }
         }
-        self.count += 1;
+        self.count += PACKET as u64;
     }
 
     #[inline(always)]
     pub(super) fn sum(self) -> i64 {
-        let numbers = (self.count * LANES as u64).wrapping_mul(Self::NUMBER.to_bits());
+        let numbers = self.count.wrapping_mul(Self::NUMBER.to_bits());
         let bits = self.bits.into_iter().fold(0, u64::wrapping_add);
         bits.wrapping_sub(numbers).cast_signed()
     }
@@ -251,14 +254,14 @@ mod tests {
 
     #[test]
     fn all_versions_give_the_same_bits() {
-        let mut packet = Packet64::default();
-        for n in 0..30 {
+        let mut packet = Packet::default();
+        for n in 0..15 {
             let a = n as f32;
             (packet.x[n], packet.y[n], packet.z[n]) = (0.1 * a, -0.07 * a, -1.0 - 0.05 * a);
             packet.bed[n] = -4.0 + 0.01 * a;
             (packet.h[n], packet.v[n]) = (0.5 + 0.1 * a, 0.3 + 0.04 * a);
         }
-        packet.count = 30;
+        packet.count = 15;
         let open = packet.clone();
         packet.seal(InstructionSet::Portable, 1e6);
         for path in InstructionSet::all() {

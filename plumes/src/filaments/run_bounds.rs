@@ -36,15 +36,10 @@ impl RunBounds {
         )
     }
 
-    /// Between which coordinates a member is within `reach`.
-    pub(super) fn ends(&self, reach: f32) -> [f32; 2] {
-        [self.all[0] - reach, self.all[1] + reach]
-    }
-
     /// Whether a coordinate is within `reach` of any of them.
     pub(super) fn near(&self, p: f32, reach: f32) -> bool {
-        let [lo, hi] = self.ends(reach);
-        p >= lo && p <= hi
+        let [lo, hi] = self.all;
+        p >= lo - reach && p <= hi + reach
     }
 
     /// The runs that are within reach along three axes, a bit each.

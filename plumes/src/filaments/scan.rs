@@ -5,7 +5,7 @@
 
 use super::contribution::{GroupQuery, PresentMembers};
 use super::moving_packet::{MovingPacket, on_way};
-use super::packet::PACKET_64;
+use super::packet::PACKET;
 use super::run_bounds::{RUN, RUNS};
 use crate::simd::movemask::{LaneMask, bits, mark};
 
@@ -43,10 +43,11 @@ pub(super) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
 fn sum(asked: &GroupQuery, near: &Near) -> i64 {
     let GroupQuery { s, q, from, .. } = asked;
     let (mut moving, mut present) = (MovingPacket::default(), PresentMembers::default());
-    let (mut some, mut count, mut total) = ([0; PACKET_64], 0, 0);
+    let (mut some, mut count, mut total) = ([0; PACKET], 0, 0);
     let mut add = |some: &[u16]| {
         moving.take(s, q.lookup, *from, some);
-        present.work_out(&moving, asked);
+        present.fill(&moving, asked);
+        present.seal(asked);
         total += present.felt(asked);
     };
     for (run, left) in near.iter().enumerate() {
@@ -55,7 +56,7 @@ fn sum(asked: &GroupQuery, near: &Near) -> i64 {
             some[count] = (run * RUN) as u16 + left.trailing_zeros() as u16;
             left &= left - 1;
             count += 1;
-            if count == PACKET_64 {
+            if count == PACKET {
                 add(&some);
                 count = 0;
             }

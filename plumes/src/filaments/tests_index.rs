@@ -4,7 +4,7 @@ use super::bands::Bands;
 use super::domain::Domain;
 use super::index::{Index, Question};
 use super::lookup::Lookup;
-use super::packet::{PACKET_64, Packet64};
+use super::packet::{PACKET, Packet};
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::{FlowGrid, GridShape};
@@ -57,13 +57,13 @@ impl Scene {
     }
 
     /// All filaments in leaves, in the order of release.
-    fn all(&self, now_s: f64) -> Vec<Packet64> {
+    fn all(&self, now_s: f64) -> Vec<Packet> {
         let s = &self.stores[0];
         let moment = self.bands.moment(0, now_s);
         let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let packet = |part: &[(usize, [f32; 3])]| {
-            let mut packet = Packet64::default();
+            let mut packet = Packet::default();
             for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
                 (packet.x[n], packet.y[n], packet.z[n]) = (p[0], p[1], p[2]);
@@ -74,7 +74,7 @@ impl Scene {
             packet.seal(InstructionSet::Portable, s.filament_kg * QUANTA);
             packet
         };
-        there.chunks(PACKET_64).map(packet).collect()
+        there.chunks(PACKET).map(packet).collect()
     }
 }
 

@@ -142,20 +142,20 @@ fn rising_filaments_are_the_same_on_every_way() {
         format!("{:?} {:?} {felt:?}", s.z, elements(p))
     };
     let mut first = fresh(InstructionSet::Portable, 1);
-    develop(&mut first, 0.0, 400.0);
+    develop(&mut first, 0.0, 200.0);
     let mut bytes = Writer::default();
     first.keep(&mut bytes);
     let mut recalled = fresh(InstructionSet::Portable, 1);
     recalled.recall(&water, &mut Reader::new(&bytes.into_bytes())).unwrap();
     assert_eq!(state(&recalled), state(&first));
-    develop(&mut first, 400.0, 600.0);
-    develop(&mut recalled, 400.0, 600.0);
+    develop(&mut first, 200.0, 300.0);
+    develop(&mut recalled, 200.0, 300.0);
     let want = state(&first);
     assert!(state(&recalled) == want, "kept");
     for path in InstructionSet::all() {
         let mut other = fresh(path, 2);
-        develop(&mut other, 0.0, 400.0);
-        develop(&mut other, 400.0, 600.0);
+        develop(&mut other, 0.0, 200.0);
+        develop(&mut other, 200.0, 300.0);
         assert!(state(&other) == want, "{path:?}");
     }
 }
