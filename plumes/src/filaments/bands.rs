@@ -57,6 +57,25 @@ pub(super) struct Moment {
     pub(super) part: f32,
 }
 
+impl Moment {
+    /// The part of its way that a filament has gone that was released at a time; `None` if it is not released yet.
+    pub(super) fn part_gone(&self, born_s: f64) -> Option<f32> {
+        let Self { span, now_s, part } = *self;
+        if born_s <= span.from_s {
+            Some(part)
+        } else {
+            (born_s <= now_s).then(|| Span { from_s: born_s, ..span }.part(now_s))
+        }
+    }
+}
+
+/// A coordinate when a part of the way is gone.
+#[inline(always)]
+pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
+    let on = start + part * (end - start);
+    if part < 1.0 { on } else { end }
+}
+
 /// The bands from the longest step (band 0, the oldest filaments) to the shortest, and how far each has come.
 #[derive(Clone, Debug)]
 pub(super) struct Bands {

@@ -11,7 +11,7 @@
 //! eight would leave four fifths of as many filaments, with twice as many boxes.
 
 use super::boxes::{BOXES, Boxes, EMPTY, set, wider};
-use super::contribution::{GroupQuery, PresentMembers};
+use super::contribution::{GroupQuery, PresentMembers, reach};
 use super::group::GROUP;
 use super::image::NearWall;
 use super::moving_packet::MovingPacket;
@@ -41,7 +41,7 @@ impl Batch {
             present.fill(&moving, asked);
             let Packet { x, y, z, h, v, count, .. } = &present.packet;
             for n in 0..*count {
-                let (p, reach) = ([x[n], y[n], z[n]], asked.reach_of([h[n], v[n]]));
+                let (p, reach) = ([x[n], y[n], z[n]], reach(asked.q, [h[n], v[n]]));
                 for (d, ends) in ends[nth].iter_mut().enumerate() {
                     *ends = wider(*ends, [p[d] - reach[d], p[d] + reach[d]]);
                 }

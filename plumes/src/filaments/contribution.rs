@@ -25,7 +25,7 @@ pub(super) struct GroupQuery<'a> {
     pub(super) moment: Moment,
     /// The first member.
     pub(super) from: usize,
-    /// Farthest along each axis from which a member is felt, m.
+    /// Farthest along each axis from which a member is felt, m; in the plane, the same in all directions.
     pub(super) reach: [f32; 3],
     /// Quanta in a kg/m³.
     pub(super) quanta: f64,
@@ -59,16 +59,6 @@ pub(super) fn reach(q: &Question, sizes: [f32; 2]) -> [f32; 3] {
 }
 
 impl GroupQuery<'_> {
-    /// Farthest distance in the plane from which a member is felt, m: of a kernel between walls, the diagonal.
-    pub(super) fn flat_reach(&self) -> f32 {
-        self.reach[0]
-    }
-
-    /// Farthest along each axis from which a filament of these sizes (horizontal and vertical, m) is felt, m.
-    pub(super) fn reach_of(&self, sizes: [f32; 2]) -> [f32; 3] {
-        reach(self.q, sizes)
-    }
-
     /// A filament of these sizes (m), if it feels a wall.
     pub(super) fn walled(&self, p: [f32; 3], sizes: [f32; 2]) -> Option<NearWall> {
         let QueryPoint { room, lookup, .. } = self.spot;

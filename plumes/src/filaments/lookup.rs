@@ -8,10 +8,8 @@
 //!
 //! *Deviations*: K_h is bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns all.
 
-use super::kernel::BLOCK;
 use crate::flow::grid::{FlowGrid, LogLaw};
 use crate::flow::ground::NearGround;
-use crate::simd::dispatch::InstructionSet;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
 pub(super) type Bilinear = [f32; 4];
@@ -144,21 +142,6 @@ impl Lookup {
         let (di, dj) = (q[1] + q[3] * c.g, q[2] + q[3] * c.f);
         let along = |d: usize| di * self.axes[0][d] + dj * self.axes[1][d];
         (value(q, c), [along(0), along(1)])
-    }
-}
-
-/// The lower corners of the column cells in which up to [`BLOCK`] filaments are.
-pub(super) fn places(path: InstructionSet, cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
-    path.run(
-        #[inline(always)]
-        || places_of(cells, x, y, at),
-    );
-}
-
-#[inline(always)]
-fn places_of(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
-    for ((at, x), y) in at.iter_mut().zip(x).zip(y) {
-        *at = cells.column(*x, *y).at;
     }
 }
 

@@ -4,7 +4,7 @@
 //!
 //! The way is straight, so where it would cut a bend of the bed, it follows the bed.
 
-use super::bands::{Moment, Span};
+use super::bands::{Moment, on_way};
 use super::lookup::Lookup;
 use super::packet::{PACKET, Packet};
 use super::rise::widened;
@@ -59,29 +59,12 @@ impl MovingPacket {
         self.ground = lookup.ground;
     }
 
-    /// The part of its way that each has gone at a moment, and how many are released.
-    fn parts(&self, moment: &Moment) -> ([f32; PACKET], usize) {
-        let Moment { span, now_s, part } = *moment;
-        let mut parts = [part; PACKET];
-        let mut count = self.count;
-        // The newest filaments come last.
-        for l in (0..self.count).rev() {
-            let from_s = self.born_s[l];
-            if from_s <= span.from_s {
-                break;
-            } else if from_s <= now_s {
-                parts[l] = Span { from_s, ..span }.part(now_s);
-            } else {
-                count = l;
-            }
-        }
-        (parts, count)
-    }
-
     /// Puts those that are released at a moment into a packet, not [sealed](Packet::seal) yet.
     pub(super) fn fill(&self, path: InstructionSet, size: &Size, moment: &Moment, packet: &mut Packet) {
-        let (parts, count) = self.parts(moment);
-        packet.count = count;
+        let mut parts = [1.0; PACKET];
+        // The newest filaments come last.
+        let gone = self.born_s[..self.count].iter().map_while(|born| moment.part_gone(*born));
+        packet.count = parts.iter_mut().zip(gone).map(|(part, gone)| *part = gone).count();
         let way = MotionInputs { moving: self, parts, size, now_s: moment.now_s };
         path.run(
             #[inline(always)]
@@ -103,13 +86,6 @@ struct MotionInputs<'a> {
     parts: [f32; PACKET],
     size: &'a Size,
     now_s: f64,
-}
-
-/// A coordinate when a part of the way is gone.
-#[inline(always)]
-pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
-    let on = start + part * (end - start);
-    if part < 1.0 { on } else { end }
 }
 
 /// Places, beds and sizes; what is in empty places does not count.

@@ -10,7 +10,7 @@
 
 use super::domain::{Domain, DomainPoint};
 use super::lookup::Lookup;
-use crate::flow::blockage::Cells;
+use crate::flow::blockage::{Cells, beyond};
 use nalgebra::Vector3;
 
 /// How many cells away an open place is searched.
@@ -146,12 +146,7 @@ pub(super) fn clearances(cells: &Cells) -> Vec<u8> {
         for j in 0..ny {
             let whole = (0..nz).all(|k| {
                 let c = [i, j, k];
-                let beyond = |d: usize| {
-                    let mut f = c;
-                    f[d] += 1;
-                    f
-                };
-                let sides = (0..2).all(|d| cells.passes(d, c) && cells.passes(d, beyond(d)));
+                let sides = (0..2).all(|d| cells.passes(d, c) && cells.passes(d, beyond(d, c)));
                 sides && (k == 0 || cells.passes(2, c))
             });
             if !whole {

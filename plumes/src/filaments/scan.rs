@@ -3,8 +3,9 @@
 //! Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
 //! after each of their steps, and its leaves at each time. So a tree pays only where many ask about one time.
 
+use super::bands::on_way;
 use super::contribution::{GroupQuery, PresentMembers};
-use super::moving_packet::{MovingPacket, on_way};
+use super::moving_packet::MovingPacket;
 use super::packet::PACKET;
 use super::run_bounds::{RUN, RUNS};
 use crate::simd::movemask::{LaneMask, bits, mark};
@@ -97,7 +98,7 @@ fn look(asked: &GroupQuery, ways: &Ways, runs: u32, near: &mut Near) {
 #[inline(always)]
 fn within(asked: &GroupQuery, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
-    let flat = asked.flat_reach();
+    let [flat, _, high] = asked.reach;
     let [[x, x1], [y, y1], [z, z1]] = ways;
     let (x, x1) = (&x[from..from + RUN], &x1[from..from + RUN]);
     let (y, y1) = (&y[from..from + RUN], &y1[from..from + RUN]);
@@ -107,7 +108,7 @@ fn within(asked: &GroupQuery, ways: &Ways, from: usize) -> u32 {
         let dx = p[0] - on_way(x[l], x1[l], part);
         let dy = p[1] - on_way(y[l], y1[l], part);
         let dz = p[2] - on_way(z[l], z1[l], part);
-        let near = (dx * dx + dy * dy <= flat * flat) & (dz.abs() <= asked.reach[2]);
+        let near = (dx * dx + dy * dy <= flat * flat) & (dz.abs() <= high);
         inside[l] = mark(near);
     }
     bits(&inside)

@@ -10,8 +10,8 @@
 use super::bands::Bands;
 use super::drift_band::{DriftContext, hold};
 use super::eddy_coordinates;
-use super::kernel::{BLOCK, folded};
-use super::lookup::{Lookup, places};
+use super::kernel::folded;
+use super::lookup::Lookup;
 use super::noise::step_key;
 use super::plume::Plume;
 use super::store::Store;
@@ -283,12 +283,8 @@ impl Plume {
         self.grid.law = flow.log_layer().map(LogLaw::new);
         self.sampled.renew(&mut self.grid, t0_s + ahead_s);
         for store in &self.stores {
-            let mut at = [0; BLOCK];
-            for (x, y) in store.x.chunks(BLOCK).zip(store.y.chunks(BLOCK)) {
-                places(self.path, &self.cells, x, y, &mut at);
-                for at in &at[..x.len()] {
-                    self.sampled.note(*at);
-                }
+            for (x, y) in store.x.iter().zip(&store.y) {
+                self.sampled.note(self.cells.column(*x, *y).at);
             }
         }
         for source in &self.sources {

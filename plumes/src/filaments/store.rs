@@ -8,7 +8,7 @@
 //! kept, so the oldest are always first, and each band of steps is a range. The arrays grow as needed: no filament is
 //! dropped to save memory.
 
-use super::bands::{Bands, MOST, Moment, Scales, Span};
+use super::bands::{Bands, MOST, Moment, Scales, Span, on_way};
 use super::eddy_coordinates::EddyCoordinates;
 use super::rise::Rise;
 use super::size::Size;
@@ -138,20 +138,14 @@ impl Store {
 
     /// Where a filament is at a moment of its band's step: east, north, up, m. `None` if it is not released yet.
     pub(super) fn place(&self, n: usize, moment: &Moment) -> Option<[f32; 3]> {
-        let Moment { span, now_s, part } = *moment;
-        let born_s = self.born_s[n];
-        let part = if born_s <= span.from_s {
-            part
-        } else if born_s <= now_s {
-            let from_s = born_s;
-            Span { from_s, ..span }.part(now_s)
-        } else {
-            return None;
-        };
-        let on = |start: f32, end: f32| {
-            if part < 1.0 { start + part * (end - start) } else { end }
-        };
-        Some([on(self.start[0][n], self.x[n]), on(self.start[1][n], self.y[n]), on(self.start[2][n], self.z[n])])
+        let part = moment.part_gone(self.born_s[n])?;
+        let ends = [&self.x, &self.y, &self.z];
+        Some([0, 1, 2].map(|d| on_way(self.start[d][n], ends[d][n], part)))
+    }
+
+    /// How long each filament of a range moves within a step, or from its release on, s.
+    pub(super) fn steps_s(&self, range: Range<usize>, span: Span) -> impl Iterator<Item = f32> {
+        self.born_s[range].iter().map(move |born| (span.to_s - born.max(span.from_s)) as f32)
     }
 
     /// The band of a filament.

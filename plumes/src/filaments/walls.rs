@@ -17,14 +17,7 @@ use world::fields::{Flow, SideWalls};
 
 /// Carries filaments with the eddies through a step, or from their release on.
 pub(super) fn carry(flow: &dyn Flow, datum: Vector2<f64>, store: &mut Store, range: Range<usize>, span: Span) {
-    let mut dt = vec![(span.to_s - span.from_s) as f32; range.len()];
-    // The newest filaments come last.
-    for (dt, born) in dt.iter_mut().zip(&store.born_s[range.clone()]).rev() {
-        if *born <= span.from_s {
-            break;
-        }
-        *dt = (span.to_s - born) as f32;
-    }
+    let dt: Vec<f32> = store.steps_s(range.clone(), span).collect();
     let places = [&mut store.x, &mut store.y, &mut store.z].map(|v| &mut v[range.clone()]);
     flow.carry(span.to_s, &dt, datum, places);
     fold(store, range);

@@ -18,20 +18,13 @@
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::area::Area;
-use world::catalogue::Entry;
-use world::cost::{Cost, Times};
 use world::math;
 use world::ranges::{HeadingDeg, NonNegative, Positive};
-use world::registry::Listed;
 
 use crate::error::PlumeError;
 use crate::flow::bed::KARMAN;
-use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::eddies::EddiesSpec;
-use crate::flow::flume::Flume;
 use crate::flow::number::Number;
-use crate::flow::water::Water;
 
 /// Intensities at the bed in units of u_*: along, across, up (Nezu & Nakagawa 1993).
 pub const INTENSITIES: [f64; 3] = [2.30, 1.63, 1.27];
@@ -69,36 +62,6 @@ const fn smooth() -> NonNegative {
 
 const fn water() -> Positive {
     Positive::new(1e-6)
-}
-
-impl Listed for OpenChannelSpec {
-    const ENTRY: Entry = Entry {
-        name: "OpenChannel",
-        what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
-        source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
-    };
-}
-
-impl CurrentParams for OpenChannelSpec {
-    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
-        let alone = water.flume.is_none() && water.bed.is_none();
-        let CurrentSlot { field, area, terrain, seed } = *place;
-        water.flume = Some(Flume::build(self, field, area, terrain, alone, seed)?);
-        Ok(())
-    }
-
-    fn is_walled(&self) -> bool {
-        true
-    }
-
-    fn carries_m_s(&self) -> Vector2<f64> {
-        self.heading_deg.heading().unit() * self.mean_m_s.get()
-    }
-
-    fn cost(&self, area: &Area, depth_m: f64, _: f64, _: &Times) -> Cost {
-        let eddies = self.eddies.as_ref();
-        eddies.map_or_else(Cost::default, |e| e.cost(area, depth_m).under("eddies"))
-    }
 }
 
 /// The channel's mean flow and the scales of its turbulence, ready to use.

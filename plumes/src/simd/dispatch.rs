@@ -37,6 +37,15 @@ impl InstructionSet {
         Self::all().pop().unwrap_or(InstructionSet::Portable)
     }
 
+    /// AVX2 in place of AVX-512, with which the compiler makes slower code of some loops.
+    pub(crate) fn narrow(self) -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if self == InstructionSet::Avx512 {
+            return InstructionSet::Avx2;
+        }
+        self
+    }
+
     /// Does `work` with the instructions of this version. The closure and all that it calls must be
     /// `#[inline(always)]`, because only what becomes a part of this function is compiled for them.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Where a ray first meets a solid, and the direction of the surface there. Cameras and sonars ask this.
 
-use crate::convert::{from_vector, pose, vector};
 use super::{Obstacle, Obstacles, Surface};
+use crate::convert::{from_vector, pose, vector};
 use nalgebra::Vector3;
 use parry3d::query::Ray;
 

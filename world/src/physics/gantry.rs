@@ -12,10 +12,10 @@
 //! those of a multibody's motors). A gantry does not touch itself. When 25 kg are driven into a fixed solid at 0.15 m/s
 //! with 200 N, they overlap it by less than 0.1 mm (a test checks this).
 
-use crate::convert::{from_vector, pose, vector};
 use super::gantry_report::{GantryContact, Solid};
 use super::shape::Shape;
 use super::solid::Physics;
+use crate::convert::{from_vector, pose, vector};
 use crate::frames::{Pose, Truth};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;

@@ -1,8 +1,8 @@
 //! What a gantry ran into: which slide, what it touched, where and how hard.
 
-use crate::convert::from_vector;
 use super::gantry::GantryId;
 use super::solid::{BodyId, ContactReport, Physics};
+use crate::convert::from_vector;
 use nalgebra::Vector3;
 use rapier3d::prelude as r;
 

@@ -11,11 +11,11 @@
 //! *Deviations:* a body on which no impulse acts is put where its own equation takes it. No contacts are searched while
 //! no body has anything in reach and there is no gantry; the result is the same to the last bit.
 
-use crate::convert::{pose, vector};
 use super::gantry::Gantry;
 use super::ground::{Bed, FixedSolid};
 use super::shape::Shape;
 use crate::area::Area;
+use crate::convert::{pose, vector};
 use crate::frames::{NOT_FINITE, Pose, Truth};
 use crate::obstacles::Obstacle;
 use crate::terrain::Terrain;

@@ -36,7 +36,7 @@ impl Fourier {
         Self {
             turns: turns.map(turn).collect(),
             swaps: (0..n).map(|i| [i, place(i)]).filter(|[i, j]| i < j).collect(),
-            path: InstructionSet::detect(),
+            path: InstructionSet::detect().narrow(),
         }
     }
 

@@ -2,9 +2,10 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see the folder's head.
 
+use super::super::overlapping;
 use super::table::{LONGEST, Table};
 use crate::flow::channel::Channel;
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 use world::math;
 use world::seeds::Stream;
 
@@ -68,11 +69,7 @@ impl Octave {
 
     /// The two patterns at a time: that with an even number, then that with an odd one. `stream` draws for a number.
     pub(super) fn lives(&self, t_s: f64, stream: impl Fn(u64) -> Stream) -> [Life; 2] {
-        let age = t_s.max(0.0) / self.period_s;
-        let young = age.floor();
-        let part = age - young;
-        let (s, c) = math::sin_cos(FRAC_PI_2 * part);
-        let of = |number: f64, weight: f64| {
+        let of = |(number, weight): (f64, f64)| {
             let number = (number + 1.0) as u64;
             let mut rng = stream(number);
             Life {
@@ -82,8 +79,7 @@ impl Octave {
                 begin: std::array::from_fn(|_| rng.uniform() as f32),
             }
         };
-        // A pattern lives from its number to two periods later.
-        let (old, new) = (of(young - 1.0, c), of(young, s));
+        let [old, new] = overlapping(t_s.max(0.0) / self.period_s).map(of);
         if new.number.is_multiple_of(2) { [new, old] } else { [old, new] }
     }
 

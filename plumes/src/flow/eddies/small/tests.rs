@@ -5,7 +5,7 @@ use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::{Channel, OpenChannelSpec};
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::eddies::tests_eddies::{BED, channel_spec, flume};
-use crate::flow::water::{Water, WaterSpec};
+use crate::flow::{Water, WaterSpec};
 use world::math;
 use world::ranges::Positive;
 use world::seeds::Stream;
