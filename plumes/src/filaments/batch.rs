@@ -12,10 +12,10 @@
 
 use super::boxes::{BOXES, Boxes, EMPTY, set, wider};
 use super::contribution::{GroupQuery, PresentMembers, reach};
-use super::group::GROUP;
 use super::image::NearWall;
 use super::moving_packet::MovingPacket;
 use super::packet::{PACKET, Packet, Whole};
+use super::run_bounds::GROUP;
 use crate::simd::dispatch::InstructionSet;
 
 /// Words that tell of each packet of a group whether it is hit.

@@ -10,9 +10,9 @@
 
 use super::bands::Moment;
 use super::image::{NearWall, QueryPoint};
-use super::index::Question;
 use super::moving_packet::MovingPacket;
 use super::packet::{CUT_SIGMAS, MOST, Packet, peak};
+use super::question::Question;
 use super::store::Store;
 
 /// A question to one group.

@@ -8,9 +8,9 @@
 //! on which side of a thin wall a place is. Without blockage, the obstacles are the solids. The axes are along and
 //! across the area, and upwards. Over a sloping bed, a height is followed at the same part of the depth.
 
-use super::kernel::BLOCK;
+use super::clearances::clearances;
+use super::fetch::BLOCK;
 use super::lookup::Lookup;
-use super::open_place::clearances;
 use super::solids::Solids;
 use crate::flow::blockage::Cells;
 use crate::flow::grid::FlowGrid;

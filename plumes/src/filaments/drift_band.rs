@@ -9,7 +9,8 @@
 
 use super::bands::Span;
 use super::domain::Domain;
-use super::kernel::{self, BLOCK, Block, Work};
+use super::fetch::BLOCK;
+use super::kernel::{self, Block, Work};
 use super::lookup::Lookup;
 use super::noise::upward_normals;
 use super::pollock::{Pollock, PollockScratch};
@@ -156,7 +157,7 @@ impl DriftContext<'_> {
                 carrier.carry(self.path, self.cells, self.grid, b, pollock_scratch);
             }
             // Copied only where there are solids.
-            let carried = self.room.has_solids().then(|| [b.x, b.y, b.z]);
+            let carried = self.room.has_solids().then_some([b.x, b.y, b.z]);
             kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&pollock_scratch.gone) {

@@ -1,4 +1,4 @@
-//! Where filaments are in the patterns of small eddies, and how these carry them.
+//! Where filaments are in the patterns of small eddies.
 //!
 //! *Source*: see `flow::eddies::small`.
 //!
@@ -8,13 +8,9 @@
 //! is where the water that is now at the filament would be if only they had moved it. A filament that is released later
 //! takes it from the water that passes the source. Kicks by what is smaller than the finest octave do not change it.
 
-use super::bands::Span;
 use super::rows::Rows;
-use super::store::Store;
-use crate::flow::eddies::{Life, Small, Weights};
-use crate::simd::dispatch::InstructionSet;
+use crate::flow::eddies::{Life, Small};
 use nalgebra::Vector3;
-use std::ops::Range;
 use world::bits::{Reader, Unreadable, Writer};
 use world::fields::Flow;
 
@@ -67,9 +63,15 @@ impl EddyCoordinates {
 
     /// A filament has moved upwards through the water, m.
     pub(super) fn lift(&mut self, n: usize, way_m: f32) {
-        for at in &mut self.at[n * self.patterns..(n + 1) * self.patterns] {
+        for at in self.present_row(n) {
             at[2] += way_m;
         }
+    }
+
+    /// The row of a filament.
+    #[inline(always)]
+    pub(super) fn present_row(&mut self, n: usize) -> &mut [[f32; 3]] {
+        &mut self.at[n * self.patterns..(n + 1) * self.patterns]
     }
 
     /// Lets every filament begin where it is, as if all patterns began now.
@@ -103,7 +105,13 @@ impl EddyCoordinates {
     }
 
     /// Brings the coordinates of the water at the source to a time.
-    fn pass_source(&mut self, small: &Small, flow: &dyn Flow, (p_W, local): (Vector3<f64>, [f32; 3]), t_s: f64) {
+    pub(super) fn pass_source(
+        &mut self,
+        small: &Small,
+        flow: &dyn Flow,
+        (p_W, local): (Vector3<f64>, [f32; 3]),
+        t_s: f64,
+    ) {
         let u = flow.velocity(&p_W, t_s).map(|v| v as f32);
         let passed = (t_s - self.since_s) as f32;
         for ((at, number), life) in (self.source.iter_mut().zip(&mut self.source_number)).zip(small.lives(t_s)) {
@@ -120,7 +128,7 @@ impl EddyCoordinates {
     }
 
     /// The row of a filament at a place, begun anew for the patterns that have begun meanwhile.
-    fn row(&mut self, n: usize, place: [f32; 3], lives: &[Life]) -> &mut [[f32; 3]] {
+    pub(super) fn row(&mut self, n: usize, place: [f32; 3], lives: &[Life]) -> &mut [[f32; 3]] {
         let range = n * self.patterns..(n + 1) * self.patterns;
         let row = &mut self.at[range.clone()];
         for ((at, number), life) in row.iter_mut().zip(&mut self.number[range]).zip(lives) {
@@ -131,86 +139,3 @@ impl EddyCoordinates {
         row
     }
 }
-
-/// Carries filaments with the small eddies through a step, or from their release on, and the water at the source, which
-/// is given in the world and from the datum.
-pub(super) fn carry(
-    path: InstructionSet,
-    small: &Small,
-    flow: &dyn Flow,
-    source: (Vector3<f64>, [f32; 3]),
-    store: &mut Store,
-    range: Range<usize>,
-    span: Span,
-) {
-    let Some(mut labels) = store.labels.take() else {
-        return;
-    };
-    path.run(
-        #[inline(always)]
-        || moved(&mut labels, small, store, range, span),
-    );
-    labels.pass_source(small, flow, source, span.to_s);
-    store.labels = Some(labels);
-}
-
-/// Moves filaments and their rows.
-#[inline(always)]
-fn moved(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
-    let middle_s = 0.5 * (span.from_s + span.to_s);
-    let lives = small.lives(middle_s);
-    let middle = (middle_s, &*lives);
-    if range.is_empty() {
-        return;
-    }
-    let mut next = ready(labels, small, store, range.start, middle);
-    let patterns = labels.patterns;
-    for n in range.clone() {
-        let weights = next;
-        // What moves the next filament is on its way while one is moved.
-        if n + 1 < range.end {
-            next = ready(labels, small, store, n + 1, middle);
-        }
-        let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
-        let place = [store.x[n], store.y[n], store.z[n]];
-        let row = &mut labels.at[n * patterns..(n + 1) * patterns];
-        // Half the step ahead first, so that an even cloud stays even to second order.
-        let v = small.velocity(&lives, place[2], &weights, row);
-        let half = v.map(|v| 0.5 * dt * v);
-        let mut ahead = [[0.0; 3]; MOST];
-        for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
-            *ahead = std::array::from_fn(|d| at[d] + half[d]);
-        }
-        let ahead = &ahead[..row.len()];
-        let v = small.velocity(&lives, place[2] + half[2], &weights, ahead);
-        let way = v.map(|v| dt * v);
-        for at in row {
-            for d in 0..3 {
-                at[d] += way[d];
-            }
-        }
-        store.x[n] += way[0];
-        store.y[n] += way[1];
-        store.z[n] += way[2];
-    }
-}
-
-/// Works out what moves a filament at a time (s, and the patterns then), and asks the processor for it. Not a closure,
-/// which would not be compiled for the caller's instructions.
-#[inline(always)]
-fn ready(
-    labels: &mut EddyCoordinates,
-    small: &Small,
-    store: &Store,
-    n: usize,
-    (t_s, lives): (f64, &[Life]),
-) -> Weights {
-    let age_s = t_s - store.born_s[n];
-    let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
-    let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], lives);
-    small.fetch_soon(lives, &weights, row);
-    weights
-}
-
-/// Most patterns.
-const MOST: usize = 2 * crate::flow::eddies::MOST_OCTAVES;

@@ -6,9 +6,11 @@
 //!
 //! *Deviations*: none.
 
-use super::kernel::BLOCK;
 use super::lookup::{Column, Level, Lookup};
 use crate::simd::f32x4::{F32x4, Pair};
+
+/// Filaments in a block.
+pub(super) const BLOCK: usize = 128;
 
 /// The columns of a block, side by side.
 pub(super) struct Columns {

@@ -9,8 +9,8 @@
 use super::batch::Batch;
 use super::contribution::{GroupQuery, quanta, reach};
 use super::image::QueryPoint;
-use super::index::Question;
 use super::order::order;
+use super::question::Question;
 use super::run_bounds::RunBounds;
 use super::scan;
 use super::store::Store;
@@ -18,13 +18,10 @@ use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Most filaments in a group.
-pub(super) const GROUP: usize = 1024;
-
 /// To make a batch takes as long as so many questions without one. It holds for one time only.
 const SCANS: u32 = 32;
 
-/// Up to [`GROUP`] neighbours in the order of release.
+/// Up to [`GROUP`](super::run_bounds::GROUP) neighbours in the order of release.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     members: Range<usize>,

@@ -10,14 +10,13 @@
 //! give the same sum to the last bit (`felt`), so answers do not depend on earlier questions, and a viewer that asks too
 //! changes nothing.
 
-use super::bands::{Bands, MOST};
-use super::domain::Domain;
-use super::group::{GROUP, Group};
+use super::bands::MOST;
+use super::group::Group;
 use super::image::QueryPoint;
-use super::lookup::Lookup;
 pub use super::packet::CUT_SIGMAS;
+use super::question::Question;
+use super::run_bounds::GROUP;
 use super::store::Store;
-use crate::simd::dispatch::InstructionSet;
 use std::sync::OnceLock;
 
 /// The groups of every band of every store.
@@ -34,16 +33,6 @@ struct Groups {
     all: Vec<Group>,
     /// The axes, from the one along which the band is longest.
     axes: [usize; 3],
-}
-
-/// What a question is answered from.
-pub(super) struct Question<'a> {
-    pub(super) stores: &'a [Store],
-    pub(super) bands: &'a Bands,
-    pub(super) room: &'a Domain,
-    pub(super) lookup: &'a Lookup,
-    pub(super) path: InstructionSet,
-    pub(super) now_s: f64,
 }
 
 impl Index {
@@ -86,7 +75,7 @@ impl Index {
         let mut total = 0.0;
         for (s, bands) in q.stores.iter().zip(&self.stores) {
             for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
-                let groups = groups.get_or_init(|| q.groups(s, band));
+                let groups = groups.get_or_init(|| Groups::new(q, s, band));
                 groups.add(q, &spot, s, band, &mut total);
             }
         }
@@ -95,6 +84,23 @@ impl Index {
 }
 
 impl Groups {
+    /// Those of a band.
+    fn new(q: &Question, s: &Store, band: usize) -> Self {
+        let range = s.band(band, q.bands);
+        let end_s = q.bands.span(band).to_s.max(q.now_s);
+        let mut all = Vec::with_capacity(range.len().div_ceil(GROUP));
+        for from in range.clone().step_by(GROUP) {
+            let members = from..range.end.min(from + GROUP);
+            all.push(Group::new(q, s, members, end_s));
+        }
+        let mut axes = [0, 1, 2];
+        if !range.is_empty() {
+            let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
+            axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
+        }
+        Self { all, axes }
+    }
+
     /// Adds what each contributes at a point, kg/m³, in their order.
     fn add(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize, total: &mut f64) {
         for group in &self.all {
@@ -102,34 +108,5 @@ impl Groups {
                 *total += group.felt(q, spot, s, band);
             }
         }
-    }
-}
-
-impl Question<'_> {
-    /// Longest reach of any filament, m; 0 in open water, where nobody needs it.
-    fn reach(&self) -> f64 {
-        if self.room.is_open() {
-            return 0.0;
-        }
-        let oldest = |s: &Store| Some(s.largest(0..s.len(), self.now_s - s.born_s.first()?));
-        let largest = self.stores.iter().filter_map(oldest).fold(0.0, f32::max);
-        f64::from(CUT_SIGMAS * 1.000_01 * largest)
-    }
-
-    /// The groups of a band.
-    fn groups(&self, s: &Store, band: usize) -> Groups {
-        let range = s.band(band, self.bands);
-        let end_s = self.bands.span(band).to_s.max(self.now_s);
-        let mut all = Vec::with_capacity(range.len().div_ceil(GROUP));
-        for from in range.clone().step_by(GROUP) {
-            let members = from..range.end.min(from + GROUP);
-            all.push(Group::new(self, s, members, end_s));
-        }
-        let mut axes = [0, 1, 2];
-        if !range.is_empty() {
-            let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
-            axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
-        }
-        Groups { all, axes }
     }
 }

@@ -34,16 +34,13 @@
 //! All arithmetic is f32 and written once. The compiler makes a version for each of `path` from it (no fused
 //! multiply-add in any), which give the same bits.
 
-use super::fetch::{BlockFlow, Columns, Levels, fetch};
+use super::fetch::{BLOCK, BlockFlow, Columns, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::{level_normals, normals};
 use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::f32x4::AvxPair;
 use crate::simd::f32x4::{F32x4, Pair};
-
-/// Filaments in a block.
-pub(super) const BLOCK: usize = 128;
 
 /// A block of filaments during a step.
 #[derive(Clone)]

@@ -59,7 +59,7 @@ fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3], sides: Ends
 
 #[cfg(test)]
 mod tests {
-    use super::super::group::GROUP;
+    use super::super::run_bounds::GROUP;
     use super::*;
 
     #[test]

@@ -15,8 +15,8 @@
 //! A filament that stays in its cell moves by a series in f32, eight at once. One that leaves its cell goes from face
 //! to face in f64. No step is too long: nothing passes a closed face, and the volume of any cloud is conserved.
 
-use super::fetch::highest;
-use super::kernel::{BLOCK, Block};
+use super::fetch::{BLOCK, highest};
+use super::kernel::Block;
 use super::lookup::Lookup;
 use super::series::{current_time, expansion, logarithm, series};
 use crate::flow::blockage::ObstacleFlow;

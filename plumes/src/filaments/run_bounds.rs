@@ -6,9 +6,11 @@
 //!
 //! *Deviations*: none. Of a thousand neighbours, ten are near a point in the plume. Runs rule out most of the others.
 
-use super::group::GROUP;
 use crate::simd::dispatch::InstructionSet;
 use crate::simd::movemask::{LaneMask, bits, mark};
+
+/// Most filaments in a group.
+pub(super) const GROUP: usize = 1024;
 
 /// Neighbours in a run.
 pub(super) const RUN: usize = 32;

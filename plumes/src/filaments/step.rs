@@ -9,11 +9,11 @@
 
 use super::bands::Bands;
 use super::drift_band::{DriftContext, hold};
-use super::eddy_coordinates;
 use super::kernel::folded;
 use super::lookup::Lookup;
 use super::noise::step_key;
 use super::plume::Plume;
+use super::small_eddies;
 use super::store::Store;
 use super::walls::{carry, fold, keep_between};
 use crate::flow::grid::LogLaw;
@@ -212,7 +212,7 @@ impl Plume {
             if let Some(small) = &self.small {
                 let p_W = self.sources[n].p_W;
                 let source = (p_W, self.grid.local(&p_W));
-                eddy_coordinates::carry(self.path, small, flow, source, store, range.clone(), span);
+                small_eddies::carry(self.path, small, flow, source, store, range.clone(), span);
                 fold(store, range.clone());
             }
             self.keep_out(n, before, range.start);

@@ -2,9 +2,10 @@
 
 use super::bands::Bands;
 use super::domain::Domain;
-use super::index::{Index, Question};
+use super::index::Index;
 use super::lookup::Lookup;
 use super::packet::{PACKET, Packet};
+use super::question::Question;
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::{FlowGrid, GridShape};

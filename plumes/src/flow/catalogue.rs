@@ -3,10 +3,10 @@
 use world::catalogue::Entry;
 use world::kind;
 
-use crate::flow::channel::OpenChannelSpec;
 use crate::flow::current::CurrentParams;
 use crate::flow::layered::LayeredSpec;
 use crate::flow::meander::MeanderSpec;
+use crate::flow::open_channel::OpenChannelSpec;
 use crate::flow::tide::TideSpec;
 use crate::flow::uniform::UniformSpec;
 use crate::flow::waves::WavesSpec;

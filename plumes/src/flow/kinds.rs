@@ -7,12 +7,12 @@ use world::cost::{Cost, Times};
 use world::registry::Listed;
 
 use crate::error::PlumeError;
-use crate::flow::channel::OpenChannelSpec;
 use crate::flow::current::{CurrentParams, CurrentSlot};
 use crate::flow::flume::Flume;
 use crate::flow::grid::{CurrentScales, InterfaceScale};
 use crate::flow::layered::LayeredSpec;
 use crate::flow::meander::MeanderSpec;
+use crate::flow::open_channel::OpenChannelSpec;
 use crate::flow::tide::TideSpec;
 use crate::flow::uniform::UniformSpec;
 use crate::flow::water::Water;

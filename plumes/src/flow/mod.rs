@@ -17,6 +17,7 @@ pub mod layered;
 pub mod meander;
 pub mod mixing;
 pub mod number;
+pub mod open_channel;
 mod solenoidal;
 #[cfg(test)]
 mod tests_sample;

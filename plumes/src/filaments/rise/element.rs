@@ -80,14 +80,4 @@ impl Thread {
         // A disc of radius r has the variance r²/4.
         (e.own_m3 - self.volume_m3) * self.rate_hz / (4.0 * std::f64::consts::PI * drawn)
     }
-
-    /// Lets an element rise for `dt_s` from a height, m, in the water that `at` tells at each height. Returns where it
-    /// comes to.
-    #[cfg(test)]
-    pub(super) fn rise(&self, e: &mut Element, z_m: f64, dt_s: f64, at: impl Fn(f64) -> Around) -> f64 {
-        let mut one = super::simd::RisingLanes { elements: [*e], z_m: [z_m], dt_s: [dt_s] };
-        one.rise(crate::simd::dispatch::InstructionSet::Portable, self, at);
-        [*e] = one.elements;
-        one.z_m[0]
-    }
 }

@@ -25,6 +25,17 @@ fn around(speed_m_s: f64, dissipation_m2_s3: f64, n2_per_s2: f64) -> Around {
     Around { speed_m_s, dissipation_m2_s3, n2_per_s2, largest_m: 1e3 }
 }
 
+impl Thread {
+    /// Lets an element rise for `dt_s` from a height, m, in the water that `at` tells at each height. Returns where it
+    /// comes to.
+    fn rise(&self, e: &mut Element, z_m: f64, dt_s: f64, at: impl Fn(f64) -> Around) -> f64 {
+        let mut one = RisingLanes { elements: [*e], z_m: [z_m], dt_s: [dt_s] };
+        one.rise(InstructionSet::Portable, self, at);
+        [*e] = one.elements;
+        one.z_m[0]
+    }
+}
+
 /// Height and element after a time.
 fn risen(thread: &Thread, around: Around, t_s: f64, dt_s: f64) -> (f64, Element) {
     let (mut e, mut z) = (thread.released(), 0.0);

@@ -2,6 +2,7 @@
 
 mod blocked;
 mod cells;
+mod felt;
 mod field;
 mod multigrid;
 mod solve;

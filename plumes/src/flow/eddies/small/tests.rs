@@ -2,9 +2,10 @@
 
 use super::{Small, SmallSpec};
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::channel::{Channel, OpenChannelSpec};
+use crate::flow::channel::Channel;
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::eddies::tests_eddies::{BED, channel_spec, flume};
+use crate::flow::open_channel::OpenChannelSpec;
 use crate::flow::{Water, WaterSpec};
 use world::math;
 use world::ranges::Positive;
