@@ -1,8 +1,7 @@
 //! A gantry as bodies meet it: two joints with their masses. rapier moves it, and bodies that run into it push it.
 
 use super::course::Course;
-use super::gantry::{Gantry, JointState};
-use super::gantry_report::Solid;
+use super::gantry_body::{Gantry, JointState, Solid};
 use super::gaps::PlacedShape;
 use super::solid::Physics;
 use crate::convert::pose;
