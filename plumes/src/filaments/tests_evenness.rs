@@ -1,6 +1,6 @@
 //! The computed effect of a step on mixed water, compared with filaments that take the step.
 
-use super::longest_step::{EVEN, SharpestMixing};
+use super::drift::longest_step::{EVEN, SharpestMixing};
 use super::tests_mixed::{BINS, DEPTH, gap, interface, parabola};
 use super::tests_water::{Given, basin, plume, pour, source};
 use crate::flow::grid::GridShape;

@@ -1,13 +1,13 @@
 //! The index compared with a search through all filaments.
 
-use super::bands::Bands;
-use super::domain::Domain;
-use super::index::Index;
-use super::lookup::Lookup;
-use super::packet::{PACKET, Packet};
-use super::question::Question;
-use super::size::Size;
-use super::store::Store;
+use super::query::index::Index;
+use super::query::packet::{PACKET, Packet};
+use super::query::question::Question;
+use super::store::arrays::Store;
+use super::store::bands::Bands;
+use super::store::size::Size;
+use super::walls::domain::Domain;
+use super::water::lookup::Lookup;
 use crate::flow::grid::{FlowGrid, GridShape};
 use crate::release::ReleaseSpec;
 use crate::simd::dispatch::InstructionSet;

@@ -7,7 +7,7 @@
 //!
 //! *Deviations*: each component is linear along its own direction and constant in the two others. So divergence is zero
 //! at every point and nothing passes a solid face, but the tangential component has steps from cell to cell. Filaments
-//! follow the same faces (`filaments::carried`). There is no boundary layer or wake: water slips along obstacles.
+//! follow the same faces (`filaments::drift::pollock`). There is no boundary layer or wake: water slips along obstacles.
 
 use nalgebra::{Vector2, Vector3};
 
