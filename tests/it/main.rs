@@ -27,6 +27,7 @@ mod outside;
 mod packages;
 mod planning;
 mod promises;
+mod rapier_alone;
 mod readme;
 mod rejection;
 mod reproduce;

@@ -149,8 +149,8 @@ fn searchers_do_not_write_to_the_ocean() {
 #[test]
 fn each_engine_stays_in_its_room() {
     let rooms: [(&str, &[&str]); 6] = [
-        ("rapier3d", &["world/src/physics"]),
-        ("parry3d", &["world/src/physics", "world/src/terrain", "world/src/obstacles"]),
+        ("rapier3d", &["world/src/physics", "tests/it/rapier_alone.rs"]),
+        ("parry3d", &["world/src/convert.rs", "world/src/physics", "world/src/terrain", "world/src/obstacles"]),
         ("urdf_rs", &["robots/src/vehicles"]),
         ("pyo3", &["scenarios/python/src"]),
         ("zenoh", &["scenarios/output/src/live", "tests/it"]),

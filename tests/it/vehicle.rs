@@ -3,6 +3,7 @@
 //! Reference data: `tests/reference/remus100/README.md`.
 
 use crate::common::root;
+use crate::rapier_alone::RapierAlone;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::ActuatorCommand;
 use robots::vehicles::{InMemory, ParameterSet, Remus100, RemusSpec};
@@ -27,26 +28,46 @@ fn start() -> Truth {
     Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -100.0), Heading::from_deg(0.0)))
 }
 
+/// What moves a hull.
+#[derive(Clone, Copy, Debug)]
+enum Mover {
+    /// The physics of missions.
+    Ours(Solver),
+    /// rapier's rigid body.
+    Rapier,
+}
+
 /// A vehicle alone in the water.
 struct Alone {
-    physics: Physics,
-    id: BodyId,
+    moved: Moved,
     vehicle: Remus100,
     water: WaterSample,
     step_s: f64,
     steps: u64,
 }
 
+enum Moved {
+    Ours(Physics, BodyId),
+    Rapier(Box<RapierAlone>),
+}
+
 impl Alone {
-    fn new(parameters: ParameterSet, solver: Solver, start: Truth, water: WaterSample) -> Self {
-        Self::in_steps_of(STEP_S, parameters, solver, start, water)
+    fn new(parameters: ParameterSet, mover: Mover, start: Truth, water: WaterSample) -> Self {
+        Self::in_steps_of(STEP_S, parameters, mover, start, water)
     }
 
-    fn in_steps_of(step_s: f64, parameters: ParameterSet, solver: Solver, start: Truth, water: WaterSample) -> Self {
+    fn in_steps_of(step_s: f64, parameters: ParameterSet, mover: Mover, start: Truth, water: WaterSample) -> Self {
         let vehicle = vehicle(parameters);
-        let mut physics = Physics::new(step_s).with_solver(solver);
-        let id = physics.add_body(vehicle.body_spec("auv", start));
-        Self { physics, id, vehicle, water, step_s, steps: 0 }
+        let body = vehicle.body_spec("auv", start);
+        let moved = match mover {
+            Mover::Ours(solver) => {
+                let mut physics = Physics::new(step_s).with_solver(solver);
+                let id = physics.add_body(body);
+                Moved::Ours(physics, id)
+            }
+            Mover::Rapier => Moved::Rapier(Box::new(RapierAlone::new(&body, step_s))),
+        };
+        Self { moved, vehicle, water, step_s, steps: 0 }
     }
 
     fn t_s(&self) -> f64 {
@@ -54,13 +75,21 @@ impl Alone {
     }
 
     fn truth(&self) -> Truth {
-        self.physics.truth(self.id)
+        match &self.moved {
+            Moved::Ours(physics, id) => physics.truth(*id),
+            Moved::Rapier(hull) => hull.truth,
+        }
     }
 
     fn step(&mut self, command: &ActuatorCommand) {
         let free = self.vehicle.step(&self.truth(), &self.water, command, self.step_s);
-        self.physics.push(self.id, free);
-        self.physics.step();
+        match &mut self.moved {
+            Moved::Ours(physics, id) => {
+                physics.push(*id, free);
+                physics.step();
+            }
+            Moved::Rapier(hull) => hull.step(&free),
+        }
         self.steps += 1;
     }
 }
@@ -70,7 +99,7 @@ fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
 }
 
 /// Worst (position, m; attitude, deg) along a reference file.
-fn against(file: &str, solver: Solver, water: WaterSample, at: fn(f64) -> ActuatorCommand) -> (f64, f64) {
+fn against(file: &str, mover: Mover, water: WaterSample, at: fn(f64) -> ActuatorCommand) -> (f64, f64) {
     let path = root().join("tests/reference/remus100").join(file);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let rows: Vec<Vec<f64>> =
@@ -81,7 +110,7 @@ fn against(file: &str, solver: Solver, water: WaterSample, at: fn(f64) -> Actuat
         R_WB: UnitQuaternion::from_euler_angles(n[4], -n[5], Heading::from_rad(n[6]).yaw()),
     };
     let begin = Truth::at_rest(pose(&rows[0]));
-    let mut auv = Alone::new(ParameterSet::Reference, solver, begin, water);
+    let mut auv = Alone::new(ParameterSet::Reference, mover, begin, water);
     let (mut worst_m, mut worst_deg): (f64, f64) = (0.0, 0.0);
     for row in &rows {
         while auv.t_s() < row[0] - STEP_S / 2.0 {
@@ -96,9 +125,9 @@ fn against(file: &str, solver: Solver, water: WaterSample, at: fn(f64) -> Actuat
 
 /// Every way of stepping: contacts looked for or not, and rapier's integration alone.
 fn holds(file: &str, water: WaterSample, at: fn(f64) -> ActuatorCommand) {
-    for solver in [Solver::WhenInReach, Solver::Always, Solver::RapierAlone] {
-        let (m, deg) = against(file, solver, water, at);
-        assert!(m < 0.02 && deg < 0.05, "{file} {solver:?}: {m} m, {deg} deg");
+    for mover in [Mover::Ours(Solver::WhenInReach), Mover::Ours(Solver::Always), Mover::Rapier] {
+        let (m, deg) = against(file, mover, water, at);
+        assert!(m < 0.02 && deg < 0.05, "{file} {mover:?}: {m} m, {deg} deg");
     }
 }
 
@@ -143,12 +172,12 @@ fn roll_release() {
     let free = |_| command(0.0, 0.0, 0.0);
     let file = "f_roll_release_30deg.csv";
     for solver in [Solver::WhenInReach, Solver::Always] {
-        let (m, deg) = against(file, solver, still, free);
+        let (m, deg) = against(file, Mover::Ours(solver), still, free);
         assert!(m < 0.02 && deg < 0.05, "{solver:?}: {m} m, {deg} deg");
     }
     // rapier's four sub-steps of first order are off by h Δω / 8, with 2.2 rad/s of roll rate.
     let of_rapier = (STEP_S * 2.2 / 8.0).to_degrees();
-    let (m, deg) = against(file, Solver::RapierAlone, still, free);
+    let (m, deg) = against(file, Mover::Rapier, still, free);
     assert!(m < 0.02 && deg < of_rapier, "{m} m, {deg} deg");
 }
 
@@ -159,8 +188,8 @@ fn steps_of_a_twentieth_of_a_second_are_exact_enough_for_a_mission() {
     let around = water(Vector3::new(0.05, -0.11, 0.0));
     let gradient = Matrix3::new(0.0, 0.001, 0.02, -0.001, 0.0, -0.05, 0.0, 0.0, 0.0);
     let flown = |step_s: f64| {
-        let (set, solver) = (ParameterSet::Remus100, Solver::default());
-        let mut auv = Alone::in_steps_of(step_s, set, solver, start(), around);
+        let (set, mover) = (ParameterSet::Remus100, Mover::Ours(Solver::default()));
+        let mut auv = Alone::in_steps_of(step_s, set, mover, start(), around);
         auv.water.gradient = gradient;
         // Every ten seconds to the other side: far more often than any search turns.
         while auv.t_s() < 240.0 - 0.5 * step_s {

@@ -8,6 +8,7 @@ pub mod area;
 pub mod bits;
 pub mod catalogue;
 pub mod clock;
+mod convert;
 pub mod cost;
 pub mod digest;
 pub mod encoding;

@@ -64,12 +64,6 @@ impl Heading {
         Self::from_rad(deg.to_radians())
     }
 
-    /// From a yaw in ENU (radians anticlockwise from east).
-    #[must_use]
-    pub fn from_yaw(yaw_rad: f64) -> Self {
-        Self::from_rad(FRAC_PI_2 - yaw_rad)
-    }
-
     /// Direction of an (east, north) vector; north for the zero vector.
     #[must_use]
     pub fn from_vector(v: Vector2<f64>) -> Self {
@@ -128,7 +122,7 @@ mod tests {
     fn heading_and_yaw_are_inverse() {
         for deg in [0.0, 45.0, 90.0, 180.0, 270.0, 359.0] {
             let h = Heading::from_deg(deg);
-            assert!(h.turn_to(Heading::from_yaw(h.yaw())).abs() < 1e-12);
+            assert!(h.turn_to(Heading::from_rad(FRAC_PI_2 - h.yaw())).abs() < 1e-12);
             assert!(h.turn_to(Heading::from_vector(h.unit())).abs() < 1e-12);
         }
         assert!((Heading::from_deg(90.0).unit() - Vector2::new(1.0, 0.0)).norm() < 1e-12);

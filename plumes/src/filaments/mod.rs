@@ -1,38 +1,9 @@
 //! Filaments: store, drift, concentration.
 
-mod bands;
-mod batch;
-mod boxes;
-mod contribution;
-mod cut_off;
 mod displaced;
-mod domain;
-mod drift_band;
-mod eddy_coordinates;
-mod evenness;
-mod fetch;
-mod group;
-mod image;
-mod index;
-mod kernel;
-mod longest_step;
-mod lookup;
-mod moving_packet;
-mod noise;
-mod open_place;
-mod order;
-mod packet;
+mod drift;
 mod plume;
-mod pollock;
-mod rebound;
-mod rise;
-mod rows;
-mod run_bounds;
-mod sampled;
-mod scan;
-mod series;
-mod size;
-mod solids;
+mod query;
 mod step;
 mod store;
 mod tally;
@@ -46,6 +17,8 @@ mod tests_drift;
 mod tests_even;
 #[cfg(test)]
 mod tests_even_obstacles;
+#[cfg(test)]
+mod tests_even_quay;
 #[cfg(test)]
 mod tests_evenness;
 #[cfg(test)]
@@ -71,11 +44,12 @@ mod tests_water;
 #[cfg(test)]
 mod tests_waves;
 mod walls;
+mod water;
 
 pub use crate::simd::dispatch::instructions;
-pub use cut_off::cut_off;
 pub use displaced::DisplacedConcentration;
-pub use index::CUT_SIGMAS;
-pub use longest_step::{EVEN, SharpestMixing, Uneven, examined};
+pub use drift::longest_step::{EVEN, SharpestMixing, Uneven, examined};
 pub use plume::{Plume, PlumeSettings};
+pub use query::index::CUT_SIGMAS;
 pub use step::threads;
+pub use walls::cut_off::cut_off;

@@ -12,19 +12,20 @@
 
 mod kept;
 
-use super::bands::Bands;
-use super::cut_off;
-use super::domain::Domain;
-use super::drift_band::Scratch;
-use super::eddy_coordinates::EddyCoordinates;
-use super::index::{Index, Question};
-use super::lookup::Lookup;
-use super::pollock::Pollock;
-use super::rise::Rise;
-use super::sampled::SampledFlow;
-use super::size::Size;
-use super::solids::Solids;
-use super::store::Store;
+use super::drift::drift_band::Scratch;
+use super::drift::pollock::Pollock;
+use super::query::index::Index;
+use super::query::question::Question;
+use super::store::arrays::Store;
+use super::store::bands::Bands;
+use super::store::eddy_coordinates::EddyCoordinates;
+use super::store::rise::Rise;
+use super::store::size::Size;
+use super::walls::cut_off;
+use super::walls::domain::Domain;
+use super::walls::solids::Solids;
+use super::water::lookup::Lookup;
+use super::water::sampled::SampledFlow;
 use crate::error::PlumeError;
 use crate::flow::ObstacleFlow;
 use crate::flow::eddies::Small;

@@ -7,15 +7,15 @@
 //! *Deviations*: the flow of a period is that at its start, or at most half a second later, so that the water needs to
 //! be known no further ahead. A filament that leaves the grid is removed at the start of the step in which it leaves.
 
-use super::bands::Bands;
-use super::drift_band::{DriftContext, hold};
-use super::eddy_coordinates;
-use super::kernel::{BLOCK, folded};
-use super::lookup::{Lookup, places};
-use super::noise::step_key;
+use super::drift::drift_band::{DriftContext, hold};
+use super::drift::noise::step_key;
+use super::drift::small_eddies;
 use super::plume::Plume;
-use super::store::Store;
-use super::walls::{carry, fold, keep_between};
+use super::store::arrays::Store;
+use super::store::bands::Bands;
+use super::store::folded::folded;
+use super::walls::side_walls::{carry, fold, keep_between};
+use super::water::lookup::Lookup;
 use crate::flow::grid::LogLaw;
 use std::ops::Range;
 use std::sync::Arc;
@@ -212,7 +212,7 @@ impl Plume {
             if let Some(small) = &self.small {
                 let p_W = self.sources[n].p_W;
                 let source = (p_W, self.grid.local(&p_W));
-                eddy_coordinates::carry(self.path, small, flow, source, store, range.clone(), span);
+                small_eddies::carry(self.path, small, flow, source, store, range.clone(), span);
                 fold(store, range.clone());
             }
             self.keep_out(n, before, range.start);
@@ -277,18 +277,12 @@ impl Plume {
     /// Evaluates the flow where filaments are: for the middle of the step, and at most half a second ahead.
     fn refresh(&mut self, flow: &dyn Flow, t0_s: f64, threads: bool) {
         let ahead_s = (0.5 * self.bands.step_s(0)).min(0.5);
-        if self.carrier.is_some() || flow.walls().is_some() {
-            self.sampled.everywhere(true);
-        }
         self.grid.law = flow.log_layer().map(LogLaw::new);
-        self.sampled.renew(&mut self.grid, t0_s + ahead_s);
+        let all = self.carrier.is_some() || flow.walls().is_some();
+        self.sampled.renew(&mut self.grid, t0_s + ahead_s, all);
         for store in &self.stores {
-            let mut at = [0; BLOCK];
-            for (x, y) in store.x.chunks(BLOCK).zip(store.y.chunks(BLOCK)) {
-                places(self.path, &self.cells, x, y, &mut at);
-                for at in &at[..x.len()] {
-                    self.sampled.note(*at);
-                }
+            for (x, y) in store.x.iter().zip(&store.y) {
+                self.sampled.note(self.cells.column(*x, *y).at);
             }
         }
         for source in &self.sources {

@@ -3,7 +3,7 @@
 //! A filament that is shown in place of others (`decimated`) carries the mass of all of them.
 
 use super::plume::Plume;
-use super::store::Store;
+use super::store::arrays::Store;
 use crate::flow::grid::FlowGrid;
 use crate::release::Source;
 use world::digest::Digest;

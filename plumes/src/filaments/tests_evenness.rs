@@ -1,6 +1,6 @@
 //! The computed effect of a step on mixed water, compared with filaments that take the step.
 
-use super::longest_step::{EVEN, SharpestMixing};
+use super::drift::longest_step::{EVEN, SharpestMixing};
 use super::tests_mixed::{BINS, DEPTH, gap, interface, parabola};
 use super::tests_water::{Given, basin, plume, pour, source};
 use crate::flow::grid::GridShape;
@@ -12,6 +12,8 @@ const BED: Terrain = Terrain::Level { depth_m: DEPTH };
 /// Filaments of a case: one bin has a standard error of 1.3 %, the worst of 24 bins one of about 3 %.
 const FILAMENTS: usize = 150_000;
 const NOISE: f64 = 0.03;
+/// How long they take their steps, s: most of what a step does has grown by then.
+const LASTS_S: f64 = 200.0;
 
 fn sharpest(k_z: impl Fn(f64) -> f64 + Send + Sync) -> SharpestMixing {
     let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
@@ -44,8 +46,8 @@ fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
 #[test]
 fn what_a_step_does_is_foretold() {
     fn check(what: &str, dt_s: f64, k_z: &(dyn Fn(f64) -> f64 + Send + Sync)) {
-        let said = sharpest(k_z).uneven(dt_s, 600.0).unwrap().part;
-        let got = sampled(k_z, dt_s, 600.0);
+        let said = sharpest(k_z).uneven(dt_s, LASTS_S).unwrap().part;
+        let got = sampled(k_z, dt_s, LASTS_S);
         assert!((said - got).abs() < NOISE + 0.15 * got, "{what}, {dt_s} s: {said} for {got}");
     }
     for dt_s in [2.0, 5.0] {
@@ -63,13 +65,13 @@ fn at_the_longest_step_water_is_even_and_beyond_it_no_more() {
     for thickness_m in [0.3, 0.5] {
         let k_z = || interface(0.02, thickness_m);
         let of = sharpest(k_z());
-        let longest_s = of.longest_step_s(60.0, 600.0).unwrap();
-        assert!(of.uneven(longest_s, 600.0).unwrap().part <= EVEN);
-        assert!(of.uneven(1.1 * longest_s, 600.0).unwrap().part > EVEN);
-        let at = sampled(k_z(), longest_s, 600.0);
+        let longest_s = of.longest_step_s(60.0, LASTS_S).unwrap();
+        assert!(of.uneven(longest_s, LASTS_S).unwrap().part <= EVEN);
+        assert!(of.uneven(1.1 * longest_s, LASTS_S).unwrap().part > EVEN);
+        let at = sampled(k_z(), longest_s, LASTS_S);
         assert!(at < EVEN + NOISE, "{thickness_m} m, {longest_s} s: {at}");
         // A step ten times as long is several times as wrong, and filaments show it.
-        let beyond = sampled(k_z(), 10.0 * longest_s, 600.0);
+        let beyond = sampled(k_z(), 10.0 * longest_s, LASTS_S);
         assert!(beyond > 3.0 * EVEN, "{thickness_m} m, {longest_s} s: {beyond}");
     }
 }

@@ -1,12 +1,13 @@
 //! The index compared with a search through all filaments.
 
-use super::bands::Bands;
-use super::domain::Domain;
-use super::index::{Index, Question};
-use super::lookup::Lookup;
-use super::packet::{PACKET_64, Packet64};
-use super::size::Size;
-use super::store::Store;
+use super::query::index::Index;
+use super::query::packet::{PACKET, Packet};
+use super::query::question::Question;
+use super::store::arrays::Store;
+use super::store::bands::Bands;
+use super::store::size::Size;
+use super::walls::domain::Domain;
+use super::water::lookup::Lookup;
 use crate::flow::grid::{FlowGrid, GridShape};
 use crate::release::ReleaseSpec;
 use crate::simd::dispatch::InstructionSet;
@@ -57,13 +58,13 @@ impl Scene {
     }
 
     /// All filaments in leaves, in the order of release.
-    fn all(&self, now_s: f64) -> Vec<Packet64> {
+    fn all(&self, now_s: f64) -> Vec<Packet> {
         let s = &self.stores[0];
         let moment = self.bands.moment(0, now_s);
         let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let packet = |part: &[(usize, [f32; 3])]| {
-            let mut packet = Packet64::default();
+            let mut packet = Packet::default();
             for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
                 (packet.x[n], packet.y[n], packet.z[n]) = (p[0], p[1], p[2]);
@@ -74,7 +75,7 @@ impl Scene {
             packet.seal(InstructionSet::Portable, s.filament_kg * QUANTA);
             packet
         };
-        there.chunks(PACKET_64).map(packet).collect()
+        there.chunks(PACKET).map(packet).collect()
     }
 }
 

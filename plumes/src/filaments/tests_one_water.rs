@@ -8,7 +8,7 @@ use crate::flow::layered::{InterfaceSpec, LayeredSpec};
 use crate::flow::mixing::MixingSpec;
 use crate::flow::tests_water::{layer, wave};
 use crate::flow::uniform::UniformSpec;
-use crate::flow::water::{Water, WaterSpec};
+use crate::flow::{Water, WaterSpec};
 use crate::release::SourceSpec;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;

@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
 
-use crate::flow::water::WaterSpec;
+use crate::flow::water_spec::WaterSpec;
 
 /// Memory of a node of the plume's flow, bytes: its values, those by cell, and their check.
 const NODE_BYTES: f64 = 64.0;

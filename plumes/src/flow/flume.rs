@@ -14,9 +14,10 @@ use world::seeds::Seed;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
-use crate::flow::channel::{Channel, OpenChannelSpec, TRANSVERSE};
+use crate::flow::channel::{Channel, TRANSVERSE};
 use crate::flow::eddies::{Eddies, Spectrum};
 use crate::flow::mixing;
+use crate::flow::open_channel::OpenChannelSpec;
 
 /// A channel between walls, with its eddies.
 #[derive(Clone, Debug)]

@@ -24,7 +24,7 @@ mod log_law;
 mod shape;
 
 pub(crate) use log_law::LogLaw;
-pub use shape::GridShape;
+pub use shape::{CurrentScales, GridShape, InterfaceScale};
 
 use crate::flow::ground::{Ground, NearGround};
 use nalgebra::{Vector2, Vector3};

@@ -13,7 +13,6 @@
 //! interface stays at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
 
 mod column;
-mod row;
 
 use nalgebra::Vector2;
 use schemars::JsonSchema;

@@ -21,18 +21,14 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
-use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};
 use world::ranges::{NonNegative, Positive};
-use world::registry::Listed;
 use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
 use crate::flow::number::{Number, along, times};
 use crate::flow::solenoidal::Solenoidal;
-use crate::flow::water::Water;
 
 /// Farrell's wind grid as a meander of the water.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -60,34 +56,6 @@ const fn farrell_omega() -> Positive {
 
 const fn farrell_damping() -> Positive {
     Positive::new(0.1)
-}
-
-impl Listed for MeanderSpec {
-    const ENTRY: Entry = Entry {
-        name: "Meander",
-        what: "Coloured noise at the area's corners carried inside, made divergence-free",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
-    };
-}
-
-impl CurrentParams for MeanderSpec {
-    fn join(&self, _: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
-        Ok(())
-    }
-
-    fn join_carried(&self, water: &mut Water, place: &CurrentSlot, carrier: Vector2<f64>) -> Result<(), PlumeError> {
-        let meander = self.build(place.field, place.area, carrier, place.seed)?;
-        water.meanders.push(meander);
-        Ok(())
-    }
-
-    fn is_steady(&self) -> bool {
-        false
-    }
-
-    fn cost(&self, area: &Area, _: f64, ahead_s: f64, times: &Times) -> Cost {
-        self.work(area, ahead_s, times)
-    }
 }
 
 /// Most cells along a side; the cost of the projection grows with their cube.

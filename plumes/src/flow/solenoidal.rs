@@ -136,18 +136,10 @@ impl Solenoidal {
 
     /// Coefficients of the stream function of the field nearest to `u` at the nodes (index i·(my + 1) + j).
     pub(crate) fn project(&self, u: &[Vector2<f64>]) -> Vec<f64> {
-        match self.path {
-            InstructionSet::Portable => self.solved(u),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.solved_avx2(u) },
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn solved_avx2(&self, u: &[Vector2<f64>]) -> Vec<f64> {
-        self.solved(u)
+        self.path.run(
+            #[inline(always)]
+            || self.solved(u),
+        )
     }
 
     #[inline(always)]

@@ -8,11 +8,12 @@ use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
 use super::tests_water::{duck, duck_area, duck_bed, layer, places, wave};
-use crate::flow::catalogue::{CurrentSpec, PlaneCurrent};
+use crate::flow::catalogue::CurrentSpec;
+use crate::flow::foreign::PlaneCurrent;
 use crate::flow::layered::{InterfaceSpec, LayeredSpec};
 use crate::flow::tide::{ConstituentSpec, TideSpec};
 use crate::flow::uniform::UniformSpec;
-use crate::flow::water::{Water, WaterSpec};
+use crate::flow::{Water, WaterSpec};
 
 /// A current of which the water knows nothing but its values.
 #[derive(Debug)]

@@ -11,8 +11,8 @@ use world::units::Heading;
 use crate::flow::bed::BedSpec;
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::tide::{ConstituentSpec, TideSpec};
-use crate::flow::water::{Water, WaterSpec};
 use crate::flow::waves::tests::{regular, train};
+use crate::flow::{Water, WaterSpec};
 
 const BED: Terrain = Terrain::Level { depth_m: 10.0 };
 

@@ -14,7 +14,7 @@ use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
 use crate::flow::meander::MeanderSpec;
 use crate::flow::mixing::MixingSpec;
 use crate::flow::uniform::UniformSpec;
-use crate::flow::water::{Water, WaterSpec};
+use crate::flow::{Water, WaterSpec};
 
 /// The area off Duck (Pang 2009, section 6).
 pub(crate) fn duck_area() -> Area {

@@ -16,14 +16,10 @@
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
-use world::registry::Listed;
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, CurrentSlot};
 use crate::flow::number::{Number, still, times};
-use crate::flow::water::Water;
 
 /// The tide's current: a sum of constituents.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -67,25 +63,6 @@ struct Constituent {
     minor: Vector2<f64>,
     omega_rad_s: f64,
     phase_rad: f64,
-}
-
-impl Listed for TideSpec {
-    const ENTRY: Entry = Entry {
-        name: "Tide",
-        what: "Tidal current: ellipses of constituents, rotating or rectilinear",
-        source: "Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; Foreman 1978",
-    };
-}
-
-impl CurrentParams for TideSpec {
-    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
-        water.tides.push(self.build(place.field)?);
-        Ok(())
-    }
-
-    fn is_steady(&self) -> bool {
-        false
-    }
 }
 
 /// The tide's current, ready to use.

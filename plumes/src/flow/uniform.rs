@@ -9,13 +9,7 @@
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
 use world::ranges::{HeadingDeg, NonNegative};
-use world::registry::Listed;
-
-use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, CurrentSlot};
-use crate::flow::water::Water;
 
 /// A horizontal velocity as a speed and the direction the water goes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -32,25 +26,6 @@ impl UniformSpec {
     #[must_use]
     pub fn velocity(&self) -> Vector2<f64> {
         self.heading_deg.heading().unit() * self.speed_m_s.get()
-    }
-}
-
-impl Listed for UniformSpec {
-    const ENTRY: Entry = Entry {
-        name: "Uniform",
-        what: "One velocity everywhere and always",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143",
-    };
-}
-
-impl CurrentParams for UniformSpec {
-    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
-        water.uniform += self.velocity();
-        Ok(())
-    }
-
-    fn carries_m_s(&self) -> Vector2<f64> {
-        self.velocity()
     }
 }
 

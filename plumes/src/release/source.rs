@@ -4,7 +4,7 @@
 //!
 //! *Parameters*: `rate_g_s` mass released (g/s); `release.rate_hz` filaments per second (1/s; 5 to 10);
 //! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001); `release.vertical_size_limit_m`
-//! greatest vertical size (m; none); `release.eddy_size_m` (m; none), see `filaments::size`; `release.nozzle` (none).
+//! greatest vertical size (m; none); `release.eddy_size_m` (m; none), see the filaments' `size`; `release.nozzle` (none).
 //!
 //! *Deviations*: the paper counts molecules in arbitrary units; here the quantity is mass. The vertical limit is not in
 //! the paper. In stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament cannot

@@ -128,23 +128,15 @@ pub(crate) fn fetch_soon<T>(table: &[T], n: usize) {
     let _ = (table, n);
 }
 
-/// Two quads that are neighbours in memory, such as the numbers at two levels of a column.
+/// Two quads, such as the numbers at two levels of a column.
 pub(crate) trait Pair: Copy {
     /// Reads both.
     ///
     /// # Safety
     /// The machine must have the instructions that this pair uses.
-    unsafe fn new(v: &[[f32; 4]; 2]) -> Self;
-
-    /// Reads two quads that are not neighbours.
-    ///
-    /// # Safety
-    /// As for [`Self::new`].
-    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self;
+    unsafe fn new(a: &[f32; 4], b: &[f32; 4]) -> Self;
 
     fn add(self, b: Self) -> Self;
-
-    fn sub(self, b: Self) -> Self;
 
     fn times(self, s: f32) -> Self;
 
@@ -152,38 +144,28 @@ pub(crate) trait Pair: Copy {
 }
 
 /// A pair on any machine.
-#[derive(Clone, Copy)]
-pub(crate) struct PortablePair([F32x4; 2]);
-
-impl Pair for PortablePair {
+impl Pair for [F32x4; 2] {
     #[inline(always)]
-    unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
-        Self([F32x4::new(&v[0]), F32x4::new(&v[1])])
-    }
-
-    #[inline(always)]
-    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self {
-        Self([F32x4::new(a), F32x4::new(b)])
-    }
-
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        Self([self.0[0].sub(b.0[0]), self.0[1].sub(b.0[1])])
+    unsafe fn new(a: &[f32; 4], b: &[f32; 4]) -> Self {
+        [F32x4::new(a), F32x4::new(b)]
     }
 
     #[inline(always)]
     fn add(self, b: Self) -> Self {
-        Self([self.0[0].add(b.0[0]), self.0[1].add(b.0[1])])
+        [self[0].add(b[0]), self[1].add(b[1])]
     }
 
     #[inline(always)]
     fn times(self, s: f32) -> Self {
-        Self(self.0.map(|v| v.times(s)))
+        self.map(
+            #[inline(always)]
+            |v| v.times(s),
+        )
     }
 
     #[inline(always)]
     fn apart(self) -> [F32x4; 2] {
-        self.0
+        self
     }
 }
 
@@ -195,21 +177,9 @@ pub(crate) struct AvxPair(x86::__m256);
 #[cfg(target_arch = "x86_64")]
 impl Pair for AvxPair {
     #[inline(always)]
-    unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
-        // SAFETY: reads eight f32 at any alignment; the caller promises AVX.
-        Self(unsafe { x86::_mm256_loadu_ps(v.as_ptr().cast()) })
-    }
-
-    #[inline(always)]
-    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self {
-        // SAFETY: as above.
+    unsafe fn new(a: &[f32; 4], b: &[f32; 4]) -> Self {
+        // SAFETY: reads four f32 twice at any alignment; the caller promises AVX.
         Self(unsafe { x86::_mm256_loadu2_m128(b.as_ptr(), a.as_ptr()) })
-    }
-
-    #[inline(always)]
-    fn sub(self, b: Self) -> Self {
-        // SAFETY: whoever made the pair promised AVX.
-        Self(unsafe { x86::_mm256_sub_ps(self.0, b.0) })
     }
 
     #[inline(always)]
@@ -250,14 +220,14 @@ mod tests {
     fn lanes<P: Pair>() -> [[f32; 4]; 2] {
         let rows = [[1.5, -2.0, 3.25, 0.1], [7.0, 0.3, -0.2, 5.5]];
         // SAFETY: the callers ask the machine first.
-        let [a, b] = unsafe { [P::new(&rows), P::of(&rows[1], &rows[0])] };
-        a.times(0.7).add(b.sub(a)).apart().map(F32x4::array)
+        let [a, b] = unsafe { [P::new(&rows[0], &rows[1]), P::new(&rows[1], &rows[0])] };
+        a.times(0.7).add(b).apart().map(F32x4::array)
     }
 
     #[test]
     fn pairs_are_quads_side_by_side() {
-        let want = |a: f32, b: f32| a * 0.7 + (b - a);
-        let got = lanes::<PortablePair>();
+        let want = |a: f32, b: f32| a * 0.7 + b;
+        let got = lanes::<[F32x4; 2]>();
         assert_eq!(got[0][0], want(1.5, 7.0));
         assert_eq!(got[1][3], want(5.5, 0.1));
         #[cfg(target_arch = "x86_64")]

@@ -1,7 +1,7 @@
 //! Where a ray first meets a solid, and the direction of the surface there. Cameras and sonars ask this.
 
-use super::solid::{from_parry, to_parry};
 use super::{Obstacle, Obstacles, Surface};
+use crate::convert::{from_vector, pose, vector};
 use nalgebra::Vector3;
 use parry3d::query::Ray;
 
@@ -27,9 +27,9 @@ impl Obstacle {
         if self.contains(origin) {
             return Some((0.0, -dir));
         }
-        let ray = Ray::new(to_parry(origin), to_parry(dir));
-        let met = (self.shape).cast_ray_and_get_normal(&self.parry_pose(), &ray, max_m, true)?;
-        Some((met.time_of_impact, from_parry(met.normal)))
+        let ray = Ray::new(vector(origin), vector(dir));
+        let met = (self.shape).cast_ray_and_get_normal(&pose(&self.pose), &ray, max_m, true)?;
+        Some((met.time_of_impact, from_vector(met.normal)))
     }
 
     /// Centre and radius of a ball that encloses it, m.

@@ -7,12 +7,13 @@
 //! *Deviations:* parry's cylinder stands along its own y axis, so the pose of a cylinder turns y up.
 
 use super::{Base, ObstacleSpec, ShapeSpec, Surface, heightfield_file, mesh, mesh_file};
+use crate::convert::{from_vector, pose, vector};
 use crate::error::WorldError;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
 use bevy_ecs::prelude::Resource;
 use nalgebra::{UnitQuaternion, Vector3};
-use parry3d::math::{Pose as ParryPose, Rotation, Vector};
+use parry3d::math::Vector;
 use parry3d::query::{Ray, intersection_test};
 use parry3d::shape::{Cuboid, SharedShape};
 use std::f64::consts::FRAC_PI_2;
@@ -97,8 +98,8 @@ impl Obstacle {
     /// Distance from a point (ENU, m) to the surface, m; negative inside.
     #[must_use]
     pub fn distance(&self, p: &Vector3<f64>) -> f64 {
-        let p = to_parry(p);
-        let on = self.shape.project_point(&self.parry_pose(), p, false);
+        let p = vector(p);
+        let on = self.shape.project_point(&pose(&self.pose), p, false);
         let d = (on.point - p).length();
         if on.is_inside { -d } else { d }
     }
@@ -106,14 +107,14 @@ impl Obstacle {
     /// Axis-aligned bounds (min, max) in the world, m.
     #[must_use]
     pub fn bounds(&self) -> (Vector3<f64>, Vector3<f64>) {
-        let b = self.shape.compute_aabb(&self.parry_pose());
-        (from_parry(b.mins), from_parry(b.maxs))
+        let b = self.shape.compute_aabb(&pose(&self.pose));
+        (from_vector(b.mins), from_vector(b.maxs))
     }
 
     /// Its least and its greatest horizontal extent along its own axes, m.
     #[must_use]
     pub fn plan_m(&self) -> [f64; 2] {
-        let half = from_parry(self.shape.compute_local_aabb().half_extents());
+        let half = from_vector(self.shape.compute_local_aabb().half_extents());
         let upright = |axis: usize| (self.pose.R_WB * Vector3::ith(axis, 1.0)).z.abs() > 0.5;
         let flat = (0..3).filter(|axis| !upright(*axis)).map(|axis| 2.0 * half[axis]);
         flat.fold([f64::INFINITY, 0.0], |[least, most], m| [least.min(m), most.max(m)])
@@ -126,8 +127,8 @@ impl Obstacle {
         if self.contains(origin) {
             return Some(0.0);
         }
-        let ray = Ray::new(to_parry(origin), to_parry(&dir.normalize()));
-        self.shape.cast_ray(&self.parry_pose(), &ray, max_m, true)
+        let ray = Ray::new(vector(origin), vector(&dir.normalize()));
+        self.shape.cast_ray(&pose(&self.pose), &ray, max_m, true)
     }
 
     /// Whether a block of half extents `half_m` overlaps the obstacle's surface, or its inside if the shape is solid. A
@@ -135,29 +136,11 @@ impl Obstacle {
     #[must_use]
     pub fn meets_box(&self, pose_WB: &Pose, half_m: [f64; 3]) -> bool {
         let block = Cuboid::new(Vector::new(half_m[0], half_m[1], half_m[2]));
-        let at = to_parry_pose(pose_WB);
-        intersection_test(&self.parry_pose(), &*self.shape, &at, &block)
+        let at = pose(pose_WB);
+        intersection_test(&pose(&self.pose), &*self.shape, &at, &block)
             .expect("parry can intersect a block with any shape that an obstacle has")
             .intersecting
     }
-
-    /// The pose in parry's types, which rapier uses too.
-    pub(crate) fn parry_pose(&self) -> ParryPose {
-        to_parry_pose(&self.pose)
-    }
-}
-
-fn to_parry_pose(pose: &Pose) -> ParryPose {
-    let q = pose.R_WB.coords;
-    ParryPose::from_parts(to_parry(&pose.p_WB), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
-}
-
-pub(super) fn to_parry(v: &Vector3<f64>) -> Vector {
-    Vector::new(v.x, v.y, v.z)
-}
-
-pub(super) fn from_parry(v: Vector) -> Vector3<f64> {
-    Vector3::new(v.x, v.y, v.z)
 }
 
 /// All solids of a scenario, in its order.

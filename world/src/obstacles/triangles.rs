@@ -1,7 +1,7 @@
 //! The surface of a solid as triangles, to be drawn.
 
 use super::Obstacle;
-use super::solid::from_parry;
+use crate::convert::from_vector;
 use nalgebra::Vector3;
 
 /// Number of corners that represent a circle.
@@ -20,7 +20,7 @@ impl Obstacle {
         } else {
             unreachable!("an obstacle is a box, a cylinder or a mesh")
         };
-        let at = |corner: u32| self.pose.point(from_parry(points[corner as usize]));
+        let at = |corner: u32| self.pose.point(from_vector(points[corner as usize]));
         triangles.into_iter().map(|t| t.map(at)).collect()
     }
 }

@@ -1,9 +1,9 @@
 //! The way out of a solid for something that water carries: sideways or up, never down into the bed.
 
 use super::{Obstacle, Obstacles};
+use crate::convert::{pose, vector};
 use crate::math;
 use nalgebra::Vector3;
-use parry3d::math::Vector;
 use parry3d::query::Ray;
 use std::f64::consts::TAU;
 
@@ -17,9 +17,8 @@ const IN_A_ROW: usize = 16;
 impl Obstacle {
     /// Distance along a unit vector from a point inside to the surface, m.
     fn thickness(&self, p: &Vector3<f64>, along: &Vector3<f64>) -> Option<f64> {
-        let to = |v: &Vector3<f64>| Vector::new(v.x, v.y, v.z);
-        let ray = Ray::new(to(p), to(along));
-        (self.shape).cast_ray(&self.parry_pose(), &ray, f64::MAX, false)
+        let ray = Ray::new(vector(p), vector(along));
+        (self.shape).cast_ray(&pose(&self.pose), &ray, f64::MAX, false)
     }
 }
 

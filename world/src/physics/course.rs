@@ -9,8 +9,9 @@
 //! velocity that an impulse adds keeps its direction in body axes to the end of the step, so that it adds no energy
 //! however far the hull turns.
 
+use super::body::{BodyId, ContactReport};
 use super::impulses::Row;
-use super::solid::{BodyId, ContactReport, Physics};
+use super::solid::Physics;
 use crate::frames::{Pose, Truth};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 

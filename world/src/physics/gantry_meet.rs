@@ -1,11 +1,10 @@
 //! A gantry as bodies meet it: two joints with their masses. rapier moves it, and bodies that run into it push it.
 
-use super::convert::pose;
 use super::course::Course;
-use super::gantry::{Gantry, JointState};
-use super::gantry_report::Solid;
+use super::gantry_body::{Gantry, JointState, Solid};
 use super::gaps::PlacedShape;
 use super::solid::Physics;
+use crate::convert::pose;
 use crate::frames::Pose;
 use nalgebra::{Matrix2, Matrix6, Vector3};
 use rapier3d::prelude as r;

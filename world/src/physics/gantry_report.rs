@@ -1,43 +1,10 @@
 //! What a gantry ran into: which slide, what it touched, where and how hard.
 
-use super::convert::from_vector;
-use super::gantry::GantryId;
-use super::solid::{BodyId, ContactReport, Physics};
-use nalgebra::Vector3;
+use super::body::ContactReport;
+use super::gantry_body::{GantryContact, GantryId, Solid};
+use super::solid::Physics;
+use crate::convert::from_vector;
 use rapier3d::prelude as r;
-
-/// Something solid of one [`Physics`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Solid {
-    /// A fixed thing, by the order in which the fixed things were added.
-    Fixed(usize),
-    /// A moving body.
-    Body(BodyId),
-    /// Another gantry.
-    Gantry(GantryId),
-}
-
-/// What a gantry touched in the latest step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct GantryContact {
-    /// Impulse on the first slide, and on the second slide with the head; world axes, N s.
-    pub impulse_N_s: [Vector3<f64>; 2],
-    /// Deepest overlap at the beginning of the step, as the solver had it, m. The solver keeps contacts that hardly
-    /// moved, so the value may be short by hundredths of a millimetre.
-    pub max_penetration_m: f64,
-    /// The thing that pushed back most.
-    pub with: Option<Solid>,
-    /// Place of that contact, world axes, m.
-    pub at_W: Option<Vector3<f64>>,
-}
-
-impl GantryContact {
-    /// Whether anything pushed back.
-    #[must_use]
-    pub fn touching(&self) -> bool {
-        self.with.is_some()
-    }
-}
 
 impl Physics {
     /// Combines the contacts of a gantry's two slides.

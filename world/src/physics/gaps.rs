@@ -7,7 +7,7 @@
 //! *Deviations:* a surface that encloses nothing (bed, mesh) is met from both sides. GJK loses curved surfaces that
 //! just touch, so distances of a capsule are measured from its axis, and a body with edges has a skin of 1 mm.
 
-use super::convert::from_vector;
+use crate::convert::from_vector;
 use nalgebra::Vector3;
 use rapier3d::math as r;
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};

@@ -13,11 +13,12 @@
 //! Velocity that an impulse adds is kept apart from that motion until the end of the step; the forces of the water
 //! include it from the next step on.
 
-use super::convert::pose;
+use super::body::FRICTION;
 use super::course::{Course, Who, note};
 use super::gaps::{PlacedShape, Point};
 use super::impulses::{Row, solve};
-use super::solid::{FRICTION, Physics};
+use super::solid::Physics;
+use crate::convert::pose;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// A turn that still approaches something faster than this when all contacts have moved the body aside has no room, m/s.

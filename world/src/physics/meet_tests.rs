@@ -1,8 +1,8 @@
 //! Bodies of every shape, thrown at random against solids of every shape.
 
-use super::convert::pose;
 use super::{BodySpec, Physics, Shape, Solver};
 use crate::area::Area;
+use crate::convert::pose;
 use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
 use crate::terrain::Terrain;

@@ -1,8 +1,9 @@
 //! Rigid bodies and contacts. Only this module uses rapier3d.
 
-mod convert;
+mod body;
 mod course;
 mod gantry;
+mod gantry_body;
 mod gantry_meet;
 mod gantry_report;
 #[cfg(test)]
@@ -13,14 +14,13 @@ mod impulses;
 mod meet;
 #[cfg(test)]
 mod meet_tests;
-mod rapier_alone;
 mod shape;
 mod solid;
 #[cfg(test)]
 mod solid_tests;
 
-pub use gantry::{AxisDrive, AxisSpec, GantryBodySpec, GantryId, JointState};
-pub use gantry_report::{GantryContact, Solid};
+pub use body::{BodyId, BodySpec, ContactReport};
+pub use gantry_body::{AxisDrive, AxisSpec, GantryBodySpec, GantryContact, GantryId, JointState, Solid};
 pub use ground::Bed;
 pub use shape::{Inside, Shape};
-pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};
+pub use solid::{Physics, Solver};

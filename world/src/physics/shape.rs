@@ -1,6 +1,6 @@
 //! What a body looks like to the contact solver, in plain numbers.
 
-use super::convert::{pose, vector};
+use crate::convert::{pose, vector};
 use crate::frames::Pose;
 use nalgebra::Vector3;
 use rapier3d::geometry::SharedShape;

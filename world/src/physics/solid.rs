@@ -4,31 +4,24 @@
 //! *Source:* added mass as a force is stable with a lag of one step, however short, only if ρ(M_RB⁻¹ M_A) < 1; a REMUS
 //! hull has 1.09. Therefore the owner of a body solves its equation with the added mass on the left side, and contacts
 //! use the same mass matrix (`meet.rs`). rapier moves the gantries only, because it knows a scalar mass only
-//! (`rapier_alone.rs` compares the two).
+//! (`tests/it/rapier_alone.rs` compares the two).
 //!
 //! *Parameters:* `mass`: that of the body with its added mass.
 //!
 //! *Deviations:* a body on which no impulse acts is put where its own equation takes it. No contacts are searched while
 //! no body has anything in reach and there is no gantry; the result is the same to the last bit.
 
-use super::convert::{pose, vector};
-use super::gantry::Gantry;
+use super::body::{Body, BodyId, BodySpec, ContactReport, FRICTION};
+use super::gantry_body::Gantry;
 use super::ground::{Bed, FixedSolid};
-use super::rapier_alone::Twin;
-use super::shape::Shape;
 use crate::area::Area;
+use crate::convert::pose;
 use crate::frames::{NOT_FINITE, Pose, Truth};
 use crate::obstacles::Obstacle;
 use crate::terrain::Terrain;
-use bevy_ecs::prelude::{Component, Resource};
-use nalgebra::{Matrix6, UnitQuaternion, Vector3};
-use rapier3d::parry::bounding_volume::BoundingVolume;
+use bevy_ecs::prelude::Resource;
+use nalgebra::{Matrix6, Vector3};
 use rapier3d::prelude as r;
-
-/// Distance round a body's sphere within which contacts are searched, beyond its motion in two steps, m.
-const NEAR_M: f64 = 0.1;
-/// Friction coefficient of a hull on sand or concrete.
-pub(super) const FRICTION: f64 = 0.4;
 
 /// The steps in which contacts are searched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,111 +31,6 @@ pub enum Solver {
     WhenInReach,
     /// All steps, with the same result.
     Always,
-    /// None: rapier moves its own rigid bodies alone, as a cross-check (`rapier_alone.rs`). Not possible with gantries.
-    /// To be chosen before bodies are added.
-    RapierAlone,
-}
-
-/// A body as the solver needs it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BodySpec {
-    /// Name for error messages.
-    pub id: String,
-    /// Where it starts.
-    pub truth: Truth,
-    /// Its collision shapes, each in body axes.
-    pub shapes: Vec<(Pose, Shape)>,
-    /// Centre of mass in body axes, m.
-    pub p_BG: Vector3<f64>,
-    /// Mass matrix for the velocity of the body's origin and the angular velocity, in body axes, with added mass: kg,
-    /// kg m, kg m²; symmetric and positive definite.
-    pub mass: Matrix6<f64>,
-    /// Whether it has no momentum: it goes where it is told, contacts stop it and move it aside without turning it, and it
-    /// slides along them without friction. It turns as it is told wherever there is room.
-    pub without_momentum: bool,
-}
-
-/// Identifies a body of one [`Physics`].
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct BodyId(pub(super) usize);
-
-/// What a body touched in the latest step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ContactReport {
-    /// Whether anything pushed back.
-    pub touching: bool,
-    /// Whether that was another body that moves freely, and nothing else.
-    pub only_bodies: bool,
-    /// Deepest overlap in the step, m.
-    pub max_penetration_m: f64,
-    /// Impulse on the body, world axes, N s.
-    pub impulse_N_s: Vector3<f64>,
-}
-
-pub(super) struct Body {
-    id: String,
-    pub(super) truth: Truth,
-    /// Where its own equation takes it in this step.
-    pub(super) free: Option<Truth>,
-    pub(super) p_BG: Vector3<f64>,
-    /// Inverse of the mass matrix about the centre of mass.
-    pub(super) inverse_mass_G: Matrix6<f64>,
-    pub(super) without_momentum: bool,
-    /// Its shapes in body axes.
-    pub(super) parts: Vec<(r::Pose, r::SharedShape)>,
-    pub(super) reach_m: f64,
-    /// A sphere without anything fixed in it: its middle and radius, m.
-    clear: (Vector3<f64>, f64),
-    pub(super) contact: ContactReport,
-    /// Its rigid body in rapier's world, if rapier alone moves it.
-    pub(super) twin: Option<Twin>,
-}
-
-impl Body {
-    /// Velocity of the centre of mass in world axes, m/s.
-    pub(super) fn v_G(&self, t: &Truth) -> Vector3<f64> {
-        t.pose.R_WB * (t.v_WB_B + t.w_WB_B.cross(&self.p_BG))
-    }
-
-    /// Where it gets in a step if it keeps its velocities.
-    fn glide(&self, dt_s: f64) -> Truth {
-        let t = &self.truth;
-        let v_G = self.v_G(t);
-        let R_WB = t.pose.R_WB * UnitQuaternion::from_scaled_axis(t.w_WB_B * dt_s);
-        let p_WG = t.pose.point(self.p_BG) + v_G * dt_s;
-        Truth {
-            pose: Pose { p_WB: p_WG - R_WB * self.p_BG, R_WB },
-            v_WB_B: R_WB.inverse() * v_G - t.w_WB_B.cross(&self.p_BG),
-            w_WB_B: t.w_WB_B,
-        }
-    }
-
-    /// Distance from its origin within which anything can matter in two steps, m.
-    fn near_m(&self, dt_s: f64) -> f64 {
-        let way_m = self.free.map_or(0.0, |free| (free.pose.p_WB - self.truth.pose.p_WB).norm());
-        self.reach_m + NEAR_M + way_m.max(2.0 * dt_s * self.truth.v_WB_B.norm())
-    }
-
-    /// A box that it does not leave in this step: its centre of mass goes straight, and it turns about it.
-    fn swept(&self) -> r::Aabb {
-        let start = vector(&self.truth.pose.p_WB);
-        let end = self.free.map_or(start, |free| vector(&free.pose.p_WB));
-        r::Aabb::new(start.min(end), start.max(end)).loosened(self.reach_m + 2.0 * self.p_BG.norm() + NEAR_M)
-    }
-
-    /// Whether anything fixed can matter in this step. While the body stays in a sphere that is known to be clear,
-    /// nothing is searched.
-    fn is_near(&mut self, fixed: &[FixedSolid], dt_s: f64) -> bool {
-        let (p, near_m) = (self.truth.pose.p_WB, self.near_m(dt_s));
-        let (middle, radius_m) = self.clear;
-        if (p - middle).norm() + near_m < radius_m || !fixed.iter().any(|f| f.meets(&self.swept())) {
-            return false;
-        }
-        let away = fixed.iter().map(|f| f.away_m(&p, near_m));
-        let away_m = away.fold(f64::INFINITY, f64::min);
-        self.clear = (p, away_m);
-        away_m <= near_m
-    }
 }
 
 /// All bodies, moving and fixed.
@@ -234,7 +122,7 @@ impl Physics {
         let mut to_G = Matrix6::identity();
         let lever = -spec.p_BG.cross_matrix();
         to_G.fixed_view_mut::<3, 3>(0, 3).copy_from(&lever);
-        let mut body = Body {
+        self.bodies.push(Body {
             id: spec.id,
             truth: spec.truth,
             free: None,
@@ -245,12 +133,7 @@ impl Physics {
             reach_m,
             clear: (Vector3::zeros(), 0.0),
             contact: ContactReport::default(),
-            twin: None,
-        };
-        if self.solver == Solver::RapierAlone {
-            body.twin = Some(self.add_twin(&body));
-        }
-        self.bodies.push(body);
+        });
         BodyId(self.bodies.len() - 1)
     }
 
@@ -305,10 +188,6 @@ impl Physics {
                 body.id,
                 body.truth
             );
-        }
-        if self.solver == Solver::RapierAlone {
-            self.step_alone();
-            return;
         }
         if !self.gantries.is_empty() {
             self.world.step();

@@ -5,9 +5,9 @@
 //! taken apart field by field, so that a new field does not compile before somebody has said here whether it is kept.
 
 use super::Plume;
-use crate::filaments::bands::Bands;
-use crate::filaments::rise::Element;
-use crate::filaments::store::Store;
+use crate::filaments::store::arrays::Store;
+use crate::filaments::store::bands::Bands;
+use crate::filaments::store::rise::Element;
 use world::bits::{Reader, Unreadable, Writer};
 use world::fields::Flow;
 

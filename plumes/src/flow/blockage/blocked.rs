@@ -17,7 +17,7 @@ use world::area::Area;
 use world::fields::Flow;
 use world::obstacles::Obstacles;
 
-use super::cells::{Cells, Faces};
+use super::cells::{Cells, Faces, beyond};
 use super::field::{self, FieldPair};
 use super::solve::{Projector, SolutionReport};
 use super::spec::BlockageSpec;
@@ -201,9 +201,7 @@ impl ObstacleFlow {
                     let ds = cells.s[k + 1] - cells.s[k];
                     let per = [1.0 / cells.d[0], 1.0 / cells.d[1], 1.0 / ds];
                     for d in 0..3 {
-                        let mut high = [i, j, k];
-                        high[d] += 1;
-                        for (side, face) in [[i, j, k], high].into_iter().enumerate() {
+                        for (side, face) in [[i, j, k], beyond(d, [i, j, k])].into_iter().enumerate() {
                             let at = cells.face(d, face);
                             let of = |f: &Faces<f32>| f.across(d)[at];
                             let v = field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));

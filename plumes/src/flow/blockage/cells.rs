@@ -46,6 +46,12 @@ impl<T> Faces<T> {
     }
 }
 
+/// The next cell along a direction, and the face to it.
+pub(crate) fn beyond(d: usize, mut cell: [usize; 3]) -> [usize; 3] {
+    cell[d] += 1;
+    cell
+}
+
 /// Position of the cells, and which cells and faces are open.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
@@ -213,8 +219,7 @@ impl Cells {
                 for k in 0..self.n[2] {
                     let from = self.centre(columns[0], k);
                     for d in 0..3 {
-                        let mut next = [i, j, k];
-                        next[d] += 1;
+                        let next = beyond(d, [i, j, k]);
                         let both = next[d] < self.n[d] && self.open[self.cell([i, j, k])] && self.open[self.cell(next)];
                         if !both {
                             continue;
@@ -273,9 +278,8 @@ impl Cells {
         // Between the walls of a channel, only its ends are open.
         todo.retain(|c| {
             (0..2).any(|d| {
-                let mut beyond = *c;
-                beyond[d] += 1;
-                (c[d] == 0 && self.passes(d, *c)) || (beyond[d] == self.n[d] && self.passes(d, beyond))
+                let next = beyond(d, *c);
+                (c[d] == 0 && self.passes(d, *c)) || (next[d] == self.n[d] && self.passes(d, next))
             })
         });
         while let Some(here) = todo.pop() {
@@ -299,17 +303,11 @@ impl Cells {
         self.open = reached;
         let mut pass = std::mem::take(&mut self.pass);
         for d in 0..3 {
-            let n = [0, 1, 2].map(|e| self.n[e] + usize::from(e == d));
-            for i in 0..n[0] {
-                for j in 0..n[1] {
-                    for k in 0..n[2] {
-                        let sides = self.beside(d, [i, j, k]);
-                        if !sides.iter().flatten().all(|c| self.open[*c]) {
-                            pass.across_mut(d)[self.face(d, [i, j, k])] = false;
-                        }
-                    }
+            self.each_face(d, |f| {
+                if !self.beside(d, f).iter().flatten().all(|c| self.open[*c]) {
+                    pass.across_mut(d)[self.face(d, f)] = false;
                 }
-            }
+            });
         }
         self.pass = pass;
     }

@@ -7,11 +7,11 @@
 //!
 //! *Deviations*: each component is linear along its own direction and constant in the two others. So divergence is zero
 //! at every point and nothing passes a solid face, but the tangential component has steps from cell to cell. Filaments
-//! follow the same faces (`filaments::carried`). There is no boundary layer or wake: water slips along obstacles.
+//! follow the same faces (`filaments::drift::pollock`). There is no boundary layer or wake: water slips along obstacles.
 
 use nalgebra::{Vector2, Vector3};
 
-use super::cells::{Cells, Faces};
+use super::cells::{Cells, Faces, beyond};
 use crate::flow::ground::Floor;
 
 /// Two fields, and the position of the moment between the first and the second.
@@ -49,9 +49,7 @@ pub(super) fn velocity(
 ) -> Option<Vector3<f64>> {
     let ([i, j, k], part) = locate(cells, p, z, floor)?;
     let along = |d: usize| {
-        let mut next = [i, j, k];
-        next[d] += 1;
-        let (one, two) = (cells.face(d, [i, j, k]), cells.face(d, next));
+        let (one, two) = (cells.face(d, [i, j, k]), cells.face(d, beyond(d, [i, j, k])));
         let of = |at: usize| mixed(|f: &Faces<f32>| f.across(d)[at], between);
         let (low, high) = (of(one), of(two));
         low + part[d] * (high - low)
@@ -67,7 +65,7 @@ fn physical(cells: &Cells, [a, b, up]: [f64; 3], z: f64, floor: &Floor) -> Vecto
 
 /// Whether the cell of a place is solid; false outside the cells.
 pub(super) fn solid(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> bool {
-    locate(cells, p, z, floor).is_some_and(|([i, j, k], _)| !cells.open[(i * cells.n[1] + j) * cells.n[2] + k])
+    locate(cells, p, z, floor).is_some_and(|([i, j, k], _)| !cells.open[cells.cell([i, j, k])])
 }
 
 /// Height of the cell that contains a height, m.

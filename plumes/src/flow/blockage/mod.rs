@@ -2,6 +2,7 @@
 
 mod blocked;
 mod cells;
+mod felt;
 mod field;
 mod multigrid;
 mod solve;
@@ -12,6 +13,6 @@ pub(crate) mod tests;
 mod tests_flow;
 
 pub use blocked::ObstacleFlow;
-pub(crate) use cells::Cells;
+pub(crate) use cells::{Cells, beyond};
 pub use solve::SolutionReport;
 pub use spec::BlockageSpec;

@@ -101,6 +101,19 @@ impl Level {
         }
     }
 
+    /// rhs + Σ couplings · x, for one column.
+    #[inline]
+    fn coupled(&self, i: usize, j: usize, x: &[f64], rhs: &mut [f64]) {
+        self.lateral(i, j, x, rhs);
+        let [_, ny, nz] = self.n;
+        let at = (i * ny + j) * nz;
+        let up = &self.next[2][at..at + nz];
+        for k in 1..nz {
+            rhs[k] += up[k - 1] * x[at + k - 1];
+            rhs[k - 1] += up[k - 1] * x[at + k];
+        }
+    }
+
     /// Solves every column of one colour exactly, with its neighbours fixed.
     fn relax(&self, colour: usize, b: &[f64], x: &mut [f64], line: &mut [f64]) {
         let [nx, ny, nz] = self.n;
@@ -130,12 +143,7 @@ impl Level {
                 let at = (i * ny + j) * nz;
                 let line = &mut out[at..at + nz];
                 line.fill(0.0);
-                self.lateral(i, j, x, line);
-                let up = &self.next[2][at..at + nz];
-                for k in 1..nz {
-                    line[k] += up[k - 1] * x[at + k - 1];
-                    line[k - 1] += up[k - 1] * x[at + k];
-                }
+                self.coupled(i, j, x, line);
                 for (k, r) in line.iter_mut().enumerate() {
                     *r = self.diag[at + k] * x[at + k] - *r;
                 }
@@ -212,12 +220,7 @@ fn descend(levels: &[Level], b: &[f64], x: &mut [f64], sides: &mut [(Vec<f64>, V
         for j in (i % 2..n[1]).step_by(2) {
             let (fine, coarse) = column(i, j);
             line.copy_from_slice(&b[fine..fine + n[2]]);
-            level.lateral(i, j, x, line);
-            let up = &level.next[2][fine..fine + n[2]];
-            for k in 1..n[2] {
-                line[k] += up[k - 1] * x[fine + k - 1];
-                line[k - 1] += up[k - 1] * x[fine + k];
-            }
+            level.coupled(i, j, x, line);
             for k in 0..n[2] {
                 coarse_b[coarse + k] += line[k] - level.diag[fine + k] * x[fine + k];
             }

@@ -4,14 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
-use world::obstacles::Obstacles;
 use world::ranges::{Fraction, NonNegative, Positive};
-use world::terrain::Terrain;
 
-use super::cells::Cells;
 use crate::error::PlumeError;
 use crate::flow::grid::GridShape;
-use crate::flow::ground::Ground;
 
 /// Obstacles and bed turn the water aside; without this block currents pass through obstacles as if they were not there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -65,23 +61,6 @@ impl BlockageSpec {
             stretch: self.stretch.get(),
             margin_m: self.margin_m.get(),
         }
-    }
-
-    /// Whether the cells can be made, without solving anything; the numbers of the obstacles that hold no cell's middle, so that
-    /// the water goes through them.
-    ///
-    /// # Errors
-    /// Names the field at fault and what would be legal.
-    pub fn unfelt(
-        &self,
-        area: &Area,
-        terrain: &Terrain,
-        obstacles: &Obstacles,
-        walled: bool,
-    ) -> Result<Vec<usize>, PlumeError> {
-        let cells = Cells::new(self, area, &Ground::new(terrain), obstacles, walled)?;
-        let felt = cells.felt.iter().enumerate();
-        Ok(felt.filter(|(_, f)| !**f).map(|(n, _)| n).collect())
     }
 
     /// What it takes to lead the water round: in steady water once.

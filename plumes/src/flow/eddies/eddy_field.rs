@@ -9,9 +9,7 @@
 
 use super::stretch::LENGTH;
 use crate::simd::dispatch::InstructionSet;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::f32x4::AvxPair;
-use crate::simd::f32x4::{F32x4, Pair, PortablePair, fetch_soon};
+use crate::simd::f32x4::{F32x4, fetch_soon};
 use nalgebra::Vector2;
 
 /// A patch of the stretch at one time: where it begins (cells), and its weight.
@@ -49,37 +47,24 @@ impl EddyField<'_> {
 
     /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
     pub(super) fn velocity(&self, q: [f32; 3]) -> [f32; 3] {
-        // SAFETY: a pair that every machine of the target has.
-        let v = unsafe { velocities::<PortablePair, 1>(self, &Cells::locate(self, &q.map(|q| [q]))) };
+        let v = velocities::<1>(self, &Cells::locate(self, &q.map(|q| [q])));
         v.map(|v| v[0])
     }
 
     /// Carries places (ENU, m) up to this time, the n-th for `dt_s[n]`.
     pub(super) fn carry(&self, path: InstructionSet, turned: &ChannelAxes, dt_s: &[f32], p: [&mut [f32]; 3]) {
-        match path {
-            // SAFETY: a pair that every machine of the target has.
-            InstructionSet::Portable => unsafe { carry::<PortablePair>(self, turned, dt_s, p) },
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { carry_avx2(self, turned, dt_s, p) },
-        }
+        path.run(
+            #[inline(always)]
+            || carry(self, turned, dt_s, p),
+        );
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn carry_avx2(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], p: [&mut [f32]; 3]) {
-    // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { carry::<AvxPair>(now, turned, dt_s, p) }
 }
 
 /// Filaments that are carried side by side.
 const BLOCK: usize = 8;
 
-/// # Safety
-/// The machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn carry<P: Pair>(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
+fn carry(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
     let (a, l) = (turned.along, turned.left);
     let mut next = BlockPoints::from_block(turned, [x, y, z], 0);
     let mut next_cells = Cells::locate(now, &next.q);
@@ -94,16 +79,14 @@ unsafe fn carry<P: Pair>(now: &EddyField, turned: &ChannelAxes, dt_s: &[f32], [x
         let BlockPoints { mut p, mut q } = places;
         let dt = block(dt_s, from);
         // Half the step ahead first, so that an even cloud stays even to second order.
-        // SAFETY: the caller promises the instructions of the pair.
-        let v = unsafe { velocities::<P, BLOCK>(now, &cells) };
+        let v = velocities::<BLOCK>(now, &cells);
         for n in 0..BLOCK {
             let half = 0.5 * dt[n];
             for d in 0..3 {
                 q[d][n] += half * v[d][n];
             }
         }
-        // SAFETY: as above.
-        let v = unsafe { velocities::<P, BLOCK>(now, &Cells::locate(now, &q)) };
+        let v = velocities::<BLOCK>(now, &Cells::locate(now, &q));
         for n in 0..BLOCK {
             p[0][n] += dt[n] * (v[0][n] * a.x + v[1][n] * l.x);
             p[1][n] += dt[n] * (v[0][n] * a.y + v[1][n] * l.y);
@@ -215,11 +198,8 @@ impl<const N: usize> Cells<N> {
 }
 
 /// Velocities (along, left, up) in `N` cells of each patch.
-///
-/// # Safety
-/// The machine must have the instructions of `P`.
 #[inline(always)]
-unsafe fn velocities<P: Pair, const N: usize>(now: &EddyField, cells: &[Cells<N>; 2]) -> [[f32; N]; 3] {
+fn velocities<const N: usize>(now: &EddyField, cells: &[Cells<N>; 2]) -> [[f32; N]; 3] {
     let sheet = now.sheet();
     let mut sum = [[0.0_f32; N]; 3];
     for (patch, cells) in now.patches.iter().zip(cells) {
@@ -235,8 +215,8 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &EddyField, cells: &[Cells<N>
             for (l, four) in four.iter_mut().enumerate().take(N - from) {
                 let n = from + l;
                 let (near, far) = (near[n] as usize, far[n] as usize);
-                // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
-                *four = unsafe { one::<P>(now.nodes, [near, far], sheet, [f[n], g[n], h[n]]) };
+                // SAFETY: the nodes exist, as asserted.
+                *four = unsafe { one(now.nodes, [near, far], sheet, [f[n], g[n], h[n]]) };
             }
             let four = F32x4::columns(four);
             for (v, four) in v.iter_mut().zip(four) {
@@ -259,32 +239,20 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &EddyField, cells: &[Cells<N>
 const FARTHEST: f32 = 1e9;
 
 /// `[along, left, up, 0]` velocity in a cell from two of its nodes, the stride to those on the left, and the position in
-/// it as parts. A function of its own and not a closure, because only a function is certain to become part of code that
-/// may use the instructions of `P`.
+/// it as parts.
 ///
 /// # Safety
-/// The cell's eight nodes must exist, and the machine must have the instructions of `P`.
+/// The cell's eight nodes must exist.
 #[inline(always)]
-unsafe fn one<P: Pair>(nodes: &[[f32; 4]], [near, far]: [usize; 2], sheet: usize, [f, g, h]: [f32; 3]) -> F32x4 {
+unsafe fn one(nodes: &[[f32; 4]], [near, far]: [usize; 2], sheet: usize, [f, g, h]: [f32; 3]) -> F32x4 {
+    debug_assert!(near.max(far) + sheet + 1 < nodes.len());
     // SAFETY: as the caller promises.
-    let [right, left] = unsafe { [line::<P>(nodes, near, far, h), line::<P>(nodes, near + sheet, far + sheet, h)] };
-    let [behind, ahead] = right.add(left.sub(right).times(g)).apart();
-    behind.add(ahead.sub(behind).times(f))
-}
-
-/// The velocities between two nodes and those above them, at this part of the way up.
-///
-/// # Safety
-/// These nodes and the next ones must exist, and the machine must have the instructions of `P`.
-#[inline(always)]
-unsafe fn line<P: Pair>(nodes: &[[f32; 4]], near: usize, far: usize, part: f32) -> P {
-    debug_assert!(near.max(far) + 1 < nodes.len());
-    // SAFETY: as the caller promises.
-    let [low, high] = unsafe {
-        let first = nodes.as_ptr();
-        [P::of(&*first.add(near), &*first.add(far)), P::of(&*first.add(near + 1), &*first.add(far + 1))]
-    };
-    low.add(high.sub(low).times(part))
+    let node = |n: usize| F32x4::new(unsafe { nodes.get_unchecked(n) });
+    // From the lower to the upper node, from right to left, from the near to the far side.
+    let between = |a: F32x4, b: F32x4, part: f32| a.add(b.sub(a).times(part));
+    let line = |n: usize| between(node(n), node(n + 1), h);
+    let side = |n: usize| between(line(n), line(n + sheet), g);
+    between(side(near), side(far), f)
 }
 
 /// Limits a number; what is none becomes the lower limit.

@@ -18,6 +18,7 @@
 
 use super::eddy_field::{ChannelAxes, EddyField, Patch};
 use super::lazy_stretch::LazyStretch;
+use super::overlapping;
 use super::small::{self, Small, SmallSpec};
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape};
@@ -31,7 +32,6 @@ use std::sync::Arc;
 use world::area::Area;
 use world::cost::{Cost, Part};
 use world::fields::WaterSample;
-use world::math;
 use world::seeds::{Seed, Stream};
 
 /// How finely turbulence is resolved.
@@ -249,13 +249,7 @@ impl Eddies {
 
     fn now(&self, t_s: f64) -> EddyField<'_> {
         let h = self.shape.spacing();
-        let age = t_s / self.period_s;
-        let life = age.floor();
-        let part = age - life;
-        let (s, c) = math::sin_cos(0.5 * std::f64::consts::PI * part);
-        // A patch lives from its number to two periods later: the weight of the older one falls, that of the younger
-        // one rises.
-        let of = |life: f64, weight: f64| {
+        let of = |(life, weight): (f64, f64)| {
             let mut rng = Stream::new(self.seed, "eddies", &format!("patch {life}"));
             let begin = rng.uniform() * LENGTH as f64 + self.mean_m_s * t_s / h[0];
             Patch {
@@ -271,7 +265,7 @@ impl Eddies {
             per_m: h.map(|h| (1.0 / h) as f32),
             half_width: self.half_width_m as f32,
             depth: self.shape.depth_m as f32,
-            patches: [of(life - 1.0, c), of(life, s)],
+            patches: overlapping(t_s / self.period_s).map(of),
         }
     }
 }

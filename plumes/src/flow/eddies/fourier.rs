@@ -36,34 +36,24 @@ impl Fourier {
         Self {
             turns: turns.map(turn).collect(),
             swaps: (0..n).map(|i| [i, place(i)]).filter(|[i, j]| i < j).collect(),
-            path: InstructionSet::detect(),
+            path: InstructionSet::detect().narrow(),
         }
     }
 
     /// x_m = Σ_j c_j e^(2πi jm/n) of four lines, in place.
     pub(super) fn sum(&self, c: &mut [Four]) {
-        match self.path {
-            InstructionSet::Portable => self.summed(c),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { self.summed_avx2(c) },
-        }
+        self.path.run(
+            #[inline(always)]
+            || self.summed(c),
+        );
     }
 
     /// Adds coefficients, each line times a factor, to others.
     pub(super) fn add_times(&self, to: &mut [Four], from: &[Four], factors: [f64; 4]) {
-        match self.path {
-            InstructionSet::Portable => add_times(to, from, factors),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe { add_times_avx2(to, from, factors) },
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn summed_avx2(&self, c: &mut [Four]) {
-        self.summed(c);
+        self.path.run(
+            #[inline(always)]
+            || add_times(to, from, factors),
+        );
     }
 
     #[inline(always)]
@@ -89,12 +79,6 @@ impl Fourier {
             half *= 2;
         }
     }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn add_times_avx2(to: &mut [Four], from: &[Four], factors: [f64; 4]) {
-    add_times(to, from, factors);
 }
 
 #[inline(always)]

@@ -6,7 +6,6 @@
 //!
 //! *Deviations*: none.
 
-use crate::flow::catalogue::CurrentScales;
 use world::area::Area;
 
 /// Most levels that interfaces ask for.
@@ -25,6 +24,32 @@ pub struct GridShape {
     pub stretch: f64,
     /// Reach beyond the operating area on every side, m.
     pub margin_m: f64,
+}
+
+/// The shortest lengths and times over which a current changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurrentScales {
+    /// Length of the shortest wave that turns it, m; infinite without waves.
+    pub shortest_m: f64,
+    /// Shortest period of these waves, s; infinite without waves.
+    pub shortest_s: f64,
+    /// The interfaces between layers.
+    pub interfaces: Vec<InterfaceScale>,
+}
+
+/// Where an interface is, and over which height the current changes in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InterfaceScale {
+    /// Mean depth, m.
+    pub depth_m: f64,
+    /// Thickness, m.
+    pub thickness_m: f64,
+}
+
+impl Default for CurrentScales {
+    fn default() -> Self {
+        Self { shortest_m: f64::INFINITY, shortest_s: f64::INFINITY, interfaces: Vec::new() }
+    }
 }
 
 impl Default for GridShape {

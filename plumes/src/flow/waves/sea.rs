@@ -29,18 +29,14 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-use world::catalogue::Entry;
 use world::fields::WaterSample;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
-use world::registry::Listed;
 use world::seeds::{Seed, Stream};
 
 use super::airy::{Airy, wave_number};
 use super::spectrum::SpectrumSpec;
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, CurrentSlot};
-use crate::flow::water::Water;
 
 /// Waves on the surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -85,30 +81,6 @@ const fn ichiye() -> NonNegative {
     NonNegative::new(0.028)
 }
 
-impl Listed for WavesSpec {
-    const ENTRY: Entry = Entry {
-        name: "Waves",
-        what: "Surface waves by linear theory, trains or a JONSWAP sea: orbits for hull and instruments, Stokes' drift and mixing for the plume",
-        source: "Dean & Dalrymple 1991, Water Wave Mechanics; Hasselmann et al. 1973; Andrews & McIntyre 1978, J. Fluid Mech. 89, 609",
-    };
-}
-
-impl CurrentParams for WavesSpec {
-    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError> {
-        if water.waves.is_some() {
-            return place.wrong("only one Waves can move the surface; add the second one's trains to the first");
-        }
-        let depth_m = -water.ground.floor(place.area.centre).z;
-        let waves = self.build(place.field, depth_m, place.seed)?;
-        water.waves = Some(waves.with_phases_at(place.area.centre));
-        Ok(())
-    }
-
-    fn waves(&self) -> f64 {
-        self.count()
-    }
-}
-
 /// The waves, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Waves {
@@ -120,7 +92,7 @@ pub struct Waves {
 
 impl Waves {
     /// With phases that are those at a place (east, north), and not at the datum: they must not depend on where that is.
-    fn with_phases_at(mut self, place: Vector2<f64>) -> Self {
+    pub(crate) fn with_phases_at(mut self, place: Vector2<f64>) -> Self {
         for wave in &mut self.waves {
             wave.begin_at(place);
         }

@@ -5,8 +5,8 @@ use super::run::ScoreError;
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::channel::OpenChannelSpec;
 use plumes::flow::eddies::EddiesSpec;
+use plumes::flow::open_channel::OpenChannelSpec;
 use plumes::flow::{CurrentSpec, GridShape, WaterSpec};
 use plumes::release::{ReleaseSpec, SourceSpec};
 use robots::sense::camera::{

@@ -2,10 +2,10 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see the folder's head.
 
+use super::super::overlapping;
 use super::table::{LONGEST, Table};
 use crate::flow::channel::Channel;
-use crate::simd::f32x4::Pair;
-use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+use std::f64::consts::{PI, SQRT_2, TAU};
 use world::math;
 use world::seeds::Stream;
 
@@ -69,11 +69,7 @@ impl Octave {
 
     /// The two patterns at a time: that with an even number, then that with an odd one. `stream` draws for a number.
     pub(super) fn lives(&self, t_s: f64, stream: impl Fn(u64) -> Stream) -> [Life; 2] {
-        let age = t_s.max(0.0) / self.period_s;
-        let young = age.floor();
-        let part = age - young;
-        let (s, c) = math::sin_cos(FRAC_PI_2 * part);
-        let of = |number: f64, weight: f64| {
+        let of = |(number, weight): (f64, f64)| {
             let number = (number + 1.0) as u64;
             let mut rng = stream(number);
             Life {
@@ -83,8 +79,7 @@ impl Octave {
                 begin: std::array::from_fn(|_| rng.uniform() as f32),
             }
         };
-        // A pattern lives from its number to two periods later.
-        let (old, new) = (of(young - 1.0, c), of(young, s));
+        let [old, new] = overlapping(t_s.max(0.0) / self.period_s).map(of);
         if new.number.is_multiple_of(2) { [new, old] } else { [old, new] }
     }
 
@@ -114,19 +109,9 @@ impl Octave {
 
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
     /// potential.
-    ///
-    /// # Safety
-    /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(super) unsafe fn velocity<P: Pair>(
-        &self,
-        table: &Table,
-        life: &Life,
-        level: &Level,
-        label: [f32; 3],
-    ) -> [f32; 3] {
-        // SAFETY: as the caller promises.
-        let (v, a) = unsafe { table.interpolate::<P>(self.in_table(life, label)) };
+    pub(super) fn velocity(&self, table: &Table, life: &Life, level: &Level, label: [f32; 3]) -> [f32; 3] {
+        let (v, a) = table.interpolate(self.in_table(life, label));
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

@@ -9,7 +9,7 @@
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::{Four, Fourier};
-use crate::simd::f32x4::{F32x4, Pair, fetch_soon};
+use crate::simd::f32x4::{F32x4, fetch_soon};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use world::math;
@@ -86,21 +86,18 @@ impl Table {
     }
 
     /// Velocity and potential at a place in sides of the box.
-    ///
-    /// # Safety
-    /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(super) unsafe fn interpolate<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+    pub(super) fn interpolate(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         let Cell { near, far, part } = Cell::locate(q);
-        // SAFETY: here and below, as the caller promises.
-        let mut both = unsafe { P::new(&[[0.0; 4]; 2]) };
+        let [mut velocity, mut potential] = [F32x4::new(&[0.0; 4]); 2];
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
             for (j, wj) in [(near[1], 1.0 - part[1]), (far[1], part[1])] {
                 let line = (i * NODES + j) * NODES;
                 for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
-                    // SAFETY: as above.
-                    let node = unsafe { P::new(&self.nodes[line + k].0) };
-                    both = both.add(node.times(wi * wj * wk));
+                    let [v, a] = &self.nodes[line + k].0;
+                    let weight = wi * wj * wk;
+                    velocity = velocity.add(F32x4::new(v).times(weight));
+                    potential = potential.add(F32x4::new(a).times(weight));
                 }
             }
         }
@@ -108,8 +105,7 @@ impl Table {
             let [x, y, z, _] = q.array();
             [x, y, z]
         };
-        let [v, a] = both.apart();
-        (three(v), three(a))
+        (three(velocity), three(potential))
     }
 
     /// Asks the processor for the nodes round a place in sides of the box.
@@ -174,11 +170,9 @@ fn summed(field: &mut [Four]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::f32x4::PortablePair;
 
     fn at(table: &Table, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
-        // SAFETY: a pair that every machine of the target has.
-        unsafe { table.interpolate::<PortablePair>(q) }
+        table.interpolate(q)
     }
 
     /// At the nodes' centres, where the interpolation is smoothest: the curl of the potential is the velocity, and the

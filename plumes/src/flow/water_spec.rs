@@ -1,0 +1,129 @@
+//! The water as a scenario asks for it, and how its currents join.
+
+use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::fields::Flow;
+use world::obstacles::Obstacles;
+use world::ranges::Positive;
+use world::seeds::Seed;
+use world::terrain::Terrain;
+
+use crate::error::PlumeError;
+use crate::flow::bed::BedSpec;
+use crate::flow::blockage::{BlockageSpec, ObstacleFlow};
+use crate::flow::catalogue::CurrentSpec;
+use crate::flow::current::CurrentSlot;
+use crate::flow::grid::GridShape;
+use crate::flow::ground::Ground;
+use crate::flow::mixing::MixingSpec;
+use crate::flow::water::Water;
+
+/// The water of a scenario; still by default.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct WaterSpec {
+    /// Currents that add up; without any, the water is still.
+    pub currents: Vec<CurrentSpec>,
+    /// Bed friction; if absent, the currents slip.
+    pub bed: Option<BedSpec>,
+    /// Diffusivities.
+    pub mixing: MixingSpec,
+    /// Density where no layers set it, kg/m³.
+    #[serde(with = "world::limits::density_kg_m3")]
+    pub density_kg_m3: Positive,
+    /// Obstacles and bed divert the currents; if absent, currents pass through obstacles.
+    pub blockage: Option<BlockageSpec>,
+}
+
+impl Default for WaterSpec {
+    fn default() -> Self {
+        Self {
+            currents: Vec::new(),
+            bed: None,
+            mixing: MixingSpec::default(),
+            density_kg_m3: Positive::new(1026.0),
+            blockage: None,
+        }
+    }
+}
+
+impl WaterSpec {
+    /// Whether the area's sides are the walls of a channel.
+    #[must_use]
+    pub fn is_walled(&self) -> bool {
+        self.currents.iter().any(|c| c.is_walled())
+    }
+
+    /// The grid on which the plume sees the water, at most `depth_m` deep: one that shows the waves and interfaces of
+    /// its currents or, round obstacles, the corners of the water's cells.
+    #[must_use]
+    pub fn grid_shape(&self, area: &Area, depth_m: f64) -> GridShape {
+        let blockage = self.blockage.as_ref().map(BlockageSpec::grid_shape);
+        blockage.unwrap_or_else(|| {
+            let scales = self.currents.iter().map(|c| c.scales());
+            scales.fold(GridShape::fitting(area), |shape, s| shape.resolving(&s, area, depth_m))
+        })
+    }
+
+    /// The water round obstacles, if [`Self::blockage`] asks for it; otherwise as [`Self::build`] returns it.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn build_round(
+        &self,
+        area: &Area,
+        terrain: &Terrain,
+        obstacles: &Obstacles,
+        seed: impl Into<Seed>,
+    ) -> Result<Water, PlumeError> {
+        let mut water = self.build(area, terrain, seed)?;
+        if let Some(spec) = &self.blockage {
+            let free = water.clone();
+            water.blocked = Some(ObstacleFlow::new(spec, area, &free.ground, obstacles, free.clone())?);
+        }
+        Ok(water)
+    }
+
+    /// The water over a terrain as it would be without obstacles, checked.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn build(&self, area: &Area, terrain: &Terrain, seed: impl Into<Seed>) -> Result<Water, PlumeError> {
+        let seed = seed.into();
+        let bed = (self.bed.as_ref()).map(|b| b.build("water.bed")).transpose()?;
+        let mut water = Water {
+            ground: Ground::new(terrain),
+            uniform: Vector2::zeros(),
+            tides: Vec::new(),
+            meanders: Vec::new(),
+            layered: None,
+            bed,
+            mixing: self.mixing.clone(),
+            density: self.density_kg_m3.get(),
+            flume: None,
+            waves: None,
+            blocked: None,
+            others: Vec::new(),
+        };
+        let fields: Vec<String> = (0..self.currents.len()).map(|i| format!("water.currents[{i}]")).collect();
+        let place = |field| CurrentSlot { field, area, terrain, seed };
+        for (current, field) in self.currents.iter().zip(&fields) {
+            current.join(&mut water, &place(field))?;
+            water.name_others(current.name());
+        }
+        if let Some(problem) = water.fault(area.centre, 0.0) {
+            let field = "water.currents".to_string();
+            return Err(PlumeError::Invalid { field, problem });
+        }
+        // Meanders last: the mean of the other currents carries them, wherever they stand in the list.
+        let carrier = water.depth_mean(area.centre);
+        for (current, field) in self.currents.iter().zip(&fields) {
+            current.join_carried(&mut water, &place(field), carrier)?;
+            water.name_others(current.name());
+        }
+        water.advance(0.0);
+        Ok(water)
+    }
+}
