@@ -6,6 +6,7 @@ mod recorder;
 mod recorder_clouds;
 mod recorder_gantry;
 mod recorder_log;
+mod recorder_robot;
 mod recorder_scene;
 mod recorder_ways;
 
