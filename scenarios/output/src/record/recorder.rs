@@ -15,11 +15,6 @@ use rheotaxis::frame::Frame;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Frame of all poses.
-pub(super) const WORLD: &str = "world";
-/// Frame of clouds, at the centre of the area: their numbers of single precision would be coarse far from the datum.
-pub(super) const AREA: &str = "world/area";
-
 /// The recording of one run. If it is dropped without [`Recorder::finish`], it stays under its temporary name and is
 /// readable.
 pub struct Recorder {

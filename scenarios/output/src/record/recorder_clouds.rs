@@ -1,7 +1,6 @@
 //! Plume, water, sidescan and pictures in a recording.
 
-use super::Recorder;
-use super::recorder::AREA;
+use super::{AREA, Recorder};
 use crate::files::ReportError;
 use crate::results::Echoes;
 use crate::ros::{MessageKind, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud};

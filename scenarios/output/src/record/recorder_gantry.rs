@@ -1,6 +1,6 @@
 //! A gantry's part of a recording: joints, probes, and the data and decisions of its searcher.
 
-use super::recorder::WORLD;
+use super::WORLD;
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{MessageKind, Transform, declared, float64, nanoseconds, slides, text};
 use crate::scene::frames::transform;

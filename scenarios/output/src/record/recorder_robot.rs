@@ -1,7 +1,7 @@
 //! A robot's part of a recording: where it is and believes it is, its readings, commands and decisions, and its map.
 
 use super::map_record::{self, MapTimes};
-use super::recorder::{AREA, WORLD};
+use super::{AREA, WORLD};
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{
     MessageKind, Transform, believed_flow, believed_odometry, believed_pose, declared, echo_cloud, float64,

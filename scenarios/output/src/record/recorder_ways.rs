@@ -1,8 +1,8 @@
 //! Ways and marks in a recording: where machines went and believed they went, what they plan, where they lost the plume,
 //! the zone that this makes for the declaration rule, and what they declared.
 
+use super::WORLD;
 use super::growing_path::GrowingPath;
-use super::recorder::WORLD;
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{Balls, MessageKind, balls, path};
 use crate::scene::Scene;

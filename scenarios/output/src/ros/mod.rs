@@ -18,7 +18,7 @@ pub use messages::{
     text, transforms, vector3_stamped,
 };
 pub use plume::{plume_cloud, water_cloud};
-pub use sensors::{Imu, Range, fluid_pressure, twist_stamped};
+pub use sensors::{fluid_pressure, imu, range, twist_stamped};
 pub use types::MessageKind;
 
 /// A simulated time in seconds as nanoseconds, never negative.

@@ -1,60 +1,21 @@
 //! Messages of a frame. What is latched is said when it changes.
 
-use super::topics::{self, RosTopic};
-use super::{MAP, readings};
+use super::machine_messages::{MachineMessages, Message, names};
+use super::{MAP, readings, topics};
 use crate::ros::{
     Transform, believed_flow, believed_odometry, believed_pose, declared, float64, nanoseconds, path, slides, text,
     transforms, true_odometry,
 };
-use crate::scene::frames::{BODY, Names, slid, transform};
-use crate::scene::{Machine, Scene};
+use crate::scene::Scene;
+use crate::scene::frames::{BODY, slid, transform};
 use rheotaxis::frame::{Frame, GantryFrame, RobotFrame};
 use robots::handoff::Declaration;
 use std::collections::BTreeMap;
-
-/// Names of a machine's frames.
-pub(super) fn names(machine: &Machine) -> Names<'_> {
-    Names { world: MAP, own: &machine.name }
-}
-
-/// A message for a topic of a name.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Message {
-    pub(super) topic: &'static RosTopic,
-    pub(super) name: String,
-    pub(super) cdr: Vec<u8>,
-}
 
 /// What was said last on each latched topic, so that it is said again only when it is new.
 #[derive(Debug, Default)]
 pub(super) struct LatchedTopics {
     latched: BTreeMap<String, Vec<u8>>,
-}
-
-/// The messages of one machine.
-pub(super) struct MachineMessages<'a> {
-    pub(super) machine: &'a Machine,
-    pub(super) t_ns: u64,
-    out: Vec<Message>,
-}
-
-impl<'a> MachineMessages<'a> {
-    fn new(machine: &'a Machine, t_ns: u64) -> Self {
-        let out = Vec::new();
-        Self { machine, t_ns, out }
-    }
-
-    /// Adds a message on a topic of this machine.
-    pub(super) fn add(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
-        self.put_named(topic, "", cdr);
-    }
-
-    /// The same with the name of one of its probes.
-    fn put_named(&mut self, topic: &'static RosTopic, probe: &str, cdr: Vec<u8>) {
-        let own = self.machine.name.as_str();
-        let name = (topic.name.replace("<robot>", own)).replace("<gantry>", own).replace("<probe>", probe);
-        self.out.push(Message { topic, name, cdr });
-    }
 }
 
 impl LatchedTopics {
