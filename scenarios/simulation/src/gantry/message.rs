@@ -10,7 +10,7 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Said {
     let d = &g.decision;
     let joints = JointsMessage {
         t_s,
-        name: g.joint_names.clone(),
+        name: g.joint_names.to_vec(),
         position_m: g.joints.iter().map(|j| j.position_m).collect(),
         velocity_m_s: g.joints.iter().map(|j| j.speed_m_s).collect(),
         effort_n: g.joints.iter().map(|j| j.force_N).collect(),

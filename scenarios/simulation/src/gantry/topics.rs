@@ -21,7 +21,7 @@ pub struct JointsMessage {
     /// Simulated time, s; zero is the start of the mission.
     pub t_s: f64,
     /// The two joints: along the stream, across it.
-    pub name: [String; 2],
+    pub name: Vec<String>,
     /// True position of each joint, m.
     pub position_m: Vec<f64>,
     /// True speed of each joint, m/s.

@@ -1,9 +1,9 @@
 //! Topics: named values that a run publishes, and the types that describe them.
 //!
 //! A [`Topic`] is a row of a table: name, key and rate, with the type of its messages. Messages are structs with
-//! `Serialize` and `JsonSchema`; the comments on the struct and on its fields say what they mean. From the type come the
-//! JSON, the JSON Schema that a run publishes and the text of `rheotaxis topics`. A field that is an `Option` is left out
-//! of a message if it has no value.
+//! `Serialize` and `JsonSchema`; the comments on the struct and on its fields say what they mean. From the type come
+//! the JSON, the JSON Schema that a run publishes and the text of `rheotaxis topics`. A field that is an `Option` is
+//! left out of a message if it has no value.
 //!
 //! A system publishes a value with [`Topics::publish`]. Live state puts it under `rheotaxis/<run>/<key>`, the recording
 //! keeps it as JSON, and the summary shows the last one. Publishing never changes a result: no system of the tick reads
