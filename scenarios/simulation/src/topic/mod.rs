@@ -54,6 +54,8 @@ impl PartialEq for Topic {
     }
 }
 
+impl Eq for Topic {}
+
 impl Topic {
     /// A topic whose messages are JSON objects of a type. Give every message the time `t_s`, and put the unit into the
     /// name of each field.
