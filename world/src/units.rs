@@ -2,7 +2,7 @@
 
 use crate::math;
 use nalgebra::Vector2;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Standard gravity used throughout, m/s².
@@ -49,7 +49,12 @@ pub fn wrap_tau(angle_rad: f64) -> f64 {
 /// A flow's heading is where the water *goes*; up-flow is [`Heading::opposite`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Heading(f64);
+pub struct Heading(#[serde(deserialize_with = "any_turn")] f64);
+
+/// Reads an angle, which may have whole turns too many.
+fn any_turn<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    f64::deserialize(from).map(wrap_tau)
+}
 
 impl Heading {
     /// From radians clockwise from north.

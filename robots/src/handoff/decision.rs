@@ -3,7 +3,7 @@
 use super::Goal;
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use strum::IntoStaticStr;
 use world::digest::Digest;
 use world::seeds;
@@ -221,7 +221,7 @@ impl Declaration {
 }
 
 /// How a mission ended, as the strategy sees it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     /// Came to its planned end.

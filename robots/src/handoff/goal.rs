@@ -3,6 +3,7 @@
 use super::DriveCommand;
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use world::units::Heading;
 
 /// Vertical part of a goal.
@@ -14,12 +15,15 @@ pub enum Vertical {
     Depth(f64),
 }
 
-/// Horizontal part of a goal: the guidance modes of Pang 2009, a plain course, or none.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Horizontal part of a goal: the guidance modes of Pang 2009, a plain course, or none. Those that a goal from outside
+/// the program may ask for can be read and written.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
 pub enum Manoeuvre {
     /// Head for a point (east, north); arrived within `radius_m`.
     GoToPoint {
         /// Destination, m.
+        #[serde(rename = "point_m", with = "east_north")]
         point: Vector2<f64>,
         /// Arrival radius, m; `None` for the guidance's own.
         radius_m: Option<f64>,
@@ -27,44 +31,55 @@ pub enum Manoeuvre {
     /// Reach the start with the line's heading, then track the line to its end.
     FollowLine {
         /// Start, m.
+        #[serde(rename = "from_m", with = "east_north")]
         from: Vector2<f64>,
         /// End, m.
+        #[serde(rename = "to_m", with = "east_north")]
         to: Vector2<f64>,
     },
     /// Reach a point with a heading along a Dubins path.
     GoToPointWithHeading {
         /// Destination, m.
+        #[serde(rename = "point_m", with = "east_north")]
         point: Vector2<f64>,
         /// Heading on arrival.
+        #[serde(rename = "heading_rad")]
         heading: Heading,
     },
     /// Stay at a point. A vehicle that cannot hover goes round it.
     Hold {
         /// Place (east, north), m.
+        #[serde(rename = "point_m", with = "east_north")]
         point: Vector2<f64>,
         /// Heading to hold; `None` for that of the way there.
+        #[serde(rename = "heading_rad")]
         heading: Option<Heading>,
     },
     /// Go to a point with a heading held. A vehicle that cannot go sideways goes to it nose first.
     SlideTo {
         /// Destination (east, north), m.
+        #[serde(rename = "point_m", with = "east_north")]
         point: Vector2<f64>,
         /// Arrival radius, m; `None` for the guidance's own.
         radius_m: Option<f64>,
         /// Heading to hold.
+        #[serde(rename = "heading_rad")]
         heading: Heading,
     },
     /// Move over ground in a direction, without end.
     Course {
         /// Direction over ground.
+        #[serde(rename = "heading_rad")]
         course: Heading,
     },
     /// Steer a heading through the water, with neither cage nor compensation of the flow.
+    #[serde(skip)]
     Steer {
         /// Heading.
         heading: Heading,
     },
     /// Move over ground with a heading held. A vehicle that cannot hover steers along the velocity.
+    #[serde(skip)]
     Slide {
         /// Heading to hold.
         heading: Heading,
@@ -72,6 +87,7 @@ pub enum Manoeuvre {
         over_ground_m_s: Vector2<f64>,
     },
     /// Set the vehicle's own drives, bypassing guidance and autopilot.
+    #[serde(skip)]
     Drives(DriveCommand),
     /// Drive rudder, stern plane and propeller directly, bypassing guidance and autopilot.
     Direct {
@@ -82,6 +98,19 @@ pub enum Manoeuvre {
         /// Propeller speed, rpm.
         rpm: f64,
     },
+}
+
+/// A place as a list of two numbers.
+mod east_north {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, Vector2};
+
+    pub(super) fn serialize<S: Serializer>(place: &Vector2<f64>, to: S) -> Result<S::Ok, S::Error> {
+        <[f64; 2]>::from(*place).serialize(to)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vector2<f64>, D::Error> {
+        <[f64; 2]>::deserialize(from).map(Into::into)
+    }
 }
 
 /// A goal; the guidance restarts the manoeuvre when `id` changes.

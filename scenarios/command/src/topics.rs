@@ -20,10 +20,13 @@ pub(super) fn topics(args: &TopicsArgs) -> Exit {
     say::line(format_args!("Keys below rheotaxis/<run>/, where <run> is <scenario>_<seed>. SI units, ENU axes.\n"));
     for topic in live::topics() {
         say::line(format_args!("{}  ({})", topic.key, topic.rate));
-        say::line(format_args!("    {}", topic.what));
-        for field in topic.fields {
-            let mark = if field.required { "" } else { "?" };
-            say::line(format_args!("    {:<24} {}", format!("{}{mark}", field.name), field.what));
+        say::line(format_args!("    {}", topic.what()));
+        let schema = topic.schema();
+        let required = schema["required"].as_array().map_or(&[][..], Vec::as_slice);
+        for field in topic.fields() {
+            let mark = if required.iter().any(|r| *r == field) { "" } else { "?" };
+            let what = schema["properties"][&field]["description"].as_str().unwrap_or_default();
+            say::line(format_args!("    {:<24} {what}", field + mark));
         }
         say::line("");
     }

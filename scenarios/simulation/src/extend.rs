@@ -79,9 +79,10 @@ impl Extend for Registry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topic::run::ClockMessage;
 
     fn topic(name: &'static str, key: &'static str) -> Topic {
-        Topic::json(name, key, "always", "A test.", &[])
+        Topic::of::<ClockMessage>(name, key, "always")
     }
 
     #[test]

@@ -166,11 +166,12 @@ mod tests {
         for (i, topic) in all.iter().enumerate() {
             let alike = |t: &&Topic| t.name == topic.name || t.key == topic.key;
             assert_eq!(all[..i].iter().find(alike), None);
-            for (j, field) in topic.fields.iter().enumerate() {
-                let known = &topic.fields[..j];
-                assert!(known.iter().all(|f| f.name != field.name), "{}", field.name);
-                assert!(field.what.ends_with('.'), "{}: {}", topic.name, field.name);
+            let (schema, fields) = (topic.schema(), topic.fields());
+            for field in &fields {
+                let what = schema["properties"][field]["description"].as_str();
+                assert!(what.is_some_and(|what| what.ends_with('.')), "{}: {field}", topic.name);
             }
+            assert!(topic.what().ends_with('.') && !fields.is_empty(), "{}", topic.name);
         }
     }
 

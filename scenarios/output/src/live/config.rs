@@ -26,6 +26,23 @@ pub(super) struct OpenedSession {
     pub(super) told: Notices,
 }
 
+/// An open session. The last run that uses it closes it.
+#[derive(Debug)]
+pub(super) struct Open(pub(super) Session);
+
+impl Open {
+    pub(super) fn session(&self) -> &Session {
+        &self.0
+    }
+}
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        // Explicitly, because a session that is closed when statics are dropped panics.
+        let _closed = self.0.close().wait();
+    }
+}
+
 /// Lines for the user, if necessary.
 #[derive(Debug, Default)]
 pub(super) struct Notices {

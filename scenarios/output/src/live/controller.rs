@@ -9,9 +9,8 @@
 )]
 
 use super::LiveError;
-use super::config::plain;
+use super::config::{Open, plain};
 use super::ros2::RosCommands;
-use super::session::Open;
 use rheotaxis::control::{Controller, Question, Response, question_json, read_answer};
 use std::sync::Arc;
 use std::time::Duration;

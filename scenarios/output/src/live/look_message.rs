@@ -1,14 +1,15 @@
 //! Pictures and pings as messages: a camera's picture as JPEG, a sidescan's ping as packed numbers, each with a header.
 
 use super::Payload;
-use super::message::Message;
+use super::message::{Message, bytes};
 use super::slots::CountedValue;
 use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
+use rheotaxis::auv::topics::{PictureMessage, SidescanMessage};
 use rheotaxis::frame::{PictureFrame, PingFrame};
-use rheotaxis::topic::{chunk, with};
-use serde_json::json;
+use rheotaxis::topic::chunk;
+use rheotaxis::topic::run::DTYPE;
 
 /// JPEG quality of a picture; the files and the recording are lossless.
 const QUALITY: u8 = 85;
@@ -22,16 +23,20 @@ pub(super) fn picture(newest: &CountedValue<PictureFrame>) -> Option<Message> {
     let (p, e) = (&value.picture, &value.estimate);
     let (width, height, file) = fitting(&p.image)?;
     let R_WB = e.attitude.R_WB();
-    let header = json!({
-        "t_s": value.t_s, "taken": taken, "width": width, "height": height, "view_rad": p.view_rad,
-        "position_m": (e.p_WB() + R_WB * p.p_BC).as_slice(),
-        "quaternion_xyzw": (R_WB * p.R_BC).coords.as_slice(),
-    });
+    let header = PictureMessage {
+        t_s: value.t_s,
+        taken: *taken,
+        width,
+        height,
+        view_rad: p.view_rad,
+        position_m: (e.p_WB() + R_WB * p.p_BC).into(),
+        quaternion_xyzw: (R_WB * p.R_BC).coords.into(),
+    };
     Some(Message {
         key: format!("auv/{}/picture", chunk(&value.robot)),
         payload: file,
         packed: Payload::Jpeg,
-        attachment: Some(header.to_string().into_bytes()),
+        attachment: Some(bytes(&header)),
     })
 }
 
@@ -57,14 +62,20 @@ fn jpeg(image: &RgbImage) -> Option<Vec<u8>> {
 pub(super) fn ping(newest: &CountedValue<PingFrame>) -> Message {
     let CountedValue { taken, value } = newest;
     let (p, e) = (&value.ping, &value.estimate);
-    let header = json!({
-        "t_s": value.t_s, "taken": taken, "port": p.port_db.len(), "starboard": p.starboard_db.len(),
-        "max_m": p.max_m, "position_m": (e.p_WB() + e.attitude.R_WB() * p.p_BS).as_slice(),
-        "heading_rad": e.attitude.heading.rad(), "dtype": "<f4",
-    });
+    let header = SidescanMessage {
+        t_s: value.t_s,
+        taken: *taken,
+        port: p.port_db.len(),
+        starboard: p.starboard_db.len(),
+        max_m: p.max_m,
+        position_m: (e.p_WB() + e.attitude.R_WB() * p.p_BS).into(),
+        heading_rad: e.attitude.heading.rad(),
+        altitude_m: e.altitude_m,
+        dtype: DTYPE,
+    };
     let samples = p.port_db.iter().chain(&*p.starboard_db).copied();
     let key = format!("auv/{}/sidescan", chunk(&value.robot));
-    Message::numbers(key, samples, &with(header, "altitude_m", e.altitude_m))
+    Message::numbers(key, samples, &header)
 }
 
 #[cfg(test)]
@@ -74,7 +85,7 @@ mod tests {
     use image::Rgb;
     use nalgebra::{UnitQuaternion, Vector3};
     use robots::handoff::{Picture, SidescanPing};
-    use serde_json::Value;
+    use serde_json::{Value, json};
     use std::sync::Arc;
     use world::frames::Pose;
     use world::units::Heading;

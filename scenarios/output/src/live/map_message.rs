@@ -4,8 +4,8 @@
 use super::message::Message;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::topic::chunk;
+use rheotaxis::topic::run::{DTYPE, MapMessage};
 use robots::handoff::Belief;
-use serde_json::json;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 use world::units::Heading;
@@ -18,12 +18,19 @@ fn map(id: &str, b: &Belief) -> Message {
     let (cells, times, p) = coarsened(b);
     let grid = &b.grid;
     let cell_m = [0, 1, 2].map(|a| grid.cell_m[a] * times[a] as f64);
-    let header = json!({
-        "t_s": b.t_s, "updates": b.updates, "informed": b.informed,
-        "cells": cells, "cell_m": cell_m, "corner_m": grid.corner.as_slice(),
-        "axis_heading_rad": Heading::from_vector(grid.axes[0]).rad(), "best_m": grid.centre(b.best).as_slice(),
-        "entropy_nat": b.entropy_nat, "credible_95": b.credible_95, "dtype": "<f4",
-    });
+    let header = MapMessage {
+        t_s: b.t_s,
+        updates: b.updates,
+        informed: b.informed,
+        cells,
+        cell_m,
+        corner_m: grid.corner.into(),
+        axis_heading_rad: Heading::from_vector(grid.axes[0]).rad(),
+        best_m: grid.centre(b.best).into(),
+        entropy_nat: b.entropy_nat,
+        credible_95: b.credible_95,
+        dtype: DTYPE,
+    };
     let key = format!("map/{}", chunk(id));
     Message::numbers(key, p.iter().map(|v| *v as f32), &header)
 }
@@ -91,7 +98,7 @@ mod tests {
     use super::super::message::tests::frame;
     use super::*;
     use robots::handoff::BeliefGrid;
-    use serde_json::Value;
+    use serde_json::{Value, json};
     use std::sync::Arc;
     use world::area::Area;
 

@@ -3,7 +3,11 @@
 use super::{LiveCounts, Payload, Topic};
 use rheotaxis::frame::{Frame, PlumeFrame, WaterFrame};
 use rheotaxis::registry::messages;
-use serde_json::{Value, json};
+use rheotaxis::topic::message_json;
+use rheotaxis::topic::run::{
+    ClockMessage, DTYPE, DigestMessage, PlumeMessage, ScenarioMessage, VersionMessage, WaterMessage,
+};
+use serde::Serialize;
 
 /// A message, with its key below `rheotaxis/<run>/`.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,19 +20,20 @@ pub(super) struct Message {
 }
 
 impl Message {
-    pub(super) fn json(key: impl Into<String>, value: &Value) -> Self {
-        Self { key: key.into(), payload: value.to_string().into_bytes(), packed: Payload::Json, attachment: None }
+    pub(super) fn json(key: impl Into<String>, message: &impl Serialize) -> Self {
+        Self { key: key.into(), payload: bytes(message), packed: Payload::Json, attachment: None }
     }
 
     /// Packed numbers with a header.
-    pub(super) fn numbers(key: impl Into<String>, numbers: impl Iterator<Item = f32>, header: &Value) -> Self {
-        Self {
-            key: key.into(),
-            payload: numbers.flat_map(f32::to_le_bytes).collect(),
-            packed: Payload::PackedF32,
-            attachment: Some(header.to_string().into_bytes()),
-        }
+    pub(super) fn numbers(key: impl Into<String>, numbers: impl Iterator<Item = f32>, header: &impl Serialize) -> Self {
+        let payload = numbers.flat_map(f32::to_le_bytes).collect();
+        Self { key: key.into(), payload, packed: Payload::PackedF32, attachment: Some(bytes(header)) }
     }
+}
+
+/// A message or a header as JSON.
+pub(super) fn bytes(message: &impl Serialize) -> Vec<u8> {
+    message_json(message).expect("numbers, words and lists are JSON").to_string().into_bytes()
 }
 
 /// No plume message has more filaments, so that it stays well below 1 MB.
@@ -36,7 +41,7 @@ const MOST_FILAMENTS: usize = 10_000;
 
 pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Message {
     let LiveCounts { sent, superseded, .. } = counts;
-    Message::json("clock", &json!({"t_s": t_s, "step": step, "ended": ended, "sent": sent, "superseded": superseded}))
+    Message::json("clock", &ClockMessage { t_s, step, ended, sent, superseded })
 }
 
 /// All messages of a state except the clock.
@@ -53,32 +58,35 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
     // The filaments that are shown also stand for those omitted here, as they already do for those omitted before.
     let times = p.points.len() as f32 / shown.len().max(1) as f32;
     let shown = shown.map(|&[x, y, z, size, mass, n]| [x, y, z, size, mass * times, n * times]);
-    let header = json!({
-        "t_s": p.t_s, "total": p.total, "shown": shown.len(), "origin_m": p.centre.as_slice(),
-        "fields": ["x", "y", "z", "size", "mass", "stands_for"], "dtype": "<f4",
-    });
+    let header = PlumeMessage {
+        t_s: p.t_s,
+        total: p.total,
+        shown: shown.len(),
+        origin_m: p.centre.into(),
+        fields: vec!["x", "y", "z", "size", "mass", "stands_for"],
+        dtype: DTYPE,
+    };
     Message::numbers("plume", shown.flatten(), &header)
 }
 
 /// The flow of the water.
 pub(super) fn water(w: &WaterFrame) -> Message {
-    let header = json!({
-        "t_s": w.t_s, "shown": w.points.len(), "origin_m": w.centre.as_slice(),
-        "fields": ["x", "y", "z", "vx", "vy", "vz"], "dtype": "<f4",
-    });
+    let header = WaterMessage {
+        t_s: w.t_s,
+        shown: w.points.len(),
+        origin_m: w.centre.into(),
+        fields: vec!["x", "y", "z", "vx", "vy", "vz"],
+        dtype: DTYPE,
+    };
     Message::numbers("water", w.local().into_iter().flatten(), &header)
 }
 
 /// Messages known before the run starts: scenario, version and schemas of the topics.
 pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
+    let (name, ron) = (meta.scenario_name.clone(), meta.scenario_text.clone());
     let mut out = vec![
-        Message::json(
-            "meta/scenario",
-            &json!({
-                "name": meta.scenario_name, "seed": meta.seed, "ron": meta.scenario_text,
-            }),
-        ),
-        Message::json("meta/version", &json!({"program": "rheotaxis", "version": meta.version})),
+        Message::json("meta/scenario", &ScenarioMessage { name, seed: meta.seed, ron }),
+        Message::json("meta/version", &VersionMessage { program: "rheotaxis", version: meta.version.clone() }),
     ];
     // The bytes themselves, so that they are those of the recording's attachment.
     out.extend(meta.scene.as_ref().map(|document| Message {
@@ -93,7 +101,7 @@ pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
 }
 
 pub(super) fn digest(digest: &str) -> Message {
-    Message::json("meta/digest", &json!({"digest": digest}))
+    Message::json("meta/digest", &DigestMessage { digest: digest.to_owned() })
 }
 
 #[cfg(test)]
@@ -104,6 +112,7 @@ pub(super) mod tests {
     use rheotaxis::frame::{GantryFrame, RobotFrame};
     use rheotaxis::topic::TopicValue;
     use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan};
+    use serde_json::{Value, json};
     use world::frames::{Pose, Truth};
     use world::units::Heading;
 
@@ -153,7 +162,7 @@ pub(super) mod tests {
 
     /// A value of a topic of another crate.
     pub(crate) fn published(key: &str, t_s: f64) -> TopicValue {
-        const TOPIC: Topic = Topic::json("own", "own/<id>", "always", "A test.", &[]);
+        const TOPIC: Topic = Topic::of::<ClockMessage>("own", "own/<id>", "always");
         TopicValue { topic: TOPIC, key: key.to_owned(), t_s, value: json!({ "t_s": t_s }) }
     }
 

@@ -44,7 +44,7 @@ pub use news::{ListenOptions, News};
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
 pub use plane::Plane;
 pub use ros2::{Qos, Ros2, RosTopic, ros_topics};
-pub use topics::{Field, FieldKind, Payload, Topic, topics};
+pub use topics::{Payload, Topic, topics};
 
 #[cfg(feature = "live")]
 pub use controller::{Going, LiveController};

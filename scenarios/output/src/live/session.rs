@@ -1,6 +1,6 @@
 //! The thread that owns the zenoh session, and the handle that the run has.
 
-use super::config::{Notices, OpenedSession, endpoint, opened, plain};
+use super::config::{Notices, Open, OpenedSession, endpoint, opened, plain};
 use super::controller::{Going, LiveController};
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
@@ -17,7 +17,6 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
-use zenoh::{Session, Wait};
 
 /// How long a finished run waits for zenoh to close its connections.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -39,23 +38,6 @@ pub struct Live {
 /// The session of a run, which other runs may use as long as it publishes.
 #[derive(Clone, Debug, Default)]
 pub struct LiveSession(Weak<Open>);
-
-/// An open session. The last run that uses it closes it.
-#[derive(Debug)]
-pub(super) struct Open(Session);
-
-impl Open {
-    pub(super) fn session(&self) -> &Session {
-        &self.0
-    }
-}
-
-impl Drop for Open {
-    fn drop(&mut self) {
-        // Explicitly, because a session that is closed when statics are dropped panics.
-        let _closed = self.0.close().wait();
-    }
-}
 
 /// What the thread reports when it is running: where clients connect, its session, and what the user is told.
 type Up = Result<(String, LiveSession, Notices), LiveError>;
@@ -233,8 +215,8 @@ fn publish(
             return;
         }
     };
-    let opened = Tree::grow(&session.0, options, meta).and_then(|tree| {
-        let door = options.ros2.as_ref().map(|r| Door::open(&session.0, r));
+    let opened = Tree::grow(session.session(), options, meta).and_then(|tree| {
+        let door = options.ros2.as_ref().map(|r| Door::open(session.session(), r));
         Ok((tree, door.transpose()?))
     });
     match opened {
@@ -242,7 +224,7 @@ fn publish(
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }
         Ok((mut tree, mut ros)) => {
-            let _nobody_waits = up.send(Ok((endpoint(&session.0), LiveSession(Arc::downgrade(&session)), told)));
+            let _nobody_waits = up.send(Ok((endpoint(session.session()), LiveSession(Arc::downgrade(&session)), told)));
             serve(&mut tree, &mut ros, mailbox, options.plume_period);
         }
     }

@@ -1,14 +1,13 @@
 //! Plume, water, sidescan and pictures in a recording.
 
-use super::Recorder;
-use super::recorder::AREA;
+use super::{AREA, Recorder};
 use crate::files::ReportError;
 use crate::results::Echoes;
-use crate::ros::{
-    MessageKind, Transform, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud,
-};
+use crate::ros::{MessageKind, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud};
+use crate::scene::frames::transform;
 use rheotaxis::frame::{PictureFrame, PlumeFrame, WaterFrame};
 use robots::survey::Row;
+use world::frames::Pose;
 
 impl Recorder {
     /// Records the flow of the water as a cloud: see [`water_cloud`].
@@ -61,13 +60,11 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
         let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
-        let (camera, optical) = (format!("{id}/camera"), format!("{id}/camera_optical"));
-        let mount =
-            Transform { t_ns: t, parent: id.clone(), child: optical.clone(), position: p.p_BC, attitude: p.R_BC };
-        let mount = transforms(&[mount]);
-        self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
+        let optical = format!("{id}/camera_optical");
+        let mount = transform(t, id, optical.clone(), &Pose { p_WB: p.p_BC, R_WB: p.R_BC });
+        self.file.write("/tf", MessageKind::TfMessage, t, &transforms(&[mount]))?;
         let image = compressed_image(t, &optical, "png", png);
-        let topic = format!("/{camera}/compressed");
+        let topic = format!("/{id}/camera/compressed");
         self.file.write(&topic, MessageKind::CompressedImage, t, &image)?;
         Ok(())
     }

@@ -1,10 +1,12 @@
 //! A gantry's part of a recording: joints, probes, and the data and decisions of its searcher.
 
-use super::recorder::{WORLD, in_world, on_plane};
+use super::WORLD;
 use crate::mcap::{McapFile, RecordError};
-use crate::ros::{MessageKind, Transform, float64, joint_state, joints, nanoseconds, pose_stamped, text};
+use crate::ros::{MessageKind, Transform, declared, float64, nanoseconds, slides, text};
+use crate::scene::frames::transform;
 use nalgebra::UnitQuaternion;
 use rheotaxis::gantry::GantryFrame;
+use world::frames::Pose;
 use world::math;
 
 /// What was recorded of a gantry so far. Behaviours and the declaration are written when they change.
@@ -22,8 +24,7 @@ impl GantryRecorder {
         let id = &g.id;
         let mut put =
             |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
-        let joints = joint_state(t, WORLD, &joints(g));
-        put("joint_states", MessageKind::JointState, t, &joints)?;
+        put("joint_states", MessageKind::JointState, t, &slides(t, WORLD, g))?;
         let w = &g.decision.working;
         if let Some(scan) = g.scan.filter(|s| self.scanned_s != Some(s.t_s)) {
             self.scanned_s = Some(scan.t_s);
@@ -43,10 +44,7 @@ impl GantryRecorder {
         }
         if let (Some(d), false) = (g.declaration, self.declared) {
             self.declared = true;
-            let at = nanoseconds(d.t_s);
-            let p = on_plane(d.position, g.head_W.z);
-            let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
-            put("declaration", MessageKind::PoseStamped, t, &pose)?;
+            put("declaration", MessageKind::PoseStamped, t, &declared(WORLD, &d, g.head_W.z))?;
         }
         Ok(())
     }
@@ -54,7 +52,8 @@ impl GantryRecorder {
 
 /// Frames of its head and of its probes' tips, all in the direction of the gantry.
 pub(super) fn frames_of(t: u64, g: &GantryFrame) -> impl Iterator<Item = Transform> {
-    let facing = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
-    let tips = (g.tips_W.iter().enumerate()).map(move |(n, p)| in_world(t, format!("{}/probe_{n}", g.id), *p, facing));
-    std::iter::once(in_world(t, format!("{}/head", g.id), g.head_W, facing)).chain(tips)
+    let R_WB = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
+    let here = move |name: String, p_WB| transform(t, WORLD, format!("{}/{name}", g.id), &Pose { p_WB, R_WB });
+    let tips = (g.tips_W.iter().enumerate()).map(move |(n, p)| here(format!("probe_{n}"), *p));
+    std::iter::once(here("head".to_owned(), g.head_W)).chain(tips)
 }

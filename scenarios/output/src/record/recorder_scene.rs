@@ -1,6 +1,6 @@
 //! A scene's part of a recording: the document, surfaces, URDFs, frames of links, and the joints that move.
 
-use super::recorder::{AREA, WORLD};
+use super::{AREA, WORLD};
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{MessageKind, Transform, marker_array, text, transforms};
 use crate::scene::frames::{BODY, Names, fixed, slid, transform};

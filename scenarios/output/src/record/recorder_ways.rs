@@ -1,8 +1,8 @@
 //! Ways and marks in a recording: where machines went and believed they went, what they plan, where they lost the plume,
 //! the zone that this makes for the declaration rule, and what they declared.
 
+use super::WORLD;
 use super::growing_path::GrowingPath;
-use super::recorder::{WORLD, on_plane};
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{Balls, MessageKind, balls, path};
 use crate::scene::Scene;
@@ -85,7 +85,7 @@ impl WayRecorder {
             return Ok(());
         }
         let corners = zone.corners.iter().chain(zone.corners.first());
-        let outline: Vec<_> = corners.map(|p| on_plane(*p, z)).collect();
+        let outline: Vec<_> = corners.map(|p| p.push(z)).collect();
         let cdr = path(t_ns, WORLD, &outline);
         file.write(&topic, MessageKind::Path, t_ns, &cdr)?;
         self.zones.insert(topic, zone.clone());
@@ -115,7 +115,7 @@ impl WayRecorder {
         let raised = [0, 1, 2].map(|k| {
             let places = flat[k].iter().map(|p| {
                 let before = known[k].iter().find(|q| q.xy() == *p);
-                before.copied().unwrap_or_else(|| on_plane(*p, z))
+                before.copied().unwrap_or_else(|| p.push(z))
             });
             places.collect::<Vec<_>>()
         });

@@ -8,39 +8,14 @@ use super::cdr::{Header, Time, bytes, cdr, pose, xyz};
 use nalgebra::{UnitQuaternion, Vector3};
 use robots::handoff::RangeScan;
 use serde::Serialize;
+use world::frames::Pose;
 
-/// Position and attitude of `child` in `frame`; velocities in the child's axes.
-#[derive(Clone, Debug)]
-pub struct Odometry<'a> {
-    /// Time, ns.
-    pub t_ns: u64,
-    /// Frame of the pose.
-    pub frame: &'a str,
-    /// Frame of the velocities.
-    pub child: &'a str,
-    /// Position, m.
-    pub position: Vector3<f64>,
-    /// Attitude.
-    pub attitude: UnitQuaternion<f64>,
-    /// Velocity, m/s.
-    pub linear: Vector3<f64>,
-    /// Angular velocity, rad/s.
-    pub angular: Vector3<f64>,
-}
-
-impl Odometry<'_> {
-    /// As CDR.
-    #[must_use]
-    pub fn cdr(&self) -> Vec<u8> {
-        const UNKNOWN: [[f64; 6]; 6] = [[0.0; 6]; 6];
-        let twist = (xyz(&self.linear), xyz(&self.angular));
-        cdr(&(
-            Header::new(self.t_ns, self.frame),
-            self.child,
-            (pose(&self.position, &self.attitude), UNKNOWN),
-            (twist, UNKNOWN),
-        ))
-    }
+/// An `Odometry`: the pose of `child` in `frame`; its velocity, m/s, and angular velocity, rad/s, in its own axes.
+#[must_use]
+pub fn odometry(t_ns: u64, [frame, child]: [&str; 2], at: &Pose, [linear, angular]: [Vector3<f64>; 2]) -> Vec<u8> {
+    const UNKNOWN: [[f64; 6]; 6] = [[0.0; 6]; 6];
+    let twist = (xyz(&linear), xyz(&angular));
+    cdr(&(Header::new(t_ns, frame), child, (pose(&at.p_WB, &at.R_WB), UNKNOWN), (twist, UNKNOWN)))
 }
 
 /// A `Float64`.
@@ -229,22 +204,12 @@ pub(super) mod tests {
 
     #[test]
     fn odometry_keeps_its_bytes() {
-        let message = Odometry {
-            t_ns: T_NS,
-            frame: "world",
-            child: "auv",
-            position: p(),
-            attitude: q(),
-            linear: Vector3::new(0.5, 0.0, -0.25),
-            angular: p(),
-        };
+        let velocities = [Vector3::new(0.5, 0.0, -0.25), p()];
+        let message = odometry(T_NS, ["world", "auv"], &Pose { p_WB: p(), R_WB: q() }, velocities);
         let unknown = "00".repeat(36 * 8);
         let linear = "000000000000e03f 0000000000000000 000000000000d0bf";
         let angular = "000000000000f03f 0000000000000440 00000000000008c0";
-        is(
-            &message.cdr(),
-            &format!("{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"),
-        );
+        is(&message, &format!("{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"));
     }
 
     #[test]

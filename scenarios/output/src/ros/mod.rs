@@ -2,8 +2,8 @@
 
 mod cdr;
 mod drawings;
-mod joints;
 mod log;
+mod machines;
 mod messages;
 mod plume;
 mod schemas;
@@ -11,14 +11,14 @@ mod sensors;
 mod types;
 
 pub use drawings::{Balls, Marker, balls, marker_array, path};
-pub use joints::joints;
 pub use log::{LogLevel, log_line};
+pub use machines::{believed_flow, believed_odometry, believed_pose, declared, slides, true_odometry};
 pub use messages::{
-    Joint, Odometry, Transform, clock, compressed_image, echo_cloud, float64, joint_state, point_cloud, pose_stamped,
+    Joint, Transform, clock, compressed_image, echo_cloud, float64, joint_state, odometry, point_cloud, pose_stamped,
     text, transforms, vector3_stamped,
 };
 pub use plume::{plume_cloud, water_cloud};
-pub use sensors::{Imu, Range, fluid_pressure, twist_stamped};
+pub use sensors::{fluid_pressure, imu, range, twist_stamped};
 pub use types::MessageKind;
 
 /// A simulated time in seconds as nanoseconds, never negative.

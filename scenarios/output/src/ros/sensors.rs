@@ -7,30 +7,15 @@
 
 use super::cdr::{Header, cdr, xyz};
 use nalgebra::{UnitQuaternion, Vector3};
-use serde::Serialize;
 
-/// Attitude and rates, for an `Imu`.
-#[derive(Clone, Copy, Debug)]
-pub struct Imu<'a> {
-    /// Time, ns.
-    pub t_ns: u64,
-    /// Frame of the rates.
-    pub frame: &'a str,
-    /// Attitude of that frame in east, north, up.
-    pub attitude: UnitQuaternion<f64>,
-    /// Angular velocity, rad/s.
-    pub rates: Vector3<f64>,
-}
-
-impl Imu<'_> {
-    /// As CDR. The acceleration is marked as not measured.
-    #[must_use]
-    pub fn cdr(&self) -> Vec<u8> {
-        const UNKNOWN: [f64; 9] = [0.0; 9];
-        const NOT_MEASURED: [f64; 9] = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let q: [f64; 4] = self.attitude.coords.into();
-        cdr(&(Header::new(self.t_ns, self.frame), (q, UNKNOWN), (xyz(&self.rates), UNKNOWN), ([0.0; 3], NOT_MEASURED)))
-    }
+/// An `Imu`: the attitude of a frame in east, north, up, and its rates, rad/s. The acceleration is marked as not
+/// measured.
+#[must_use]
+pub fn imu(t_ns: u64, frame: &str, attitude: &UnitQuaternion<f64>, rates: &Vector3<f64>) -> Vec<u8> {
+    const UNKNOWN: [f64; 9] = [0.0; 9];
+    const NOT_MEASURED: [f64; 9] = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+    let q: [f64; 4] = attitude.coords.into();
+    cdr(&(Header::new(t_ns, frame), (q, UNKNOWN), (xyz(rates), UNKNOWN), ([0.0; 3], NOT_MEASURED)))
 }
 
 /// A `FluidPressure` of an absolute pressure, Pa.
@@ -45,44 +30,14 @@ pub fn twist_stamped(t_ns: u64, frame: &str, linear: &Vector3<f64>) -> Vec<u8> {
     cdr(&(Header::new(t_ns, frame), xyz(linear), [0.0; 3]))
 }
 
-/// A range by sound along the x axis of a frame, for a `Range`.
-#[derive(Clone, Copy, Debug)]
-pub struct Range<'a> {
-    /// Time, ns.
-    pub t_ns: u64,
-    /// The frame.
-    pub frame: &'a str,
-    /// Full opening angle of the cone, rad.
-    pub view_rad: f64,
-    /// Least and greatest range, m.
-    pub limits_m: [f64; 2],
-    /// The range, m; `None` if nothing was heard.
-    pub range_m: Option<f64>,
-}
-
-impl Range<'_> {
-    /// As CDR.
-    #[must_use]
-    pub fn cdr(&self) -> Vec<u8> {
-        #[derive(Serialize)]
-        struct Message<'a> {
-            header: Header<'a>,
-            radiation_type: u8,
-            field_of_view: f32,
-            limits: [f32; 2],
-            range: f32,
-            variance: f32,
-        }
-        const ULTRASOUND: u8 = 0;
-        cdr(&Message {
-            header: Header::new(self.t_ns, self.frame),
-            radiation_type: ULTRASOUND,
-            field_of_view: self.view_rad as f32,
-            limits: self.limits_m.map(|m| m as f32),
-            range: self.range_m.map_or(f32::INFINITY, |m| m as f32),
-            variance: 0.0,
-        })
-    }
+/// A `Range` by sound along the x axis of a frame: the full opening angle of the cone, rad, the least and the greatest
+/// range, m, and the range, m, or `None` if nothing was heard.
+#[must_use]
+pub fn range(t_ns: u64, frame: &str, view_rad: f64, limits_m: [f64; 2], range_m: Option<f64>) -> Vec<u8> {
+    const ULTRASOUND: u8 = 0;
+    let range = range_m.map_or(f32::INFINITY, |m| m as f32);
+    let variance: f32 = 0.0;
+    cdr(&(Header::new(t_ns, frame), ULTRASOUND, view_rad as f32, limits_m.map(|m| m as f32), range, variance))
 }
 
 #[cfg(test)]
@@ -95,12 +50,11 @@ mod tests {
 
     #[test]
     fn acceleration_is_marked_as_not_measured() {
-        let imu = Imu { t_ns: T_NS, frame: "world", attitude: q(), rates: p() };
         let unknown = "00".repeat(9 * 8);
         let none = "00".repeat(8 * 8);
         let zero = "00".repeat(3 * 8);
         is(
-            &imu.cdr(),
+            &imu(T_NS, "world", &q(), &p()),
             &format!("{HEADER} 00000000 {ATTITUDE} {unknown} {PLACE} {unknown} {zero} 000000000000f0bf {none}"),
         );
     }
@@ -113,11 +67,10 @@ mod tests {
 
     #[test]
     fn nothing_heard_is_infinitely_far() {
-        let heard = Range { t_ns: T_NS, frame: "world", view_rad: 0.0, limits_m: [0.5, 30.0], range_m: Some(2.0) };
+        let heard = |range_m| range(T_NS, "world", 0.0, [0.5, 30.0], range_m);
         // The kind of sound, zero, is in the padding of the header.
         let limits = "0000003f 0000f041";
-        is(&heard.cdr(), &format!("{HEADER} 00000000 {limits} 00000040 00000000"));
-        let deaf = Range { range_m: None, ..heard };
-        is(&deaf.cdr(), &format!("{HEADER} 00000000 {limits} 0000807f 00000000"));
+        is(&heard(Some(2.0)), &format!("{HEADER} 00000000 {limits} 00000040 00000000"));
+        is(&heard(None), &format!("{HEADER} 00000000 {limits} 0000807f 00000000"));
     }
 }

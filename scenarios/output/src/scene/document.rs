@@ -8,6 +8,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use nalgebra::Vector3;
 use rheotaxis::topic::chunk;
+use rheotaxis::topic::run::SceneMessage;
 use robots::vehicles::{Form, LinkLook, Look, Mount};
 use serde_json::{Map, Value, json};
 use world::frames::Pose;
@@ -29,26 +30,28 @@ impl Scene {
         let layers =
             (self.layers.iter().enumerate()).map(|(k, z)| json!({"name": format!("interface {}", k + 1), "z_m": z}));
         let corners: Vec<&[f64]> = self.corners.iter().map(|c| c.as_slice()).collect();
-        json!({
-            "version": VERSION,
-            "run": format!("{}_{seed}", chunk(&self.scenario)),
-            "scenario": self.scenario,
-            "title": self.title,
-            "seed": seed,
-            "area": {"corners_m": corners},
-            "origin_m": centre.xy().as_slice(),
-            "bed": {"shape": [self.bed.rows, self.bed.columns], "points_m": points(&self.bed.points, centre)},
-            "surface": self.surface,
-            "solids": solids.collect::<Vec<_>>(),
-            "sources": sources.collect::<Vec<_>>(),
-            "layers": layers.collect::<Vec<_>>(),
-            "machines": self.machines.iter().map(machine).collect::<Vec<_>>(),
-        })
-        .to_string()
+        let document = SceneMessage {
+            version: VERSION,
+            run: format!("{}_{seed}", chunk(&self.scenario)),
+            scenario: self.scenario.clone(),
+            title: self.title.clone(),
+            seed,
+            area: fields(json!({ "corners_m": corners })),
+            origin_m: centre.xy().into(),
+            bed: fields(json!({
+                "shape": [self.bed.rows, self.bed.columns], "points_m": points(&self.bed.points, centre),
+            })),
+            surface: self.surface,
+            solids: solids.map(fields).collect(),
+            sources: sources.map(fields).collect(),
+            layers: layers.map(fields).collect(),
+            machines: self.machines.iter().map(machine).collect(),
+        };
+        json!(document).to_string()
     }
 }
 
-fn machine(m: &Machine) -> Value {
+fn machine(m: &Machine) -> Map<String, Value> {
     let d = &m.description;
     let drives = (d.moved.iter()).map(|d| json!({"joint": d.joint, "actuator": d.actuator, "unit": d.unit}));
     let slides = (m.slides.iter()).map(|s| json!({"joint": s, "actuator": s, "unit": "m"}));
@@ -66,7 +69,7 @@ fn machine(m: &Machine) -> Value {
         out.insert("threshold".into(), share.into());
         out.insert("full_scale_v".into(), volts.into());
     }
-    Value::Object(out)
+    out
 }
 
 fn link(l: &LinkLook) -> Value {

@@ -9,7 +9,7 @@ use rheotaxis::extend::{Extend, Systems};
 use rheotaxis::machines::{Apparatuses, Launch, Machine};
 use rheotaxis::ocean::Ocean;
 use rheotaxis::scenario::{Id, load_text, template};
-use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
+use rheotaxis::topic::{Topic, Topics};
 use rheotaxis::trial::{Trial, Unwatched};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -59,23 +59,22 @@ fn measure(clock: Res<Clock>, ocean: Res<Ocean>, mut buoys: Query<&mut Moored>, 
             let now_kg_m3 = ocean.dye(t_s).concentration(&buoy.p_W);
             buoy.readings += 1;
             buoy.mean_kg_m3 += (now_kg_m3 - buoy.mean_kg_m3) / buoy.readings as f64;
-            let value = json!({ "t_s": t_s, "dye_kg_m3": now_kg_m3 });
-            topics.publish(&DYE, &buoy.id, t_s, &value);
+            topics.publish(&DYE, &buoy.id, t_s, &Dye { t_s, dye_kg_m3: now_kg_m3 });
         }
     }
 }
 
+/// What a buoy measures.
+#[derive(Serialize, JsonSchema)]
+struct Dye {
+    /// Simulated time, s.
+    t_s: f64,
+    /// Concentration, kg/m³.
+    dye_kg_m3: f64,
+}
+
 /// Its topic; a buoy `b1` publishes under `buoy/b1/dye`.
-const DYE: Topic = Topic::json(
-    "buoy_dye",
-    "buoy/<id>/dye",
-    "once a second",
-    "What a buoy measures.",
-    &[
-        Field::always("t_s", FieldKind::Number, "Simulated time, s."),
-        Field::always("dye_kg_m3", FieldKind::Number, "Concentration, kg/m³."),
-    ],
-);
+const DYE: Topic = Topic::of::<Dye>("buoy_dye", "buoy/<id>/dye", "once a second");
 
 /// What a buoy brings into a run: an entity, a system, a part of the summary.
 impl Machine for Buoy {

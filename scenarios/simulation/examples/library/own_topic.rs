@@ -9,34 +9,28 @@ use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use rheotaxis::extend::{Extend, Systems};
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::searchers::SearcherId;
-use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
+use rheotaxis::topic::{Topic, Topics};
 use rheotaxis::trial::{Event, Observer, Trial, Unwatched};
 use robots::handoff::Readings;
+use schemars::JsonSchema;
 use serde::Serialize;
 use world::clock::Clock;
 use world::registry::Registry;
 use world::stage::Stage;
 
-/// The row of the topic in the table: name, key, rate, meaning, fields with their units.
-const SMELLS: Topic = Topic::json(
-    "smells",
-    "own/<id>/smells",
-    "with every reading of the chemical sensor",
-    "What a robot has smelt so far.",
-    &[
-        Field::always("t_s", FieldKind::Number, "Simulated time, s."),
-        Field::always("readings", FieldKind::Count, "Readings so far."),
-        Field::always("strongest_v", FieldKind::Number, "The strongest of them, V."),
-    ],
-);
-
-/// A value of the topic; its fields are those of the row.
-#[derive(Clone, Default, Serialize)]
+/// What a robot has smelt so far.
+#[derive(Clone, Default, Serialize, JsonSchema)]
 struct Smells {
+    /// Simulated time, s.
     t_s: f64,
+    /// Readings so far.
     readings: u64,
+    /// The strongest of them, V.
     strongest_v: f64,
 }
+
+/// The row of the topic: name, key and rate. The comments above say what a message and its fields mean.
+const SMELLS: Topic = Topic::of::<Smells>("smells", "own/<id>/smells", "with every reading of the chemical sensor");
 
 /// The system that publishes. `Local` is data that only this system has.
 fn publish(

@@ -1,13 +1,11 @@
 //! Answers as JSON, read and written.
 
-use super::forms::{
-    AnswerForm, DeclareForm, DrivesForm, EndForm, GoalForm, HeadForm, ManoeuvreForm, SlideForm, SteerForm,
-};
+use super::forms::{AnswerForm, DeclareForm, DrivesForm, GoalForm, HeadForm, SlideForm, SteerForm};
 use super::names::{behaviour, lasting};
 use nalgebra::Vector2;
 use robots::handoff::{
     Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES, Manoeuvre, MotionOrder, MoveOrder,
-    Outcome, Reply, Vertical,
+    Reply, Vertical,
 };
 use serde_json::Value;
 use world::units::Heading;
@@ -49,10 +47,14 @@ pub fn answer_json(answer: &Reply) -> Value {
 }
 
 /// Takes away what is left out.
-fn drop_nulls(value: &mut Value) {
-    if let Value::Object(fields) = value {
-        fields.retain(|_, value| !value.is_null());
-        fields.values_mut().for_each(drop_nulls);
+pub(super) fn drop_nulls(value: &mut Value) {
+    match value {
+        Value::Object(fields) => {
+            fields.retain(|_, value| !value.is_null());
+            fields.values_mut().for_each(drop_nulls);
+        }
+        Value::Array(all) => all.iter_mut().for_each(drop_nulls),
+        _ => {}
     }
 }
 
@@ -103,10 +105,7 @@ impl AnswerForm {
             behaviour: self.behaviour.as_deref().map(behaviour).transpose()?,
             declared: declared.transpose()?,
             picture: self.picture.unwrap_or(false),
-            outcome: self.end.map(|end| match end {
-                EndForm::Completed => Outcome::Completed,
-                EndForm::Aborted => Outcome::Aborted,
-            }),
+            outcome: self.end,
         })
     }
 
@@ -119,10 +118,7 @@ impl AnswerForm {
                 number: d.number,
             }),
             picture: answer.picture.then_some(true),
-            end: answer.outcome.map(|outcome| match outcome {
-                Outcome::Completed => EndForm::Completed,
-                Outcome::Aborted => EndForm::Aborted,
-            }),
+            end: answer.outcome,
             ..Self::default()
         };
         match &answer.order {
@@ -143,46 +139,17 @@ impl AnswerForm {
     fn set_order(&mut self, order: &MoveOrder) {
         let [depth_m, altitude_m] = heights(order.vertical);
         let (id, speed_m_s) = (order.id, order.speed_m_s);
-        let manoeuvre = match &order.manoeuvre {
+        match order.manoeuvre {
             Manoeuvre::Steer { heading } => {
                 self.steer = Some(SteerForm { heading_rad: heading.rad(), depth_m, altitude_m, speed_m_s, id });
-                return;
             }
             Manoeuvre::Slide { heading, over_ground_m_s } => {
-                self.slide = Some(SlideForm {
-                    heading_rad: heading.rad(),
-                    velocity_m_s: (*over_ground_m_s).into(),
-                    depth_m,
-                    altitude_m,
-                    id,
-                });
-                return;
+                let (heading_rad, velocity_m_s) = (heading.rad(), over_ground_m_s.into());
+                self.slide = Some(SlideForm { heading_rad, velocity_m_s, depth_m, altitude_m, id });
             }
-            Manoeuvre::Drives(set) => {
-                self.drives = Some(DrivesForm { set: set.all().to_vec(), id });
-                return;
-            }
-            Manoeuvre::GoToPoint { point, radius_m } => {
-                ManoeuvreForm::GoToPoint { point_m: (*point).into(), radius_m: *radius_m }
-            }
-            Manoeuvre::FollowLine { from, to } => {
-                ManoeuvreForm::FollowLine { from_m: (*from).into(), to_m: (*to).into() }
-            }
-            Manoeuvre::GoToPointWithHeading { point, heading } => {
-                ManoeuvreForm::GoToPointWithHeading { point_m: (*point).into(), heading_rad: heading.rad() }
-            }
-            Manoeuvre::Hold { point, heading } => {
-                ManoeuvreForm::Hold { point_m: (*point).into(), heading_rad: heading.map(Heading::rad) }
-            }
-            Manoeuvre::SlideTo { point, radius_m, heading } => {
-                ManoeuvreForm::SlideTo { point_m: (*point).into(), radius_m: *radius_m, heading_rad: heading.rad() }
-            }
-            Manoeuvre::Course { course } => ManoeuvreForm::Course { heading_rad: course.rad() },
-            Manoeuvre::Direct { rudder_rad, stern_rad, rpm } => {
-                ManoeuvreForm::Direct { rudder_rad: *rudder_rad, stern_rad: *stern_rad, rpm: *rpm }
-            }
-        };
-        self.goal = Some(GoalForm { manoeuvre, depth_m, altitude_m, speed_m_s, id });
+            Manoeuvre::Drives(set) => self.drives = Some(DrivesForm { set: set.all().to_vec(), id }),
+            manoeuvre => self.goal = Some(GoalForm { manoeuvre, depth_m, altitude_m, speed_m_s, id }),
+        }
     }
 }
 
@@ -192,26 +159,8 @@ fn to_move(id: Option<u32>, manoeuvre: Manoeuvre, vertical: Option<Vertical>, sp
 
 impl GoalForm {
     fn order(self) -> Result<MotionOrder, String> {
-        let heading = Heading::from_rad;
-        let manoeuvre = match self.manoeuvre {
-            ManoeuvreForm::GoToPoint { point_m, radius_m } => Manoeuvre::GoToPoint { point: point_m.into(), radius_m },
-            ManoeuvreForm::FollowLine { from_m, to_m } => {
-                Manoeuvre::FollowLine { from: from_m.into(), to: to_m.into() }
-            }
-            ManoeuvreForm::GoToPointWithHeading { point_m, heading_rad } => {
-                Manoeuvre::GoToPointWithHeading { point: point_m.into(), heading: heading(heading_rad) }
-            }
-            ManoeuvreForm::Hold { point_m, heading_rad } => {
-                Manoeuvre::Hold { point: point_m.into(), heading: heading_rad.map(heading) }
-            }
-            ManoeuvreForm::SlideTo { point_m, radius_m, heading_rad } => {
-                Manoeuvre::SlideTo { point: point_m.into(), radius_m, heading: heading(heading_rad) }
-            }
-            ManoeuvreForm::Course { heading_rad } => Manoeuvre::Course { course: heading(heading_rad) },
-            ManoeuvreForm::Direct { rudder_rad, stern_rad, rpm } => Manoeuvre::Direct { rudder_rad, stern_rad, rpm },
-        };
         let vertical = vertical(self.depth_m, self.altitude_m)?;
-        Ok(to_move(self.id, manoeuvre, vertical, self.speed_m_s))
+        Ok(to_move(self.id, self.manoeuvre, vertical, self.speed_m_s))
     }
 }
 

@@ -203,49 +203,33 @@ fn asking(world: &World, n: usize) -> Option<Entity> {
     world.get_resource::<Exchanges>()?.0.get(n).copied()
 }
 
-/// A question that waits for its answer.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct OpenQuestion {
-    /// Who asks.
-    pub(crate) robot: String,
-    number: u64,
-    step: u64,
-    t_s: f64,
-}
-
-impl From<&Question> for OpenQuestion {
-    fn from(question: &Question) -> Self {
-        Self { robot: question.robot.clone(), number: question.number, step: question.step, t_s: question.t_s }
-    }
-}
-
-/// Puts in what came of a question, counts it, and returns it as observers see it. An answer that the machine cannot
-/// carry out counts as nonsense.
-pub(crate) fn put_in(world: &mut World, question: OpenQuestion, mut heard: Response) -> Exchange {
+/// Counts what came of a question, tells it to the machine that asked, and returns it as observers see it. An answer that
+/// the machine cannot carry out counts as nonsense.
+pub(crate) fn put_in(world: &mut World, mut exchange: Exchange) -> Exchange {
     for n in 0.. {
         let Some(entity) = asking(world, n) else {
             break;
         };
-        let own = (world.get::<SearcherId>(entity)).filter(|id| id.name == question.robot);
+        let own = (world.get::<SearcherId>(entity)).filter(|id| id.name == exchange.robot);
         let Some(place) = own.map(|id| id.place) else {
             continue;
         };
         let Some(mut consulting) = world.get_mut::<ExchangeState>(entity) else {
             continue;
         };
-        if let Response::Answer(answer) = &heard
+        if let Response::Answer(answer) = &exchange.response
             && let Some(fault) = consulting.fault(answer)
         {
-            heard = Response::Nonsense(fault);
+            exchange.response = Response::Nonsense(fault);
         }
-        consulting.told = Some(match &heard {
+        consulting.told = Some(match &exchange.response {
             Response::Answer(answer) => ReplyOutcome::Answer(Box::new(answer.clone())),
             _ => ReplyOutcome::Nothing,
         });
         let mut score = world.resource_mut::<Score>();
         let own = score.searchers[place].consulted.get_or_insert_default();
         own.asked += 1;
-        *match &heard {
+        *match &exchange.response {
             Response::Answer(_) => &mut own.answered,
             Response::Late => &mut own.late,
             Response::Absent => &mut own.absent,
@@ -253,5 +237,5 @@ pub(crate) fn put_in(world: &mut World, question: OpenQuestion, mut heard: Respo
             Response::Nonsense(_) => &mut own.nonsense,
         } += 1;
     }
-    Exchange { robot: question.robot, number: question.number, step: question.step, t_s: question.t_s, response: heard }
+    exchange
 }

@@ -2,6 +2,7 @@
 //!
 //! A field that is left out, or `null`, stays as it is. [`answers`](super::answers) turns them into what a robot takes.
 
+use robots::handoff::{Manoeuvre, Outcome};
 use serde::{Deserialize, Serialize};
 
 /// An answer.
@@ -18,31 +19,18 @@ pub(super) struct AnswerForm {
     pub(super) behaviour: Option<String>,
     pub(super) declare: Option<DeclareForm>,
     pub(super) picture: Option<bool>,
-    pub(super) end: Option<EndForm>,
+    pub(super) end: Option<Outcome>,
 }
 
 /// A goal for the guidance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct GoalForm {
-    pub(super) manoeuvre: ManoeuvreForm,
+    pub(super) manoeuvre: Manoeuvre,
     pub(super) depth_m: Option<f64>,
     pub(super) altitude_m: Option<f64>,
     pub(super) speed_m_s: Option<f64>,
     pub(super) id: Option<u32>,
-}
-
-/// The manoeuvres of a goal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "snake_case")]
-pub(super) enum ManoeuvreForm {
-    GoToPoint { point_m: [f64; 2], radius_m: Option<f64> },
-    FollowLine { from_m: [f64; 2], to_m: [f64; 2] },
-    GoToPointWithHeading { point_m: [f64; 2], heading_rad: f64 },
-    Hold { point_m: [f64; 2], heading_rad: Option<f64> },
-    SlideTo { point_m: [f64; 2], radius_m: Option<f64>, heading_rad: f64 },
-    Course { heading_rad: f64 },
-    Direct { rudder_rad: f64, stern_rad: f64, rpm: f64 },
 }
 
 /// A set-point for the autopilot.
@@ -93,12 +81,4 @@ pub(super) struct DeclareForm {
     pub(super) rule: Option<String>,
     #[serde(default)]
     pub(super) number: u32,
-}
-
-/// The end of a mission.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum EndForm {
-    Completed,
-    Aborted,
 }

@@ -98,6 +98,15 @@ pub struct Exchange {
     pub response: Response,
 }
 
+impl Exchange {
+    /// A question to which this came back.
+    #[must_use]
+    pub fn new(question: &Question, response: Response) -> Self {
+        let Question { number, step, t_s, .. } = *question;
+        Self { robot: question.robot.clone(), number, step, t_s, response }
+    }
+}
+
 /// Whoever decides for a robot or gantry whose strategy is `External`.
 pub trait Controller: Send {
     /// Answers a question. The run waits.

@@ -1,8 +1,9 @@
 //! A question as JSON: SI units, ENU axes, compass headings in radians; what was not measured is left out.
 
+use super::answers::drop_nulls;
 use super::{HeadGathered, Question, QuestionContent, ReadingsOfRobot};
 use robots::handoff::{Estimate, GantryObservation, Observation, RangeScan};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 /// A question as JSON. Pictures and sidescan pings are not in it: they have topics of their own.
 #[must_use]
@@ -16,20 +17,14 @@ pub fn question_json(question: &Question) -> Value {
     said["step"] = json!(question.step);
     said["t_s"] = json!(question.t_s);
     said["deadline_s"] = json!(question.deadline_s);
-    said
-}
-
-/// The same object with one more number, if there is one.
-fn with(mut said: Value, name: &str, number: Option<f64>) -> Value {
-    if let Some(number) = number {
-        said[name] = json!(number);
-    }
+    drop_nulls(&mut said);
     said
 }
 
 fn robot(t_s: f64, seen: &Observation, gathered: &ReadingsOfRobot) -> Value {
     let able = &seen.able;
-    let mut said = json!({
+    let other = seen.other.iter().map(|(name, v)| ((*name).to_string(), json!(v)));
+    json!({
         "estimate": estimate(&seen.estimate),
         "guidance": {
             "goal": seen.guidance.goal_id, "done": seen.guidance.done, "aborted": seen.guidance.aborted,
@@ -42,57 +37,43 @@ fn robot(t_s: f64, seen: &Observation, gathered: &ReadingsOfRobot) -> Value {
             "turning_radius_m": able.turning_radius_m, "hovers": able.hovers, "sideways": able.sideways,
             "dives": able.dives, "holds_depth": able.holds_depth,
         },
-    });
-    if let Some(flow) = &seen.estimate.flow {
-        said["flow"] = json!({"velocity_m_s": flow.velocity.as_slice(), "age_s": flow.age_s});
-    }
-    if let Some(belief) = &seen.belief {
-        said["belief"] = json!({
+        "flow": seen.estimate.flow.map(|flow| {
+            json!({"velocity_m_s": flow.velocity.as_slice(), "age_s": flow.age_s})
+        }),
+        "belief": seen.belief.as_ref().map(|belief| json!({
             "best_m": belief.grid.centre(belief.best).as_slice(), "entropy_nat": belief.entropy_nat,
             "updates": belief.updates, "informed": belief.informed,
-        });
-    }
-    if let Some(scan) = &gathered.ranging {
-        said["ranging"] = ranging(scan);
-    }
-    if !seen.other.is_empty() {
-        let named = seen.other.iter();
-        said["other"] =
-            named.map(|(name, v)| ((*name).to_string(), json!(v))).collect::<serde_json::Map<_, _>>().into();
-    }
-    said
+        })),
+        "ranging": gathered.ranging.as_ref().map(ranging),
+        "other": (!seen.other.is_empty()).then(|| other.collect::<Map<_, _>>()),
+    })
 }
 
 fn estimate(e: &Estimate) -> Value {
-    with(
-        json!({
-            "position_m": e.position.as_slice(), "depth_m": e.depth_m,
-            "heading_rad": e.attitude.heading.rad(), "roll_rad": e.attitude.roll_rad, "pitch_rad": e.attitude.pitch_rad,
-            "rates_rad_s": e.attitude.rates_rad_s.as_slice(), "velocity_m_s": e.v_ground().as_slice(),
-            "velocity_body_m_s": e.v_ground_body.as_slice(),
-        }),
-        "altitude_m",
-        e.altitude_m,
-    )
+    json!({
+        "position_m": e.position.as_slice(), "depth_m": e.depth_m, "altitude_m": e.altitude_m,
+        "heading_rad": e.attitude.heading.rad(), "roll_rad": e.attitude.roll_rad, "pitch_rad": e.attitude.pitch_rad,
+        "rates_rad_s": e.attitude.rates_rad_s.as_slice(), "velocity_m_s": e.v_ground().as_slice(),
+        "velocity_body_m_s": e.v_ground_body.as_slice(),
+    })
 }
 
 /// What the chemical sensor said since the last question.
 fn chemical(t_s: f64, g: &ReadingsOfRobot) -> Value {
-    let mean = (g.readings > 0).then(|| g.sum / f64::from(g.readings));
-    let mut said =
-        with(json!({"readings": g.readings, "detections": g.detections, "highest": g.highest}), "mean", mean);
-    if let Some(newest) = &g.chemical {
-        said["newest"] = json!({
+    json!({
+        "readings": g.readings, "detections": g.detections, "highest": g.highest,
+        "mean": (g.readings > 0).then(|| g.sum / f64::from(g.readings)),
+        "newest": g.chemical.map(|newest| json!({
             "volts": newest.volts, "of_full_scale": newest.of_full_scale, "detected": newest.detected,
-        });
-    }
-    with(said, "since_detection_s", g.detected_s.map(|then| t_s - then))
+        })),
+        "since_detection_s": g.detected_s.map(|then| t_s - then),
+    })
 }
 
 fn ranging(scan: &RangeScan) -> Value {
     let beams = scan.beams.iter();
     let beams: Vec<Value> =
-        beams.map(|beam| with(json!({"direction_body": beam.dir_B.as_slice()}), "echo_m", beam.echo_m)).collect();
+        beams.map(|beam| json!({"direction_body": beam.dir_B.as_slice(), "echo_m": beam.echo_m})).collect();
     json!({"place_body_m": scan.p_BS.as_slice(), "max_m": scan.max_m, "beams": beams})
 }
 

@@ -1,48 +1,98 @@
-//! The topics that gantries publish.
+//! The topics that gantries publish, and their messages.
 
-use crate::topic::run::{E_N, E_N_U, STATE_RATE, T};
-use crate::topic::{Field, FieldKind, Topic};
+use crate::topic::Topic;
+use crate::topic::run::STATE_RATE;
+use robots::handoff::GantryBehaviour;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-// Keeps each row on one line.
-#[rustfmt::skip]
 /// The topics of each gantry.
 pub const TOPICS: &[Topic] = &[
-    Topic::json("joints", "gantry/<id>/joints", STATE_RATE, "Where a gantry's head is and what its drives do; names, positions, velocities and efforts as in a ROS JointState.", &[
-        T,
-        Field::always("name", FieldKind::Words, "The two joints: along the stream, across it."),
-        Field::always("position_m", FieldKind::Numbers, "True position of each joint, m."),
-        Field::always("velocity_m_s", FieldKind::Numbers, "True speed of each joint, m/s."),
-        Field::always("effort_n", FieldKind::Numbers, "Force of each drive, N."),
-        Field::always("head_m", E_N_U, "The head (east, north, up), m; z = 0 is the still surface."),
-        Field::always("encoder_m", FieldKind::Vector(2), "The head by its encoders, in the gantry's frame (forward, left), m."),
-        Field::always("target_m", FieldKind::Vector(2), "Where the head is to go, in the gantry's frame (forward, left), m."),
-        Field::always("arrived", FieldKind::Flag, "Both drives have reached the target."),
-        Field::always("blocked", FieldKind::Flag, "A drive gave up against something in the way."),
-        Field::sometimes("touching", FieldKind::Text, "What the gantry touches."),
-    ]),
-    Topic::json("probes", "gantry/<id>/probes", STATE_RATE, "Newest scan of a gantry's probes; absent until the first.", &[
-        Field::always("t_s", FieldKind::Number, "Simulated time of the scan, s."),
-        Field::always("position_m", FieldKind::Places, "Tip of each probe (east, north, up), m, in the order of the URDF."),
-        Field::always("volts", FieldKind::Numbers, "Output of each probe, V."),
-    ]),
-    Topic::json("spikes", "gantry/<id>/spikes", STATE_RATE, "What a gantry's searcher makes of its probes.", &[
-        T,
-        Field::always("threshold_v", FieldKind::Numbers, "Spike threshold of each probe, V."),
-        Field::always("spike", FieldKind::Flags, "A spike was found on the probe since the message before, superseded states included."),
-        Field::always("spike_hz", FieldKind::Number, "Spikes a second lately, Hz."),
-        Field::always("magnitude_v", FieldKind::Number, "Mean spike magnitude since the latest step, V above the bottom of the range."),
-        Field::sometimes("predicted_v", FieldKind::Number, "Predicted magnitude of the present step, V above the bottom of the range."),
-        Field::always("contrast", FieldKind::Number, "Contrast between the sides, left positive, −1 to 1."),
-    ]),
-    Topic::json("gantry_behaviour", "gantry/<id>/behaviour", STATE_RATE, "What a gantry's searcher is doing.", &[
-        T,
-        Field::always("behaviour", FieldKind::GantryBehaviour, "Its name."),
-        Field::always("move", FieldKind::Count, "Number of the motion command, growing by one with each new one."),
-        Field::sometimes("found", FieldKind::Flag, "There once it stopped: true when it declared a source, false when it gave up."),
-    ]),
-    Topic::json("gantry_declaration", "gantry/<id>/declaration", "with the state, once made", "The source a gantry's searcher declared: where it stopped.", &[
-        Field::always("t_s", FieldKind::Number, "Simulated time of the declaration, s."),
-        Field::always("position_m", E_N, "Where its encoders have the head (east, north), m."),
-        Field::always("rule", FieldKind::Text, "By which rule."),
-    ]),
+    Topic::of::<JointsMessage>("joints", "gantry/<id>/joints", STATE_RATE),
+    Topic::of::<ProbesMessage>("probes", "gantry/<id>/probes", STATE_RATE),
+    Topic::of::<SpikesMessage>("spikes", "gantry/<id>/spikes", STATE_RATE),
+    Topic::of::<GantryBehaviourMessage>("gantry_behaviour", "gantry/<id>/behaviour", STATE_RATE),
+    Topic::of::<GantryDeclarationMessage>("gantry_declaration", "gantry/<id>/declaration", "with the state, once made"),
 ];
+
+/// Where a gantry's head is and what its drives do; names, positions, velocities and efforts as in a ROS JointState.
+#[derive(Serialize, JsonSchema)]
+pub struct JointsMessage {
+    /// Simulated time, s; zero is the start of the mission.
+    pub t_s: f64,
+    /// The two joints: along the stream, across it.
+    pub name: Vec<String>,
+    /// True position of each joint, m.
+    pub position_m: Vec<f64>,
+    /// True speed of each joint, m/s.
+    pub velocity_m_s: Vec<f64>,
+    /// Force of each drive, N.
+    pub effort_n: Vec<f64>,
+    /// The head (east, north, up), m; z = 0 is the still surface.
+    pub head_m: [f64; 3],
+    /// The head by its encoders, in the gantry's frame (forward, left), m.
+    pub encoder_m: [f64; 2],
+    /// Where the head is to go, in the gantry's frame (forward, left), m.
+    pub target_m: [f64; 2],
+    /// Both drives have reached the target.
+    pub arrived: bool,
+    /// A drive gave up against something in the way.
+    pub blocked: bool,
+    /// What the gantry touches.
+    pub touching: Option<String>,
+}
+
+/// Newest scan of a gantry's probes; absent until the first.
+#[derive(Serialize, JsonSchema)]
+pub struct ProbesMessage {
+    /// Simulated time of the scan, s.
+    pub t_s: f64,
+    /// Tip of each probe (east, north, up), m, in the order of the URDF.
+    pub position_m: Vec<[f64; 3]>,
+    /// Output of each probe, V.
+    pub volts: Vec<f64>,
+}
+
+/// What a gantry's searcher makes of its probes.
+#[derive(Serialize, JsonSchema)]
+pub struct SpikesMessage {
+    /// Simulated time, s; zero is the start of the mission.
+    pub t_s: f64,
+    /// Spike threshold of each probe, V.
+    pub threshold_v: Vec<f64>,
+    /// A spike was found on the probe since the message before, superseded states included.
+    pub spike: Vec<bool>,
+    /// Spikes a second lately, Hz.
+    pub spike_hz: f64,
+    /// Mean spike magnitude since the latest step, V above the bottom of the range.
+    pub magnitude_v: f64,
+    /// Predicted magnitude of the present step, V above the bottom of the range.
+    pub predicted_v: Option<f64>,
+    /// Contrast between the sides, left positive, −1 to 1.
+    pub contrast: f64,
+}
+
+/// What a gantry's searcher is doing.
+#[derive(Serialize, JsonSchema)]
+pub struct GantryBehaviourMessage {
+    /// Simulated time, s; zero is the start of the mission.
+    pub t_s: f64,
+    /// Its name.
+    #[schemars(extend("enum" = GantryBehaviour::ALL.map(GantryBehaviour::name)))]
+    pub behaviour: &'static str,
+    /// Number of the motion command, growing by one with each new one.
+    pub r#move: u32,
+    /// There once it stopped: true when it declared a source, false when it gave up.
+    pub found: Option<bool>,
+}
+
+/// The source a gantry's searcher declared: where it stopped.
+#[derive(Serialize, JsonSchema)]
+pub struct GantryDeclarationMessage {
+    /// Simulated time of the declaration, s.
+    pub t_s: f64,
+    /// Where its encoders have the head (east, north), m.
+    pub position_m: [f64; 2],
+    /// By which rule.
+    pub rule: &'static str,
+}

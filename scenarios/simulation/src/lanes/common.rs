@@ -6,8 +6,8 @@
 //!
 //! Systems of other crates may keep values that nobody can exchange. Their runs have worlds of their own.
 
-use super::{LaneError, caught, lend, take_back, taken};
-use crate::assemble::{RunParts, Simulation, launch};
+use super::{LaneError, assembled, caught, lend, take_back};
+use crate::assemble::{RunParts, launch};
 use crate::auv::{RobotOwn, Robots, VehiclePool};
 use crate::control::exchanges::Exchanges;
 use crate::extend::Addition;
@@ -92,23 +92,15 @@ impl Worlds {
 
 impl Common {
     fn new(loaded: &Loaded, origin: &Origin, ocean: &mut Option<Ocean>) -> Result<Self, LaneError> {
-        let Loaded { registry, scenario, base_dir, .. } = loaded;
         let mut world = World::new();
-        world.insert_resource(ocean.take().expect("it is back"));
         world.insert_resource(VehiclePool::default());
-        let seed = origin.seed();
         // Whoever steps the runs looks at them.
         let frames = Frames::Unmade;
-        let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
-        *ocean = taken(&mut world);
-        let tick = tick.map_err(LaneError::Panicked)??;
+        let mut trial = assembled(ocean, world, loaded, origin, origin.seed(), frames)?;
+        let world = &mut trial.simulation.world;
         let robots = world.get_resource::<Robots>().map_or(Vec::new(), |r| r.0.clone());
         let gantries = world.get_resource::<Gantries>().map_or(Vec::new(), |g| g.0.clone());
-        Ok(Self {
-            robots: Machines::new(&mut world, robots),
-            gantries: Machines::new(&mut world, gantries),
-            trial: Trial::from_simulation(scenario, Simulation::from_world(world, tick, origin.clone()), Vec::new()),
-        })
+        Ok(Self { robots: Machines::new(world, robots), gantries: Machines::new(world, gantries), trial })
     }
 
     /// A new run of the scenario in an ocean; `seed` is that of the searcher.

@@ -127,32 +127,16 @@ impl<O: Observer> Lanes<O> {
 
     /// The run of a scenario in the ocean of these lanes, which the first lane builds.
     fn assembled(&mut self, loaded: &Loaded, course: &Course) -> Result<Trial, LaneError> {
-        let panicked = LaneError::Panicked;
-        let ocean = match self.ocean.take() {
-            Some(ocean) => ocean,
-            None => {
-                let built = caught(|| course.origin.build(&loaded.base_dir));
-                let mut built = built.map_err(panicked)??;
-                if self.threads != 1 {
-                    built.use_threads(self.threads);
-                }
-                self.course = Some(course.clone());
-                built
+        if self.ocean.is_none() {
+            let mut built = built(&course.origin, loaded)?;
+            if self.threads != 1 {
+                built.use_threads(self.threads);
             }
-        };
-        let sources = ocean.sources();
-        let mut world = World::new();
-        world.insert_resource(ocean);
-        let seed = course.origin.seed();
-        let tick = caught(|| {
-            let (registry, scenario) = (&loaded.registry, &loaded.scenario);
-            let dir = &loaded.base_dir;
-            Simulation::furnish(&mut world, registry, scenario, dir, seed, Frames::Made)
-        });
-        self.ocean = taken(&mut world);
-        let tick = tick.map_err(panicked)??;
-        let simulation = Simulation::from_world(world, tick, course.origin.clone());
-        Ok(Trial::from_simulation(&loaded.scenario, simulation, sources))
+            self.ocean = Some(built);
+            self.course = Some(course.clone());
+        }
+        let (origin, seed) = (&course.origin, course.origin.seed());
+        assembled(&mut self.ocean, World::new(), loaded, origin, seed, Frames::Made)
     }
 
     /// Takes over the spin-up of another run instead of one of its own. The state is copied.
@@ -344,6 +328,31 @@ fn lend(ocean: &mut Option<Ocean>, trial: &mut Trial) {
 
 fn take_back(ocean: &mut Option<Ocean>, trial: &mut Trial) {
     *ocean = taken(&mut trial.simulation.world);
+}
+
+/// The ocean of a scenario, before its spin-up.
+fn built(origin: &Origin, loaded: &Loaded) -> Result<Ocean, LaneError> {
+    let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
+    Ok(built?)
+}
+
+/// A run of a scenario, assembled in a world with an ocean that comes back; `seed` is that of its searchers.
+fn assembled(
+    ocean: &mut Option<Ocean>,
+    mut world: World,
+    loaded: &Loaded,
+    origin: &Origin,
+    seed: Seed,
+    frames: Frames,
+) -> Result<Trial, LaneError> {
+    let Loaded { registry, scenario, base_dir, .. } = loaded;
+    world.insert_resource(ocean.take().expect("it comes back from each run"));
+    let sources = world.resource::<Ocean>().sources();
+    let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+    *ocean = taken(&mut world);
+    let tick = tick.map_err(LaneError::Panicked)??;
+    let simulation = Simulation::from_world(world, tick, origin.clone());
+    Ok(Trial::from_simulation(scenario, simulation, sources))
 }
 
 /// The ocean out of a world, which keeps its place.

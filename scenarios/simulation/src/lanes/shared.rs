@@ -7,8 +7,7 @@
 
 use super::common::Worlds;
 use super::run::{At, LaneSlot, Run, Runs};
-use super::{LaneError, caught, taken, through};
-use crate::assemble::Simulation;
+use super::{LaneError, assembled, built, through};
 use crate::control::{Exchange, Question, Response};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin, SpunUp};
@@ -73,8 +72,7 @@ impl Shared {
     ) -> Result<Self, LaneError> {
         let loaded = &worlds.loaded;
         let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, seed);
-        let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
-        let mut ocean = built?;
+        let mut ocean = built(&origin, loaded)?;
         ocean.step_at_most(loaded.scenario.time.drift_period_s.get());
         let copied = kept.map(|kept| kept.copy_for(&origin));
         match copied {
@@ -100,8 +98,7 @@ impl Shared {
     /// If it cannot be built.
     pub fn spin_up(loaded: &Loaded, seed: impl Into<Seed>) -> Result<SpunUp, LaneError> {
         let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, seed);
-        let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
-        let mut ocean = built?;
+        let mut ocean = built(&origin, loaded)?;
         ocean.spin_up(|_| true);
         Ok(SpunUp::new(origin, ocean.state()))
     }
@@ -128,7 +125,12 @@ impl Shared {
                 let own = common.launch(&self.worlds.loaded, seed, &mut self.ocean)?;
                 LaneSlot::Common(Some(Box::new(own)))
             }
-            None => LaneSlot::Own(Box::new(self.assembled(seed)?)),
+            None => {
+                // Whoever steps it looks at the run itself.
+                let frames = Frames::Unmade;
+                let (loaded, world) = (&self.worlds.loaded, World::new());
+                LaneSlot::Own(Box::new(assembled(&mut self.ocean, world, loaded, &self.origin, seed, frames)?))
+            }
         };
         let run = Run { seat, at: At::Acted, failed: None };
         self.runs.set(place, Some(run));
@@ -157,21 +159,6 @@ impl Shared {
         let runs = self.runs.all.iter().enumerate();
         let there = runs.filter(|(_, run)| run.as_ref().is_some_and(|run| run.at == at));
         there.map(|(place, _)| place).collect()
-    }
-
-    /// A run in a world of its own.
-    fn assembled(&mut self, seed: Seed) -> Result<Trial, LaneError> {
-        let Loaded { registry, scenario, base_dir, .. } = &self.worlds.loaded;
-        let mut world = World::new();
-        world.insert_resource(self.ocean.take().expect("it is back"));
-        let sources = world.resource::<Ocean>().sources();
-        // Whoever steps it looks at the run itself.
-        let frames = Frames::Unmade;
-        let tick = caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
-        self.ocean = taken(&mut world);
-        let tick = tick.map_err(LaneError::Panicked)??;
-        let simulation = Simulation::from_world(world, tick, self.origin.clone());
-        Ok(Trial::from_simulation(scenario, simulation, sources))
     }
 
     /// Takes a world in which the runs take turns, unless each has one of its own. Returns whether it was there before.

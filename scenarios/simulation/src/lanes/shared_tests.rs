@@ -1,5 +1,6 @@
 use super::*;
 use crate::extend::Extend;
+use crate::lanes::caught;
 use crate::scenario::{load_text, template};
 use bevy_ecs::prelude::{Local, Resource};
 use nalgebra::Vector2;

@@ -1,116 +1,24 @@
-//! Topics: named values that a run publishes, and the tables that describe them.
+//! Topics: named values that a run publishes, and the types that describe them.
 //!
-//! A [`Topic`] is a row of a table: name, key, meaning, rate and fields. From it come the JSON Schema that a run
-//! publishes and the text of `rheotaxis topics`. A system publishes a value with [`Topics::publish`]. Live state puts
-//! it under `rheotaxis/<run>/<key>`, the recording keeps it as JSON, and the summary shows the last one.
+//! A [`Topic`] is a row of a table: name, key and rate, with the type of its messages. Messages are structs with
+//! `Serialize` and `JsonSchema`; the comments on the struct and on its fields say what they mean. From the type come
+//! the JSON, the JSON Schema that a run publishes and the text of `rheotaxis topics`. A field that is an `Option` is
+//! left out of a message if it has no value.
 //!
-//! Publishing never changes a result: no system of the tick reads what was published.
+//! A system publishes a value with [`Topics::publish`]. Live state puts it under `rheotaxis/<run>/<key>`, the recording
+//! keeps it as JSON, and the summary shows the last one. Publishing never changes a result: no system of the tick reads
+//! what was published.
 
 mod publish;
 pub mod run;
 
 pub use publish::{TopicValue, Topics};
 
-use robots::handoff::{Behaviour, GantryBehaviour};
-use serde_json::{Map, Value, json};
-
-/// The version of JSON Schema.
-const DRAFT: &str = "https://json-schema.org/draft/2020-12/schema";
-
-/// Type of a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FieldKind {
-    /// A number.
-    Number,
-    /// A whole number, not negative.
-    Count,
-    /// True or false.
-    Flag,
-    /// Text.
-    Text,
-    /// A behaviour's name: one of ours, or one that a strategy of another crate gives its own.
-    Behaviour,
-    /// A gantry's behaviour.
-    GantryBehaviour,
-    /// One of these words.
-    Word(&'static [&'static str]),
-    /// A fixed number of numbers.
-    Vector(usize),
-    /// Any number of (east, north).
-    Points,
-    /// Any number of (east, north, up).
-    Places,
-    /// Any number of numbers.
-    Numbers,
-    /// Any number of truth values.
-    Flags,
-    /// Any number of words.
-    Words,
-    /// An object of its own form.
-    Object,
-    /// Any number of them.
-    Objects,
-}
-
-impl FieldKind {
-    fn schema(self) -> Map<String, Value> {
-        let vector = |n: usize| json!({"type": "array", "items": {"type": "number"}, "minItems": n, "maxItems": n});
-        let schema = match self {
-            FieldKind::Number => json!({"type": "number"}),
-            FieldKind::Count => json!({"type": "integer", "minimum": 0}),
-            FieldKind::Flag => json!({"type": "boolean"}),
-            FieldKind::Text => json!({"type": "string"}),
-            FieldKind::Behaviour => {
-                let ours = json!({"type": "string", "enum": Behaviour::ALL.map(Behaviour::name)});
-                let others = json!({"type": "string", "pattern": "^[a-z0-9_]+$"});
-                json!({"type": "string", "anyOf": [ours, others]})
-            }
-            FieldKind::GantryBehaviour => {
-                json!({"type": "string", "enum": GantryBehaviour::ALL.map(GantryBehaviour::name)})
-            }
-            FieldKind::Word(words) => json!({"type": "string", "enum": words}),
-            FieldKind::Vector(n) => vector(n),
-            FieldKind::Points => json!({"type": "array", "items": vector(2)}),
-            FieldKind::Places => json!({"type": "array", "items": vector(3)}),
-            FieldKind::Numbers => json!({"type": "array", "items": {"type": "number"}}),
-            FieldKind::Flags => json!({"type": "array", "items": {"type": "boolean"}}),
-            FieldKind::Words => json!({"type": "array", "items": {"type": "string"}}),
-            FieldKind::Object => json!({"type": "object"}),
-            FieldKind::Objects => json!({"type": "array", "items": {"type": "object"}}),
-        };
-        match schema {
-            Value::Object(fields) => fields,
-            _ => Map::new(),
-        }
-    }
-}
-
-/// A field of a message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Field {
-    /// Name, with its unit.
-    pub name: &'static str,
-    /// Type.
-    pub kind: FieldKind,
-    /// Always present; otherwise the field is omitted if it has no value.
-    pub required: bool,
-    /// What it means.
-    pub what: &'static str,
-}
-
-impl Field {
-    /// A field that every message has.
-    #[must_use]
-    pub const fn always(name: &'static str, kind: FieldKind, what: &'static str) -> Self {
-        Self { name, kind, required: true, what }
-    }
-
-    /// A field that a message has only if there is a value.
-    #[must_use]
-    pub const fn sometimes(name: &'static str, kind: FieldKind, what: &'static str) -> Self {
-        Self { name, kind, required: false, what }
-    }
-}
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
 /// Encoding of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -125,66 +33,135 @@ pub enum Payload {
     Schema,
 }
 
-/// A topic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A topic. Its name tells it from others.
+#[derive(Clone, Copy, Debug)]
 pub struct Topic {
     /// Name of its schema.
     pub name: &'static str,
     /// Key below `rheotaxis/<run>/`.
     pub key: &'static str,
-    /// What it contains.
-    pub what: &'static str,
     /// How often it is published.
     pub rate: &'static str,
     /// Its encoding.
     pub payload: Payload,
-    /// Fields of the payload, or of the attachment if the payload is packed.
-    pub fields: &'static [Field],
+    /// Describes the type of its messages.
+    describe: fn(SchemaSettings) -> Value,
 }
 
+impl PartialEq for Topic {
+    fn eq(&self, other: &Self) -> bool {
+        (self.name, self.key) == (other.name, other.key)
+    }
+}
+
+impl Eq for Topic {}
+
 impl Topic {
-    /// A topic whose messages are JSON objects with these fields. Give every message the time `t_s`, and put the unit
-    /// into the name of each field.
+    /// A topic whose messages are JSON objects of a type. Give every message the time `t_s`, and put the unit into the
+    /// name of each field.
     #[must_use]
-    pub const fn json(
-        name: &'static str,
-        key: &'static str,
-        rate: &'static str,
-        what: &'static str,
-        fields: &'static [Field],
-    ) -> Self {
-        Self { name, key, what, rate, payload: Payload::Json, fields }
+    pub const fn of<M: JsonSchema>(name: &'static str, key: &'static str, rate: &'static str) -> Self {
+        Self { name, key, rate, payload: Payload::Json, describe: described::<M> }
+    }
+
+    /// The same with an attachment of that type, and another payload.
+    #[must_use]
+    pub const fn packed(self, payload: Payload) -> Self {
+        Self { payload, ..self }
     }
 
     /// JSON Schema (draft 2020-12) of the payload, or of the attachment if the payload is packed.
     #[must_use]
     pub fn schema(&self) -> Value {
-        if self.payload == Payload::Schema {
-            return json!({
-                "$schema": DRAFT, "title": self.name, "description": self.what, "type": "object",
-                "required": ["$schema", "title", "description", "type"],
-            });
-        }
-        let properties: Map<String, Value> = self
-            .fields
-            .iter()
-            .map(|field| {
-                let mut schema = field.kind.schema();
-                schema.insert("description".into(), field.what.into());
-                (field.name.to_owned(), Value::Object(schema))
-            })
-            .collect();
-        let required: Vec<&str> = self.fields.iter().filter(|f| f.required).map(|f| f.name).collect();
-        let what = match self.payload {
+        // Of the two forms that schemars knows, the one for reading lets fields be absent.
+        let mut schema = (self.describe)(SchemaSettings::draft2020_12().for_deserialize());
+        schema["title"] = self.name.into();
+        let what = schema["description"].as_str().unwrap_or_default().to_owned();
+        match self.payload {
+            Payload::Json => {}
             Payload::PackedF32 | Payload::Jpeg => {
-                format!("{} This is the schema of the attachment.", self.what)
+                schema["description"] = format!("{what} This is the schema of the attachment.").into();
             }
-            _ => self.what.to_owned(),
-        };
-        json!({
-            "$schema": DRAFT, "title": self.name, "description": what, "type": "object",
-            "properties": properties, "required": required, "additionalProperties": false,
-        })
+            Payload::Schema => return schema,
+        }
+        schema["additionalProperties"] = false.into();
+        let fields = schema.get_mut("properties").and_then(Value::as_object_mut);
+        for field in fields.into_iter().flat_map(Map::values_mut) {
+            // A field without a value is absent, never null.
+            if let Some([own, _null]) = field.get("type").and_then(Value::as_array).map(Vec::as_slice) {
+                field["type"] = own.clone();
+            }
+        }
+        schema
+    }
+
+    /// What it contains.
+    #[must_use]
+    pub fn what(&self) -> String {
+        let schema = (self.describe)(SchemaSettings::draft2020_12());
+        schema["description"].as_str().unwrap_or_default().to_owned()
+    }
+
+    /// The names of its fields, in the order of the type.
+    #[must_use]
+    pub fn fields(&self) -> Vec<String> {
+        // The form for writing asks for every field.
+        let schema = (self.describe)(SchemaSettings::draft2020_12().for_serialize());
+        serde_json::from_value(schema["required"].clone()).unwrap_or_default()
+    }
+}
+
+/// The schema of a type: with the schemas of its parts in their places, without the widths of numbers in memory.
+fn described<M: JsonSchema>(settings: SchemaSettings) -> Value {
+    let plain = RecursiveTransform(|schema: &mut Schema| {
+        if !schema.get("type").is_some_and(|kind| kind == "string") {
+            schema.remove("format");
+        }
+        if let Some(Value::String(what)) = schema.get_mut("description") {
+            *what = what.replace('\n', " ");
+        }
+    });
+    let settings = settings.with(|s| s.inline_subschemas = true).with_transform(plain);
+    settings.into_generator().into_root_schema_for::<M>().to_value()
+}
+
+/// A message as JSON; fields without a value are left out.
+///
+/// # Errors
+/// If it is not JSON.
+pub fn message_json(message: &impl Serialize) -> Result<Value, serde_json::Error> {
+    let mut value = serde_json::to_value(message)?;
+    if let Value::Object(fields) = &mut value {
+        fields.retain(|_, value| !value.is_null());
+    }
+    Ok(value)
+}
+
+/// Messages with their keys.
+pub(crate) struct Said {
+    below: String,
+    all: Vec<(String, Value)>,
+}
+
+impl Said {
+    /// None yet; their keys are below this one.
+    pub(crate) fn below(key: String) -> Self {
+        Self { below: key, all: Vec::with_capacity(8) }
+    }
+
+    /// Adds a message.
+    pub(crate) fn add(&mut self, key: &str, message: &impl Serialize) {
+        let value = message_json(message).expect("numbers, words and lists are JSON");
+        self.all.push((format!("{}/{key}", self.below), value));
+    }
+}
+
+impl IntoIterator for Said {
+    type Item = (String, Value);
+    type IntoIter = std::vec::IntoIter<Self::Item>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.all.into_iter()
     }
 }
 
@@ -202,43 +179,54 @@ pub fn chunk(name: &str) -> String {
         .collect()
 }
 
-/// The fields of two JSON objects in one.
-pub(crate) fn merged(a: Value, b: Value) -> Value {
-    let fields = |v| match v {
-        Value::Object(fields) => fields,
-        _ => Map::new(),
-    };
-    fields(a).into_iter().chain(fields(b)).collect()
-}
-
-/// A JSON object with one more number, if there is one.
-#[must_use]
-pub fn with(object: Value, name: &str, number: Option<f64>) -> Value {
-    match number {
-        Some(number) => merged(object, json!({ name: number })),
-        None => object,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
-    /// Strategies of other crates name behaviours only when they run, so no list holds them all.
+    /// Where a
+    /// buoy is.
+    #[derive(Serialize, JsonSchema)]
+    struct Buoy {
+        /// East and north, m.
+        at_m: [f64; 2],
+        /// Its depth, m.
+        #[schemars(extend("enum" = [1, 2]))]
+        depth_m: Option<f64>,
+        /// Its number.
+        k: u32,
+    }
+
+    const BUOY: Topic = Topic::of::<Buoy>("buoy", "buoy/<id>", "always");
+
     #[test]
-    fn behaviours_of_other_crates_are_allowed_by_their_form() {
-        let schema = FieldKind::Behaviour.schema();
-        let [ours, others] = [0, 1].map(|k| &schema["anyOf"][k]);
-        assert_eq!(ours["enum"][0], "idle");
-        assert_eq!(others["pattern"], "^[a-z0-9_]+$");
-        assert!(schema.get("enum").is_none());
+    fn a_schema_says_what_the_type_and_its_comments_say() {
+        let number = json!({"type": "number"});
+        let schema = json!({
+            "$schema": "https://json-schema.org/draft/2020-12/schema", "title": "buoy",
+            "description": "Where a buoy is.", "type": "object", "additionalProperties": false,
+            "required": ["at_m", "k"],
+            "properties": {
+                "at_m": {
+                    "description": "East and north, m.", "type": "array", "items": number, "minItems": 2, "maxItems": 2,
+                },
+                "depth_m": {"description": "Its depth, m.", "type": "number", "enum": [1, 2]},
+                "k": {"description": "Its number.", "type": "integer", "minimum": 0},
+            },
+        });
+        assert_eq!(BUOY.schema(), schema);
+        assert_eq!(
+            (BUOY.what().as_str(), BUOY.fields()),
+            ("Where a buoy is.", vec!["at_m", "depth_m", "k"].into_iter().map(str::to_owned).collect())
+        );
+        let of_attachment = BUOY.packed(Payload::Jpeg).schema();
+        assert_eq!(of_attachment["description"], "Where a buoy is. This is the schema of the attachment.");
     }
 
     #[test]
-    fn a_schema_lists_its_fields() {
-        let clock = run::CLOCK[0].schema();
-        assert_eq!(clock["required"], json!(["t_s", "step", "ended", "sent", "superseded"]));
-        assert_eq!(clock["properties"]["step"]["type"], "integer");
-        assert_eq!(clock["additionalProperties"], false);
+    fn a_field_without_a_value_is_left_out() {
+        let buoy = |depth_m| message_json(&Buoy { at_m: [1.0, 2.0], depth_m, k: 3 }).unwrap();
+        assert_eq!(buoy(None), json!({"at_m": [1.0, 2.0], "k": 3}));
+        assert_eq!(buoy(Some(1.0)), json!({"at_m": [1.0, 2.0], "depth_m": 1.0, "k": 3}));
     }
 }

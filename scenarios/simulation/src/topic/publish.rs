@@ -1,6 +1,6 @@
 //! What systems publish during a run.
 
-use super::{Payload, Topic};
+use super::{Payload, Topic, message_json};
 use bevy_ecs::prelude::Resource;
 use serde::Serialize;
 use serde_json::Value;
@@ -53,8 +53,7 @@ impl Topics {
             "the topic `{name}` has the key `{}`, for which \"{id}\" is no id",
             topic.key
         );
-        let value =
-            serde_json::to_value(value).unwrap_or_else(|e| panic!("a value of the topic `{name}` is not JSON: {e}"));
+        let value = message_json(value).unwrap_or_else(|e| panic!("a value of the topic `{name}` is not JSON: {e}"));
         assert!(
             topic.payload == Payload::Json && value.is_object(),
             "a value of the topic `{name}` must be a JSON object: publish a struct with named fields"
@@ -80,23 +79,24 @@ impl Topics {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Field, FieldKind};
     use super::*;
+    use schemars::JsonSchema;
     use serde_json::json;
 
-    const DEPTH: Topic = Topic::json(
-        "depth",
-        "own/<id>/depth",
-        "always",
-        "A depth.",
-        &[Field::always("m", FieldKind::Number, "Depth, m.")],
-    );
+    /// A depth.
+    #[derive(Serialize, JsonSchema)]
+    struct Depth {
+        /// Depth, m.
+        m: u32,
+    }
+
+    const DEPTH: Topic = Topic::of::<Depth>("depth", "own/<id>/depth", "always");
 
     #[test]
     fn the_last_value_of_each_key_counts_and_is_taken_once() {
         let mut topics = Topics::new(vec![DEPTH]);
         for (id, m) in [("b", 1), ("a", 2), ("b", 3)] {
-            topics.publish(&DEPTH, id, f64::from(m), &json!({ "m": m }));
+            topics.publish(&DEPTH, id, f64::from(m), &Depth { m });
         }
         let taken: Vec<_> = (topics.take_fresh().into_iter()).map(|p| (p.key, p.t_s, p.value["m"].clone())).collect();
         let [a, b] = ["own/a/depth", "own/b/depth"].map(str::to_string);
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "add it to the registry with `with_topic`")]
     fn a_topic_that_is_not_declared_is_refused() {
-        Topics::default().publish(&DEPTH, "a", 0.0, &json!({ "m": 1 }));
+        Topics::default().publish(&DEPTH, "a", 0.0, &Depth { m: 1 });
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
 use super::{Event, Observer, RunPhase, Trial};
-use crate::control::exchanges::{OpenQuestion, put_in, take_questions, truth_of};
+use crate::control::exchanges::{put_in, take_questions, truth_of};
 use crate::control::{Controller, Exchange, Question, Response};
 use crate::scenario::Scenario;
 use robots::handoff::ExchangeTiming;
@@ -45,7 +45,7 @@ impl Trial {
     pub(crate) fn search(&mut self, observer: &mut dyn Observer) {
         self.observe(observer);
         for question in self.progress.open.take().unwrap_or_default() {
-            let told = put_in(&mut self.simulation.world, question, Response::Absent);
+            let told = put_in(&mut self.simulation.world, question);
             observer.see(&Event::Exchange(Arc::new(told)));
         }
         self.simulation.act();
@@ -65,11 +65,10 @@ impl Trial {
                 continue;
             };
             let heard = controller.answer(&question);
-            let world = &mut self.simulation.world;
-            let told = put_in(world, OpenQuestion::from(&question), heard);
+            let told = put_in(&mut self.simulation.world, Exchange::new(&question, heard));
             observer.see(&Event::Exchange(Arc::new(told)));
         }
-        self.progress.open = Some(open.iter().map(OpenQuestion::from).collect());
+        self.progress.open = Some(open.iter().map(|asked| Exchange::new(asked, Response::Absent)).collect());
         open
     }
 
@@ -127,8 +126,8 @@ impl Trial {
     pub fn answer(&mut self, robot: &str, heard: Response, observer: &mut dyn Observer) -> Option<Exchange> {
         let open = self.progress.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
-        let question = open.remove(n);
-        let told = put_in(&mut self.simulation.world, question, heard);
+        let answered = Exchange { response: heard, ..open.remove(n) };
+        let told = put_in(&mut self.simulation.world, answered);
         observer.see(&Event::Exchange(Arc::new(told.clone())));
         Some(told)
     }

@@ -1,6 +1,6 @@
 //! How far a run has come, beside the state of its world.
 
-use crate::control::exchanges::OpenQuestion;
+use crate::control::Exchange;
 use crate::frame::Frame;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -26,8 +26,8 @@ pub(crate) struct Progress {
     pub(super) water_shown: bool,
     /// Time of the ocean at which the mission began, s.
     pub(super) began_s: f64,
-    /// The first part of a tick is done, and these questions are not answered yet.
-    pub(super) open: Option<Vec<OpenQuestion>>,
+    /// The first part of a tick is done, and these questions are not answered yet: so far, nobody is there.
+    pub(super) open: Option<Vec<Exchange>>,
 }
 
 impl Progress {

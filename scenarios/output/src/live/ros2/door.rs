@@ -1,8 +1,8 @@
 //! Says through the node what the publishing thread hands over.
 
+use super::machine_messages::{Message, names};
 use super::node::Node;
-use super::state::names;
-use super::state::{LatchedTopics, Message};
+use super::state::LatchedTopics;
 use super::topics::{self, RosTopic};
 use super::{AREA, MAP, Ros2};
 use crate::live::slots::CountedValue;

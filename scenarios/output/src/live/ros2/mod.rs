@@ -19,6 +19,8 @@ mod door;
 #[cfg(feature = "live")]
 mod keys;
 #[cfg(feature = "live")]
+mod machine_messages;
+#[cfg(feature = "live")]
 mod node;
 #[cfg(feature = "live")]
 mod readings;

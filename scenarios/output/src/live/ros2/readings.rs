@@ -1,8 +1,8 @@
 //! Messages of a robot's instruments, each with the time of its reading.
 
-use super::state::MachineMessages;
+use super::machine_messages::MachineMessages;
 use super::topics;
-use crate::ros::{Imu, Range, echo_cloud, fluid_pressure, nanoseconds, twist_stamped, vector3_stamped};
+use crate::ros::{echo_cloud, fluid_pressure, imu, nanoseconds, range, twist_stamped, vector3_stamped};
 use crate::scene::frames::BODY;
 use rheotaxis::frame::{NewestReadings, TimedReading};
 use robots::handoff::{Attitude, RangeScan};
@@ -22,8 +22,7 @@ pub(super) fn add_readings(of: &mut MachineMessages, heard: &NewestReadings) {
             pitch_rad: value.pitch_rad,
             rates_rad_s: value.rates_rad_s,
         };
-        let imu = Imu { t_ns: nanoseconds(*t_s), frame: &body, attitude: attitude.R_WB(), rates: value.rates_rad_s };
-        of.add(&topics::IMU, imu.cdr());
+        of.add(&topics::IMU, imu(nanoseconds(*t_s), &body, &attitude.R_WB(), &value.rates_rad_s));
     }
     if let Some(TimedReading { t_s, value }) = &heard.depth {
         let pressure_Pa = SURFACE_PA + WEIGHT_N_M3 * value.depth_m;
@@ -31,14 +30,8 @@ pub(super) fn add_readings(of: &mut MachineMessages, heard: &NewestReadings) {
         of.add(&topics::PRESSURE, cdr);
     }
     if let (Some(TimedReading { t_s, value }), Some(limits_m)) = (&heard.altimeter, of.machine.altimeter_m) {
-        let range = Range {
-            t_ns: nanoseconds(*t_s),
-            frame: &of.machine.frame("altimeter_beam"),
-            view_rad: 0.0,
-            limits_m,
-            range_m: value.valid.then_some(value.altitude_m),
-        };
-        of.add(&topics::ALTIMETER, range.cdr());
+        let (beam, height_m) = (of.machine.frame("altimeter_beam"), value.valid.then_some(value.altitude_m));
+        of.add(&topics::ALTIMETER, range(nanoseconds(*t_s), &beam, 0.0, limits_m, height_m));
     }
     if let Some(scan) = &heard.ranging {
         ranging(of, scan, &body);
@@ -58,13 +51,7 @@ fn ranging(of: &mut MachineMessages, TimedReading { t_s, value: scan }: &TimedRe
     let t_ns = nanoseconds(*t_s);
     of.add(&topics::RANGING, echo_cloud(t_ns, body, scan));
     if let Some((limits_m, view_rad)) = of.machine.ranging {
-        let nearest = Range {
-            t_ns,
-            frame: &of.machine.frame("ranging"),
-            view_rad,
-            limits_m,
-            range_m: (scan.beams.iter().filter_map(|b| b.echo_m)).min_by(f64::total_cmp),
-        };
-        of.add(&topics::NEAREST, nearest.cdr());
+        let nearest_m = scan.beams.iter().filter_map(|b| b.echo_m).min_by(f64::total_cmp);
+        of.add(&topics::NEAREST, range(t_ns, &of.machine.frame("ranging"), view_rad, limits_m, nearest_m));
     }
 }

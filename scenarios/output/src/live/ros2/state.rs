@@ -1,62 +1,21 @@
 //! Messages of a frame. What is latched is said when it changes.
 
-use super::topics::{self, RosTopic};
-use super::{MAP, readings};
+use super::machine_messages::{MachineMessages, Message, names};
+use super::{MAP, readings, topics};
 use crate::ros::{
-    Odometry, Transform, float64, joint_state, joints, nanoseconds, path, pose_stamped, text, transforms,
-    vector3_stamped,
+    Transform, believed_flow, believed_odometry, believed_pose, declared, float64, nanoseconds, path, slides, text,
+    transforms, true_odometry,
 };
-use crate::scene::frames::{BODY, Names, slid, transform};
-use crate::scene::{Machine, Scene};
-use nalgebra::{UnitQuaternion, Vector3};
+use crate::scene::Scene;
+use crate::scene::frames::{BODY, slid, transform};
 use rheotaxis::frame::{Frame, GantryFrame, RobotFrame};
 use robots::handoff::Declaration;
 use std::collections::BTreeMap;
-use world::frames::Pose;
-
-/// Names of a machine's frames.
-pub(super) fn names(machine: &Machine) -> Names<'_> {
-    Names { world: MAP, own: &machine.name }
-}
-
-/// A message for a topic of a name.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Message {
-    pub(super) topic: &'static RosTopic,
-    pub(super) name: String,
-    pub(super) cdr: Vec<u8>,
-}
 
 /// What was said last on each latched topic, so that it is said again only when it is new.
 #[derive(Debug, Default)]
 pub(super) struct LatchedTopics {
     latched: BTreeMap<String, Vec<u8>>,
-}
-
-/// The messages of one machine.
-pub(super) struct MachineMessages<'a> {
-    pub(super) machine: &'a Machine,
-    pub(super) t_ns: u64,
-    out: Vec<Message>,
-}
-
-impl<'a> MachineMessages<'a> {
-    fn new(machine: &'a Machine, t_ns: u64) -> Self {
-        let out = Vec::new();
-        Self { machine, t_ns, out }
-    }
-
-    /// Adds a message on a topic of this machine.
-    pub(super) fn add(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
-        self.put_named(topic, "", cdr);
-    }
-
-    /// The same with the name of one of its probes.
-    fn put_named(&mut self, topic: &'static RosTopic, probe: &str, cdr: Vec<u8>) {
-        let own = self.machine.name.as_str();
-        let name = (topic.name.replace("<robot>", own)).replace("<gantry>", own).replace("<probe>", probe);
-        self.out.push(Message { topic, name, cdr });
-    }
 }
 
 impl LatchedTopics {
@@ -87,28 +46,19 @@ impl LatchedTopics {
     }
 
     fn robot(&mut self, of: &mut MachineMessages, r: &RobotFrame, tf: &mut Vec<Transform>) {
-        let (t_ns, e, truth) = (of.t_ns, &r.estimate, &r.truth);
         // The estimate is older than the truth: it holds for the time of the readings in it.
-        let believed_ns = nanoseconds(e.t_s);
-        let believed = Pose { p_WB: e.p_WB(), R_WB: e.attitude.R_WB() };
-        let rates = e.attitude.rates_rad_s;
-        for (topic, t_ns, link, pose, linear, angular) in [
-            (&topics::ODOM, believed_ns, BODY, &believed, e.v_ground_body, rates),
-            (&topics::TRUTH, t_ns, "ground_truth", &truth.pose, truth.v_WB_B, truth.w_WB_B),
-        ] {
-            let child = of.machine.frame(link);
-            let odometry =
-                Odometry { t_ns, frame: MAP, child: &child, position: pose.p_WB, attitude: pose.R_WB, linear, angular };
-            of.add(topic, odometry.cdr());
-            tf.push(transform(t_ns, MAP, child, pose));
-        }
+        let (t_ns, believed_ns) = (of.t_ns, nanoseconds(r.estimate.t_s));
+        let (body, truth) = (of.machine.frame(BODY), of.machine.frame("ground_truth"));
+        of.add(&topics::ODOM, believed_odometry(believed_ns, [MAP, &body], &r.estimate));
+        of.add(&topics::TRUTH, true_odometry(t_ns, [MAP, &truth], &r.truth));
+        tf.push(transform(believed_ns, MAP, body, &believed_pose(&r.estimate)));
+        tf.push(transform(t_ns, MAP, truth, &r.truth.pose));
         readings::add_readings(of, &r.readings);
         if let Some(c) = r.chemical {
             of.add(&topics::CHEMICAL, float64(c.volts));
         }
-        if let Some(flow) = e.flow {
-            let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
-            of.add(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
+        if let Some(flow) = &r.estimate.flow {
+            of.add(&topics::FLOW, believed_flow(believed_ns, MAP, flow));
         }
         self.behaviour(of, r.behaviour.name());
         if !r.shown.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
@@ -126,7 +76,7 @@ impl LatchedTopics {
     fn gantry(&mut self, of: &mut MachineMessages, g: &GantryFrame, tf: &mut Vec<Transform>) {
         let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
         tf.extend(slid(of.t_ns, of.machine, &names(of.machine), &positions));
-        of.add(&topics::JOINTS, joint_state(of.t_ns, "", &joints(g)));
+        of.add(&topics::JOINTS, slides(of.t_ns, "", g));
         if let Some(scan) = &g.scan {
             let probes = of.machine.probes.iter().zip(&scan.volts[..scan.count]);
             for (probe, volts) in probes {
@@ -148,8 +98,7 @@ impl LatchedTopics {
 
     /// A declaration that was not said before: of its region, if the area is divided.
     fn declaration(&mut self, of: &mut MachineMessages, d: &Declaration, z: f64) {
-        let p = Vector3::new(d.position.x, d.position.y, z);
-        let cdr = pose_stamped(nanoseconds(d.t_s), MAP, &p, &UnitQuaternion::identity());
+        let cdr = declared(MAP, d, z);
         let which = format!("{}/declaration/{:?}", of.machine.name, d.region);
         if self.is_new(which, cdr.clone()) {
             of.add(&topics::DECLARATION, cdr);

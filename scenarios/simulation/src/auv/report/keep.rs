@@ -1,19 +1,33 @@
 //! What is kept of one robot.
 
-use super::system::RobotEnd;
-use crate::auv::{Log, Mapping};
+use crate::auv::{Hull, Log, Mapping};
 use crate::frame::{PictureFrame, PingFrame};
 use crate::incidents::{Incident, IncidentKind, IncidentMonitor, OUTSIDE_M};
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
+use crate::searchers::SearcherId;
 use bevy_ecs::change_detection::Mut;
 use robots::actuate::Pilot;
-use robots::handoff::{Behaviour, Belief};
+use robots::handoff::{Actuation, Behaviour, Belief, Decision, Estimate, Readings};
 use robots::vehicles::Battery;
 use world::clock::Clock;
 use world::digest::Digest;
+use world::frames::Truth;
 use world::physics::Physics;
+
+/// A robot at the end of a step. It holds the truth.
+pub(super) type RobotEnd<'a> = (
+    &'a SearcherId,
+    &'a Truth,
+    &'a Estimate,
+    &'a Readings,
+    &'a Decision,
+    &'a Actuation,
+    &'a Hull,
+    &'a Pilot,
+    Option<&'a Battery>,
+);
 
 /// Adds it to the digest; `number` is that of the newest behaviour.
 pub(super) fn digest(
@@ -22,27 +36,12 @@ pub(super) fn digest(
     digest: &mut Digest,
     number: &mut Option<(Behaviour, f64)>,
 ) {
-    let (p, R, v, w) = (&truth.pose.p_WB, &truth.pose.R_WB.coords, &truth.v_WB_B, &truth.w_WB_B);
-    let believed = &estimate.position;
-    digest.f64s(&[
-        p.x,
-        p.y,
-        p.z,
-        R.x,
-        R.y,
-        R.z,
-        R.w,
-        v.x,
-        v.y,
-        v.z,
-        w.x,
-        w.y,
-        w.z,
-        believed.x,
-        believed.y,
-        estimate.depth_m,
-        estimate.attitude.heading.rad(),
-    ]);
+    digest.f64s(truth.pose.p_WB.as_slice());
+    digest.f64s(truth.pose.R_WB.coords.as_slice());
+    digest.f64s(truth.v_WB_B.as_slice());
+    digest.f64s(truth.w_WB_B.as_slice());
+    digest.f64s(estimate.position.as_slice());
+    digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
     for (_, value) in set.named() {
         digest.f64(value);
     }

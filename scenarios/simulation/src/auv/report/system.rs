@@ -1,33 +1,17 @@
 //! The system that keeps what is known of robots at the end of a step. One, because in a quiet tick it costs more to
 //! find what is written to than to write.
 
-use super::keep::{digest, log, score, watch};
-use crate::auv::{Hull, Log, Mapping, OnboardTime, Robots};
+use super::keep::{RobotEnd, digest, log, score, watch};
+use crate::auv::{Log, Mapping, OnboardTime, Robots};
 use crate::incidents::IncidentMonitor;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::{SearcherId, whole};
+use crate::searchers::whole;
 use bevy_ecs::prelude::{Local, Query, Res, ResMut};
-use robots::actuate::Pilot;
-use robots::handoff::{Actuation, Behaviour, Belief, Decision, Estimate, Readings};
-use robots::vehicles::Battery;
+use robots::handoff::{Behaviour, Belief};
 use world::digest::Digest;
-use world::frames::Truth;
 use world::physics::Physics;
-
-/// A robot at the end of a step. It holds the truth.
-pub(super) type RobotEnd<'a> = (
-    &'a SearcherId,
-    &'a Truth,
-    &'a Estimate,
-    &'a Readings,
-    &'a Decision,
-    &'a Actuation,
-    &'a Hull,
-    &'a Pilot,
-    Option<&'a Battery>,
-);
 
 type RobotLogs<'a> =
     (&'a OnboardTime, RobotEnd<'a>, Option<(&'a Belief, &'a mut Mapping)>, &'a mut IncidentMonitor, &'a mut Log);
