@@ -57,6 +57,11 @@ impl Panel {
         self.width / (self.x[1] - self.x[0])
     }
 
+    /// Positions of the corners of lines or rings, px.
+    pub fn lines(&self, lines: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+        lines.iter().map(|line| self.all(line)).collect()
+    }
+
     /// Hides what is drawn outside the panel until the next unclip.
     pub fn clip(&self, c: &mut Canvas) {
         c.clip(self.left, self.top, self.width, self.height);
@@ -72,6 +77,19 @@ impl Panel {
     /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(self.left, self.top, self.width, self.height, &Style::line(INK, width));
+    }
+
+    /// The edge, with ticks and numbers along the bottom and the left.
+    pub fn axes(&self, c: &mut Canvas, apart_px: f64, size: f64) {
+        self.frame(c, 1.0);
+        self.x_ticks(c, true, size);
+        self.y_ticks(c, apart_px, size);
+    }
+
+    /// What the axes are: words so far below the panel and to the left of it, px.
+    pub fn names(&self, c: &mut Canvas, size: f64, [x, y]: [&str; 2], [below, left]: [f64; 2]) {
+        c.text([self.left + self.width / 2.0, self.bottom() + below], size, Anchor::Middle, x);
+        c.upright([self.left - left, self.top + self.height / 2.0], size, y);
     }
 
     /// Ticks and numbers along the bottom.

@@ -50,10 +50,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     panel.frame(&mut c, 1.2);
     panel.x_ticks(&mut c, true, 11.0);
     panel.y_ticks(&mut c, 45.0, 11.0);
-    let middle = panel.left + panel.width / 2.0;
-    let under = [middle, panel.bottom() + 36.0];
-    c.text(under, 12.0, Anchor::Middle, "East (m)");
-    c.upright([22.0, panel.top + panel.height / 2.0], 12.0, "North (m)");
+    panel.names(&mut c, 12.0, ["East (m)", "North (m)"], [36.0, panel.left - 22.0]);
     let title = run.summary.headline();
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
     layers::scale_bar(&mut c, &panel, "m");

@@ -3,7 +3,7 @@
 use super::map::Bed;
 use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
-use super::thinned::thinned;
+use super::thinned::{stretches, thinned};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::label_box::LabelBox;
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
@@ -22,7 +22,7 @@ pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     let style = palette::depth(level);
     c.rect(panel.left, panel.top, panel.width, panel.height, &Style::fill(&style));
     for &v in &bed.levels {
-        let rings = on(panel, bed.grid.rings(v));
+        let rings = panel.lines(&bed.grid.rings(v));
         c.lines(&rings, true, &Style::fill(&palette::depth(bed.shade(v))));
     }
 }
@@ -30,7 +30,7 @@ pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 /// Lines of equal depth with their depths.
 pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     for &v in &bed.levels {
-        let lines = on(panel, bed.grid.lines(v));
+        let lines = panel.lines(&bed.grid.lines(v));
         c.lines(&lines, false, &Style::line("#7893a8", 0.7));
     }
 }
@@ -39,7 +39,7 @@ pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     const PLACES: usize = 12;
     for &v in &bed.levels {
-        let lines = on(panel, bed.grid.lines(v));
+        let lines = panel.lines(&bed.grid.lines(v));
         if let Some(longest) = lines.iter().max_by_key(|l| l.len()) {
             let places: Vec<_> = (1..PLACES)
                 .map(|k| longest[k * longest.len() / PLACES])
@@ -55,14 +55,10 @@ pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 pub(super) fn plume(c: &mut Canvas, panel: &Panel, load: &PlumeLoad) {
     let n = load.levels.len();
     for (k, &v) in load.levels.iter().enumerate() {
-        let rings = on(panel, load.grid.rings(v));
+        let rings = panel.lines(&load.grid.rings(v));
         let colour = palette::plume(k as f64 / (n - 1) as f64);
         c.lines(&rings, true, &Style::fill(&colour).faint(PLUME_OPACITY));
     }
-}
-
-fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
-    lines.iter().map(|l| panel.all(l)).collect()
 }
 
 /// The believed track. Among several vehicles, it is faint after the end of its mission.
@@ -85,16 +81,10 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, 
         (false, false) => 1.9,
     };
     let over = if several { over_from(t) } else { t.rows.len() };
-    let mut k = 0;
-    while k < t.rows.len() {
-        let b = t.rows[k].behaviour;
-        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
-        // One point into the next stretch, so that the line has no gaps.
-        let end = (k + run + 1).min(t.rows.len());
-        let points = thinned(t.rows[k..end].iter().map(|r| panel.position([r.p[0], r.p[1]])));
-        let style = Style::line(palette::behaviour(b), width);
-        c.polyline(points, &if k < over { style } else { style.faint(AFTER) });
-        k += run;
+    for (begin, rows) in stretches(&t.rows, |r| r.behaviour) {
+        let points = thinned(rows.iter().map(|r| panel.position([r.p[0], r.p[1]])));
+        let style = Style::line(palette::behaviour(rows[0].behaviour), width);
+        c.polyline(points, &if begin < over { style } else { style.faint(AFTER) });
     }
 }
 

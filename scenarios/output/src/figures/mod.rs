@@ -17,6 +17,7 @@ mod section;
 mod series;
 mod series_panels;
 mod sidescan;
+mod small_maps;
 mod solids;
 #[cfg(test)]
 mod tests_map;

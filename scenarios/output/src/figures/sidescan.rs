@@ -195,9 +195,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
         c.circle(at, 11.0, &Style::line(FOUND, 1.8));
     }
     c.unclip();
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 50.0, 10.0);
+    panel.axes(c, 50.0, 10.0);
 }
 
 fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) {
@@ -248,9 +246,7 @@ fn signs(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>, robot: &RobotEchoes
         found(c, panel.position(p));
     }
     c.unclip();
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 50.0, 10.0);
+    panel.axes(c, 50.0, 10.0);
 }
 
 fn surveyed(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<[f64; 2]> {

@@ -26,6 +26,11 @@ pub(crate) struct LaneLimits<'a> {
     pub(crate) took: &'a dyn Fn(Duration),
 }
 
+impl LaneLimits<'_> {
+    /// All runs go to their ends.
+    pub(crate) const NONE: LaneLimits<'static> = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
+}
+
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
 /// ocean afterwards take the spin-up over from each other, and the first of them from `kept` if one is there.
 pub(crate) fn in_lanes(

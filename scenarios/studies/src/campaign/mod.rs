@@ -47,3 +47,5 @@ pub use seeds::Seeds;
 pub use shard::Shard;
 pub use spec::{Arm, CampaignSpec, Conditions, Draw, FILE, RandomConditions, Until};
 pub use status::{ArmStatus, Status};
+pub use threads::ThreadsError;
+pub(crate) use threads::pool;

@@ -41,10 +41,6 @@ pub(super) const DYED: f32 = 0.1;
 /// A pixel shows the body if at least this share of the body's own light arrives.
 pub(super) const CLEAR: f32 = 0.02;
 
-/// Width and height of the pictures, px.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SizePx(pub u32, pub u32);
-
 /// A picture with known content.
 #[derive(Clone, Debug)]
 pub struct Shot {
@@ -56,11 +52,11 @@ pub struct Shot {
     pub source: GrayImage,
 }
 
-/// Renders a scene.
+/// Renders a scene as a picture of a width and height, px.
 ///
 /// # Errors
 /// If the scene cannot be built: a mistake in its ranges.
-pub fn shoot(seed: u64, d: &SceneDraw, size: SizePx) -> Result<Shot, ScoreError> {
+pub fn shoot(seed: u64, d: &SceneDraw, [width, height]: [u32; 2]) -> Result<Shot, ScoreError> {
     let wrong = |problem: String| ScoreError::Scene { n: d.n, problem };
     let terrain = Terrain::Level { depth_m: DEPTH_M };
     let standing = matches!(d.content, Content::Source | Content::Body);
@@ -79,11 +75,11 @@ pub fn shoot(seed: u64, d: &SceneDraw, size: SizePx) -> Result<Shot, ScoreError>
         dye: plume.as_ref().map_or(&Clean as &dyn Concentration, |p| p),
         optics: &optics,
     };
-    let camera = CameraModel::new(&CameraSpec { width: size.0, height: size.1, ..CameraSpec::default() });
+    let camera = CameraModel::new(&CameraSpec { width, height, ..CameraSpec::default() });
     let noise = world::seeds::key(seed, &format!("scene-{}", d.n), "camera");
     let made = render(&camera, &pose(d), &scene, noise);
     let mask = |of: &dyn Fn(usize) -> bool| {
-        GrayImage::from_fn(size.0, size.1, |x, y| Luma([255 * u8::from(of((y * size.0 + x) as usize))]))
+        GrayImage::from_fn(width, height, |x, y| Luma([255 * u8::from(of((y * width + x) as usize))]))
     };
     let is_source = d.content == Content::Source;
     Ok(Shot {
@@ -185,7 +181,7 @@ mod tests {
     fn pictures_show_what_was_drawn() {
         for n in 18..24 {
             let d = draw(5, n);
-            let shot = shoot(5, &d, SizePx(48, 36)).unwrap();
+            let shot = shoot(5, &d, [48, 36]).unwrap();
             let (dye, source) = (count(&shot.dye), count(&shot.source));
             assert_eq!(source > 0, d.content == Content::Source, "{n}: {source}");
             match d.content {
@@ -199,7 +195,7 @@ mod tests {
     #[test]
     fn pictures_are_repeatable_bit_by_bit() {
         let d = draw(5, 18);
-        let [a, b] = [(); 2].map(|()| shoot(5, &d, SizePx(32, 24)).unwrap());
+        let [a, b] = [(); 2].map(|()| shoot(5, &d, [32, 24]).unwrap());
         assert_eq!(a.picture, b.picture);
     }
 }
