@@ -1,6 +1,7 @@
 //! A pair of axes: conversion from values to pixels, ticks, frame.
 
 use super::canvas::{Anchor, Canvas, Style};
+use super::label_box::LabelBox;
 use super::palette::{GRID, INK};
 use world::math;
 
@@ -133,6 +134,28 @@ impl Panel {
         for v in ticks(self.y, step) {
             let y = self.py(v);
             c.line([self.left, y], [self.right(), y], &Style::line(GRID, 0.7));
+        }
+    }
+
+    /// The part of a room outside it, px².
+    pub fn outside(&self, room: &LabelBox) -> f64 {
+        let all = (room.right - room.left) * (room.bottom - room.top);
+        let own = LabelBox { left: self.left, top: self.top, right: self.right(), bottom: self.bottom() };
+        (all - room.shared(&own)).max(0.0)
+    }
+
+    /// Draws rimmed text at the first of several places where it covers nothing and lies within the panel. If there is
+    /// none, it takes the place where it covers least, or omits the text if that is allowed.
+    pub fn label_at(&self, c: &mut Canvas, places: &[([f64; 2], Anchor)], size: f64, s: &str, may_be_left_out: bool) {
+        let in_the_way = |(at, anchor): &([f64; 2], Anchor)| {
+            let room = LabelBox::of_text(*at, size, *anchor, s);
+            c.taken().iter().map(|t| room.shared(t)).sum::<f64>() + self.outside(&room)
+        };
+        let free = places.iter().find(|p| in_the_way(p) == 0.0).copied();
+        let least = || places.iter().copied().min_by(|a, b| in_the_way(a).total_cmp(&in_the_way(b)));
+        let chosen = if may_be_left_out { free } else { free.or_else(least) };
+        if let Some((at, anchor)) = chosen {
+            c.rimmed(at, size, anchor, s);
         }
     }
 }

@@ -1,19 +1,55 @@
 //! The map's layers, from the bed up.
 
-use super::map::Bed;
 use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
 use super::thinned::{stretches, thinned};
 use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::contours::Grid;
 use crate::charts::label_box::LabelBox;
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
-use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
+use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten, range_of};
 use crate::results::{RobotTrack, RunReport, TrackRow};
 use nalgebra::Vector2;
 use robots::handoff::region_name;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
+
+/// Nodes of the bed's grid along each side.
+const BED_NODES: usize = 90;
+
+/// Depths over a panel.
+pub(super) struct Bed {
+    pub(super) grid: Grid,
+    /// Depths at which the shade changes, and depths drawn as lines.
+    pub(super) levels: Vec<f64>,
+    pub(super) range: [f64; 2],
+    pub(super) step: f64,
+}
+
+impl Bed {
+    pub(super) fn from_run(run: &RunReport<'_>, panel: &Panel) -> Self {
+        let n = [BED_NODES, BED_NODES];
+        let depth = |x, y| (-run.terrain.bed_z(x, y)).max(0.0);
+        let grid = Grid::evaluate(panel.x, panel.y, n, depth);
+        let range = range_of(grid.values.iter().copied(), 0.0).unwrap_or([0.0, 1.0]);
+        let step = nice_step(range[1] - range[0], 5.0);
+        let level = range[1] - range[0] < 0.02 * range[1].max(1e-3);
+        let levels = if level {
+            Vec::new()
+        } else {
+            let first = (range[0] / step).floor() as i64 + 1;
+            let last = ((range[1] - 1e-9) / step).floor() as i64;
+            (first..=last).map(|k| k as f64 * step).collect()
+        };
+        Self { grid, levels, range, step }
+    }
+
+    /// Position in the ramp of shades for the band that begins at a depth.
+    pub(super) fn shade(&self, depth: f64) -> f64 {
+        (depth + 0.5 * self.step - self.range[0]) / (self.range[1] - self.range[0]).max(1e-9)
+    }
+}
 
 /// Depth as shade.
 pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
@@ -46,7 +82,7 @@ pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
                 .map(|[x, y]| ([x, y + 3.0], Anchor::Middle))
                 .collect();
             let text = format!("{} m", number(v, bed.step));
-            c.label_at(&places, 9.0, &text, panel, true);
+            panel.label_at(c, &places, 9.0, &text, true);
         }
     }
 }
@@ -159,7 +195,7 @@ pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robot
             .map(|p| (panel.position([p.x, p.y]), Anchor::Middle))
             .collect();
         let text = format!("{}: {}", region_name(k), region.state.label());
-        c.label_at(&places, 9.5, &text, panel, false);
+        panel.label_at(c, &places, 9.5, &text, false);
     }
     if let Some(r) = t.rows.first().filter(|_| several_robots) {
         beside(c, panel, [r.p[0], r.p[1]], &t.info.id);
@@ -187,7 +223,7 @@ fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
             ]
         })
         .collect();
-    c.label_at(&places, SIZE, name, panel, false);
+    panel.label_at(c, &places, SIZE, name, false);
 }
 
 pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {

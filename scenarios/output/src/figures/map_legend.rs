@@ -1,7 +1,6 @@
 //! The map's keys.
 
-use super::map::Bed;
-use super::map_layers as layers;
+use super::map_layers::{self as layers, Bed};
 use super::map_vehicles::{AFTER, BAND, WIDTH, over_from};
 use super::plume_load::PlumeLoad;
 use super::solids::{self, Passage};

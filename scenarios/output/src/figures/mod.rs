@@ -16,6 +16,7 @@ mod probe_records;
 mod section;
 mod series;
 mod series_panels;
+mod shaded_cells;
 mod sidescan;
 mod small_maps;
 mod solids;

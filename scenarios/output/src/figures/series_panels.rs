@@ -37,7 +37,7 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
         .map(|k| panel.top + 12.0 + 13.0 * k as f64)
         .flat_map(|y| [([x + 4.0, y], Anchor::Start), ([x - 4.0, y], Anchor::End)])
         .collect();
-    c.label_at(&places, 10.0, words, panel, false);
+    panel.label_at(c, &places, 10.0, words, false);
 }
 
 fn curve(panel: &Panel, rows: &[TrackRow], of: impl Fn(&TrackRow) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {

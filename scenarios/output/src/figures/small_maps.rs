@@ -1,5 +1,6 @@
 //! Small maps of the area beside and below each other, with cells in shades of a value.
 
+use super::shaded_cells::{self, ShadedCells};
 use super::solids;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, INK};
@@ -56,52 +57,33 @@ pub(super) fn vehicle(c: &mut Canvas, p: [f64; 2]) {
     c.circle(p, 4.0, &Style::fill(VEHICLE).edged("#ffffff", 1.2));
 }
 
-/// A layer of cells in shades of a value's share of the largest; neighbours of one shade form one shape.
+/// A layer of cells in shades of a value's share of the largest.
 pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f64]) {
-    let [nx, ny, _] = grid.n;
     let most = plan.iter().fold(0.0, |m: f64, v| m.max(*v));
-    let shade = |p: f64| {
+    let shade = |p: &f64| {
         let share = 1.0 + math::ln((p / most).max(1e-30)) / (DECADES * std::f64::consts::LN_10);
-        (share * SHADES as f64).ceil().clamp(0.0, SHADES as f64) as usize
+        Some((share * SHADES as f64).ceil().clamp(0.0, SHADES as f64) as usize).filter(|s| *s > 0)
     };
     let corner = |i: usize, j: usize| {
         let p = grid.world([i as f64 * grid.cell_m[0], j as f64 * grid.cell_m[1], 0.0]);
         panel.position([p.x, p.y])
     };
-    let mut rings: Vec<Vec<Vec<[f64; 2]>>> = vec![Vec::new(); SHADES + 1];
-    for j in 0..ny {
-        let mut i = 0;
-        while i < nx {
-            let s = shade(plan[j * nx + i]);
-            let from = i;
-            while i < nx && shade(plan[j * nx + i]) == s {
-                i += 1;
-            }
-            if s > 0 {
-                rings[s].push(vec![corner(from, j), corner(i, j), corner(i, j + 1), corner(from, j + 1)]);
-            }
-        }
+    let mut cells = ShadedCells::new(SHADES + 1);
+    for (j, row) in plan.chunks(grid.n[0]).enumerate() {
+        let row: Vec<_> = row.iter().map(shade).collect();
+        cells.line(&row, |from, to| [corner(from, j), corner(to, j), corner(to, j + 1), corner(from, j + 1)]);
     }
-    for (s, rings) in rings.iter().enumerate() {
-        let colour = palette::likelihood(s as f64 / SHADES as f64);
-        // The edge has the same colour, so that no light seams appear between the shapes.
-        c.lines(rings, true, &Style::fill(&colour).edged(&colour, 0.4));
-    }
+    cells.draw(c, palette::likelihood, 0.4);
 }
 
 /// Draws the scale of shades after `words`, from position `from` on.
 pub(super) fn scale(c: &mut Canvas, [x, y]: [f64; 2], words: &str, from: f64) {
-    const CELL: f64 = 14.0;
     c.text([x, y], 10.0, Anchor::Start, words);
-    for s in 1..=SHADES {
-        let colour = palette::likelihood(s as f64 / SHADES as f64);
-        let at = from + (s - 1) as f64 * CELL;
-        c.rect(at, y - 9.0, CELL, 11.0, &Style::fill(&colour));
+    let colours = (1..=SHADES).map(|s| palette::likelihood(s as f64 / SHADES as f64));
+    let end = shaded_cells::scale(c, [from, y], colours);
+    for (at, number) in [(from, "0.0001"), (0.5 * (from + end), "0.01"), (end, "1")] {
+        c.text([at, y + 14.0], 9.0, Anchor::Middle, number);
     }
-    let end = from + SHADES as f64 * CELL;
-    c.text([from, y + 14.0], 9.0, Anchor::Middle, "0.0001");
-    c.text([0.5 * (from + end), y + 14.0], 9.0, Anchor::Middle, "0.01");
-    c.text([end, y + 14.0], 9.0, Anchor::Middle, "1");
 }
 
 /// East and north ranges that contain the area.

@@ -1,7 +1,6 @@
 //! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
 use super::draw::{Content, SceneDraw};
-use super::run::ScoreError;
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
@@ -56,19 +55,18 @@ pub struct Shot {
 ///
 /// # Errors
 /// If the scene cannot be built: a mistake in its ranges.
-pub fn shoot(seed: u64, d: &SceneDraw, [width, height]: [u32; 2]) -> Result<Shot, ScoreError> {
-    let wrong = |problem: String| ScoreError::Scene { n: d.n, problem };
+pub fn shoot(seed: u64, d: &SceneDraw, [width, height]: [u32; 2]) -> Result<Shot, String> {
     let terrain = Terrain::Level { depth_m: DEPTH_M };
     let standing = matches!(d.content, Content::Source | Content::Body);
     let obstacles = if standing {
         let body = Obstacle::build(&body(d), &terrain, Path::new(""));
-        Obstacles(vec![body.map_err(|e| wrong(e.to_string()))?])
+        Obstacles(vec![body.map_err(|e| e.to_string())?])
     } else {
         Obstacles::default()
     };
     let dyed = matches!(d.content, Content::Source | Content::Dye);
-    let plume = dyed.then(|| plume(seed, d, &terrain)).transpose().map_err(wrong)?;
-    let optics = Optics::new(&optics(d)).map_err(|e| wrong(e.to_string()))?;
+    let plume = dyed.then(|| plume(seed, d, &terrain)).transpose()?;
+    let optics = Optics::new(&optics(d)).map_err(|e| e.to_string())?;
     let scene = Scene {
         terrain: &terrain,
         obstacles: &obstacles,

@@ -80,7 +80,7 @@ pub fn score(
             return Err(ScoreError::Interrupted);
         }
         let scene = draw(plan.seed, n);
-        let shot = shoot(plan.seed, &scene, plan.size_px)?;
+        let shot = shoot(plan.seed, &scene, plan.size_px).map_err(|problem| ScoreError::Scene { n, problem })?;
         done(&scene, &shot);
         Ok(rows(&scene, &shot, &plan.verifier))
     };

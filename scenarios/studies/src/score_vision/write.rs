@@ -1,62 +1,15 @@
 //! The results as a table, CSV, JSON and figures.
 
-use super::draw::{BINS, bin};
-use super::figures::{curves, shares};
-use super::methods::{METHODS, Method};
-use super::pixels::{Counts, Ratio, precision, recall};
-use super::roc::{Roc, ScoredPicture};
+use super::figures::{Figures, curves, figures, range_words, shares};
+use super::methods::Method;
+use super::pixels::Ratio;
+use super::roc::Roc;
 use super::run::{ScenePlan, SceneRow};
 use crate::campaign::report::{Table, TableColumn};
 use crate::campaign::stats::Interval;
 use output::files::{PendingFiles, ReportError, csv_number, csv_text};
 use serde::Serialize;
 use world::files::Folder;
-
-/// All figures of one method in one range of visibility.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Figures {
-    pub(super) method: Method,
-    /// Range of visibility, m; `None` for all ranges.
-    pub(super) visibility_m: Option<(f64, f64)>,
-    pub(super) dye_precision: Ratio,
-    pub(super) dye_recall: Ratio,
-    pub(super) source_precision: Ratio,
-    pub(super) source_recall: Ratio,
-    pub(super) verification: Roc,
-}
-
-/// The figures of each method: all scenes, then each range.
-fn figures(rows: &[SceneRow]) -> Vec<Figures> {
-    let mut all = Vec::new();
-    for method in METHODS {
-        let of_method: Vec<&SceneRow> = rows.iter().filter(|r| r.method == method).collect();
-        all.push(one(method, None, &of_method));
-        for (k, range) in BINS.into_iter().enumerate() {
-            let within: Vec<&SceneRow> =
-                (of_method.iter().copied()).filter(|r| bin(r.scene.visibility_m) == k).collect();
-            all.push(one(method, Some(range), &within));
-        }
-    }
-    all
-}
-
-fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> Figures {
-    let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
-    let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
-    let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
-    let scored: Vec<ScoredPicture> = (rows.iter())
-        .map(|r| ScoredPicture { score: r.score, source: r.scene.content == super::Content::Source })
-        .collect();
-    Figures {
-        method,
-        visibility_m,
-        dye_precision: precision(&dye, &name("dye precision")),
-        dye_recall: recall(&dye, &name("dye recall")),
-        source_precision: precision(&source, &name("source precision")),
-        source_recall: recall(&source, &name("source recall")),
-        verification: Roc::new(&scored, &name("verification")),
-    }
-}
 
 /// The figures as a table, with 95 % intervals.
 #[must_use]
@@ -78,10 +31,6 @@ pub fn table(rows: &[SceneRow]) -> String {
         ("area under the curve", &|f| area(&f.verification)),
     ];
     Table::of(figures(rows), &columns).markdown()
-}
-
-pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
-    range.map_or("all".to_string(), |(low, high)| format!("{low}–{high} m"))
 }
 
 fn percent(r: &Ratio) -> String {
@@ -188,7 +137,9 @@ fn scenes_csv(rows: &[SceneRow]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::draw::draw;
+    use super::super::draw::{BINS, draw};
+    use super::super::methods::METHODS;
+    use super::super::pixels::Counts;
     use super::*;
     use robots::vision::VerifierSpec;
 

@@ -1,32 +1,17 @@
 //! The files of a segmentation: a picture for each step, the clusters, a sheet of all, and the numbers.
 
 use super::clusters::{clusters, fate};
-use super::overlay::overlay;
+use super::overlay::SegmentedPicture;
 use super::sheet::sheet;
 use crate::campaign::report::{Table, TableColumn};
 use image::RgbImage;
 use output::charts::{mask_png, picture_png};
 use output::files::{PendingFiles, ReportError};
-use robots::vision::{Pass, Segmentation, Sighting, Target, Verifier, VerifierSpec};
+use robots::vision::{Pass, Sighting, Target, VerifierSpec};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use world::files::Folder;
-
-/// A picture, analysed and judged.
-#[derive(Clone, Debug)]
-pub struct SegmentedPicture {
-    /// The file's name.
-    pub name: String,
-    /// The picture.
-    pub picture: RgbImage,
-    /// The parameters.
-    pub spec: VerifierSpec,
-    /// The results of the passes.
-    pub parts: Segmentation,
-    /// The verdict.
-    pub sighting: Sighting,
-}
 
 #[derive(Serialize)]
 struct Numbers<'a> {
@@ -35,19 +20,6 @@ struct Numbers<'a> {
     height: u32,
     parameters: &'a VerifierSpec,
     sighting: &'a Sighting,
-}
-
-impl SegmentedPicture {
-    /// Analyses a picture and judges it.
-    #[must_use]
-    pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
-        let (parts, sighting) = Verifier::new(&spec).look(&picture);
-        Self { name, picture, spec, parts, sighting }
-    }
-
-    pub(super) fn overlay(&self) -> RgbImage {
-        overlay(&self.picture, &self.parts, self.sighting.source.as_ref())
-    }
 }
 
 /// Writes everything into a folder; returns the sheet's path.

@@ -29,9 +29,10 @@ pub(crate) mod reliable {
 }
 pub use pairs::{Compares, Comparison};
 pub use restricted::RestrictedMean;
+pub use screen::Film;
 pub(crate) use tables::range;
 pub(crate) use text::{Table, TableColumn, wrapped};
-pub use tracks::{Film, Pick, Rank, RemadeRun, picks};
+pub use tracks::{Pick, Rank, RemadeRun, picks};
 pub use unit::{Scale, Unit};
 pub(crate) use walls::Walls;
 pub use write::{About, WrittenReport, write};

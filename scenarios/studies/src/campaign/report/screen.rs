@@ -1,13 +1,21 @@
 //! A report on its way: the page, and the same tables and words as plain text for a terminal.
 
 use super::text::{Table, wrapped};
-use super::tracks::Film;
 use output::charts::escaped;
 use output::report::{FILM_STYLE, Page};
 
 /// Pictures of tracks are for print, and for browsers without JavaScript.
 const STILL_STYLE: &str = ".still{display:none}.still img{max-width:100%;background:#fff}\
 @media print{.still{display:block}.still img{max-height:215mm;margin:auto;display:block}}";
+
+/// The tracks of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// The data of its [animation](output::report::film).
+    pub data: String,
+    /// A picture of them as a `data:` address, for print and for browsers without JavaScript.
+    pub still: Option<String>,
+}
 
 /// Both. What stands in the page alone is added to it.
 pub(super) struct Shown {

@@ -5,7 +5,7 @@
 //! left out. The best is the first, the worst the last, and the median the one in the middle.
 
 use super::arms::{arm_names, of_arm};
-use super::screen::Shown;
+use super::screen::{Film, Shown};
 use super::text::Table;
 use crate::campaign::RunRow;
 
@@ -56,15 +56,6 @@ pub struct RemadeRun {
     pub pick: Pick,
     /// How it moved, or why that is not known.
     pub film: Result<Film, String>,
-}
-
-/// The tracks of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Film {
-    /// The data of its [animation](output::report::film).
-    pub data: String,
-    /// A picture of them as a `data:` address, for print and for browsers without JavaScript.
-    pub still: Option<String>,
 }
 
 /// The runs to show: of each of the first arms at most three, none of them twice. `arms` gives the order of the arms;
