@@ -10,12 +10,12 @@ use super::args_live::{ListenArgs, TopicsArgs};
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_ros2::Ros2Args;
+use super::args_values::{Speed, bytes, within};
 use super::args_vehicle::VehicleArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
 use super::version;
 use clap::{Parser, Subcommand, ValueEnum};
-use std::path::PathBuf;
-use std::str::FromStr;
+use std::path::{Path, PathBuf};
 
 /// Simulator for chemical-plume tracing by underwater vehicles.
 #[derive(Clone, Debug, Parser)]
@@ -47,19 +47,6 @@ pub struct Args {
         value_parser = bytes
     )]
     pub memory: f64,
-}
-
-/// A size of memory: a number of bytes, or of K, M, G or T (thousands).
-pub(super) fn bytes(s: &str) -> Result<f64, String> {
-    let units = [('K', 1e3), ('M', 1e6), ('G', 1e9), ('T', 1e12)];
-    let last = s.chars().last().map(|c| c.to_ascii_uppercase());
-    let unit = units.into_iter().find(|(name, _)| Some(*name) == last);
-    let (number, times) = unit.map_or((s, 1.0), |(_, times)| (&s[..s.len() - 1], times));
-    match number.trim().parse::<f64>() {
-        Ok(n) if n * times >= 1e6 && (n * times).is_finite() => Ok(n * times),
-        Ok(n) if n >= 0.0 => Err("must be at least 1M".to_string()),
-        _ => Err("must be a size such as 500M, 4G or 1.5T".to_string()),
-    }
 }
 
 const EXAMPLES: &str = "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` has examples.";
@@ -135,7 +122,7 @@ pub enum Command {
 }
 
 /// Arguments of `run`.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[derive(Clone, Debug, Default, PartialEq, clap::Args)]
 #[command(after_help = RUN_AFTER)]
 pub struct RunArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
@@ -190,6 +177,13 @@ pub struct RunArgs {
     pub threads: usize,
 }
 
+impl RunArgs {
+    /// Those of a run that nobody outside sees, for a seed under a key.
+    pub(super) fn alone(seed: u64, key: &KeyArgs, out: Option<&Path>) -> Self {
+        Self { seed, key: key.clone(), out: out.map(Path::to_path_buf), no_zenoh: true, ..Self::default() }
+    }
+}
+
 const RUN_AFTER: &str = "\
 Examples:
   rheotaxis run duck_st
@@ -199,29 +193,6 @@ Examples:
 
 Exit codes: 0 success as the scenario defines it; 3 no success; 130 interrupted; 1 error; 2 wrong usage.
 With several scenarios the worst one counts: 130, then 1, then 3.";
-
-/// How fast a run goes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Speed {
-    /// As fast as the machine can.
-    Max,
-    /// So many simulated seconds in a second.
-    Times(f64),
-}
-
-impl FromStr for Speed {
-    type Err = String;
-    fn from_str(s: &str) -> Result<Self, String> {
-        match s {
-            "max" => Ok(Speed::Max),
-            "realtime" => Ok(Speed::Times(1.0)),
-            _ => match s.strip_suffix('x').unwrap_or(s).parse::<f64>() {
-                Ok(x) if x > 0.0 && x.is_finite() => Ok(Speed::Times(x)),
-                _ => Err("must be `max`, `realtime` or a number > 0".to_string()),
-            },
-        }
-    }
-}
 
 /// Arguments of `check`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -273,7 +244,7 @@ pub struct StatisticsArgs {
     #[command(flatten)]
     pub key: KeyArgs,
     /// Duration of the measurement, s [default: 1200 in an open channel, else the scenario's time.limit_s].
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = within(f64::MIN_POSITIVE..=f64::MAX, "must be a number > 0"))]
     pub seconds: Option<f64>,
     /// Folder for statistics.csv [default: runs/SCENARIO-SEED-statistics].
     #[arg(long, value_name = "DIR")]
@@ -281,13 +252,6 @@ pub struct StatisticsArgs {
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-fn seconds(s: &str) -> Result<f64, String> {
-    match s.parse::<f64>() {
-        Ok(v) if v > 0.0 && v.is_finite() => Ok(v),
-        _ => Err("must be a number > 0".to_string()),
-    }
 }
 
 /// What the help of this command begins with.

@@ -1,6 +1,6 @@
 //! `--no-cache`, and where spin-ups are kept; arguments of `rheotaxis cache`.
 
-use super::args::bytes;
+use super::args_values::{bytes, within};
 use clap::Subcommand;
 use clap::builder::FalseyValueParser;
 use rheotaxis::cache::{LEAST, MOST, SpinUps};
@@ -42,7 +42,7 @@ pub struct CachePlace {
         env = "RHEOTAXIS_CACHE_FROM",
         global = true,
         default_value = "0.5",
-        value_parser = seconds,
+        value_parser = within(0.0..=1e9, "must be a number >= 0"),
         hide_short_help = true
     )]
     pub from: f64,
@@ -51,13 +51,6 @@ pub struct CachePlace {
 impl Default for CachePlace {
     fn default() -> Self {
         Self { dir: None, size: MOST as f64, from: LEAST.as_secs_f64() }
-    }
-}
-
-fn seconds(s: &str) -> Result<f64, String> {
-    match s.parse::<f64>() {
-        Ok(v) if (0.0..1e9).contains(&v) => Ok(v),
-        _ => Err("must be a number >= 0".to_string()),
     }
 }
 

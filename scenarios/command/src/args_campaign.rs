@@ -2,6 +2,7 @@
 
 use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
+use super::args_values::wall_time;
 use clap::Subcommand;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -155,24 +156,6 @@ pub struct RerunArgs {
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-/// Hours, minutes and seconds, in this order.
-fn wall_time(text: &str) -> Result<Duration, String> {
-    let wrong = || "must be like 90s, 55m or 1h30m".to_string();
-    let (mut rest, mut seconds) = (text, 0_u64);
-    for (unit, length) in [('h', 3600), ('m', 60), ('s', 1)] {
-        if let Some((n, after)) = rest.split_once(unit) {
-            let n: u64 = n.parse().map_err(|_| wrong())?;
-            let part = n.checked_mul(length).ok_or_else(wrong)?;
-            seconds = seconds.checked_add(part).ok_or_else(wrong)?;
-            rest = after;
-        }
-    }
-    if !rest.is_empty() || seconds == 0 {
-        return Err(wrong());
-    }
-    Ok(Duration::from_secs(seconds))
 }
 
 /// What the help of this command begins with.

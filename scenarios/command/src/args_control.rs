@@ -1,10 +1,9 @@
 //! Arguments of `run` for searchers outside the program, and of `rerun`.
 
-use super::args::{RunArgs, Speed};
 use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
-use super::args_ros2::Ros2Args;
-use std::path::{Path, PathBuf};
+use super::args_values::within;
+use std::path::PathBuf;
 
 /// What others may do to a run.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args)]
@@ -20,15 +19,9 @@ pub struct ControlArgs {
     #[arg(long, requires = "allow_control")]
     pub control_from_anywhere: bool,
     /// How long the first question of each robot waits for a controller, s of real time.
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0,
+        value_parser = within(0.0..=1e6, "must be a number of seconds from 0 to 1e6"))]
     pub control_wait: f64,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(s) if (0.0..=1e6).contains(&s) => Ok(s),
-        _ => Err("must be a number of seconds from 0 to 1e6".to_string()),
-    }
 }
 
 /// Arguments of `rerun`.
@@ -56,30 +49,6 @@ pub struct RerunMcapArgs {
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-impl RunArgs {
-    /// Those of a run that nobody outside sees, for a seed under a key.
-    pub(super) fn alone(seed: u64, key: &KeyArgs, out: Option<&Path>) -> Self {
-        Self {
-            files: Vec::new(),
-            seed,
-            key: key.clone(),
-            cache: CacheArgs::default(),
-            out: out.map(Path::to_path_buf),
-            overwrite: false,
-            speed: Speed::Max,
-            no_zenoh: true,
-            no_record: false,
-            quiet: false,
-            control: ControlArgs::default(),
-            zenoh_config: None,
-            zenoh_listen: None,
-            zenoh_linger: 0.0,
-            ros2: Ros2Args::default(),
-            threads: 0,
-        }
-    }
 }
 
 pub(super) const RERUN_ABOUT: &str = "Makes a recorded run again: its scenario and seed stand in the recording, and so does all that searchers outside \

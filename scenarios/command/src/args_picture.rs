@@ -2,8 +2,8 @@
 
 use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
+use super::args_values::Numbers;
 use std::path::PathBuf;
-use std::str::FromStr;
 
 /// Arguments of `picture`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -45,28 +45,6 @@ Examples:
   rheotaxis picture mine.ron --at=-3,0,-4.5 --look 85,30 --visibility 4 --out murky.png --truth truth.png
 
 Exit codes: 0 the picture is written; 130 interrupted; 1 error; 2 wrong usage.";
-
-/// A fixed count of numbers, separated by commas.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numbers<const N: usize>(pub [f64; N]);
-
-impl<const N: usize> FromStr for Numbers<N> {
-    type Err = String;
-    fn from_str(s: &str) -> Result<Self, String> {
-        let mut all = [0.0; N];
-        let mut parts = s.split(',');
-        for v in &mut all {
-            *v = (parts.next())
-                .and_then(|part| part.trim().parse().ok())
-                .filter(|v: &f64| v.is_finite())
-                .ok_or_else(|| format!("must be {N} numbers separated by commas"))?;
-        }
-        match parts.next() {
-            None => Ok(Self(all)),
-            Some(_) => Err(format!("must be {N} numbers separated by commas")),
-        }
-    }
-}
 
 /// What the help of this command begins with.
 pub(super) const PICTURE_ABOUT: &str = "Lets a scenario's plume develop, takes one picture from a place of your choice, and writes it as a \

@@ -2,6 +2,7 @@
 
 use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
+use super::args_values::within;
 use std::path::PathBuf;
 use studies::reproduce::Row;
 
@@ -38,7 +39,8 @@ pub struct ReproduceArgs {
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,
     /// Run until the success share is known to this half width; 0.05 means plus or minus 5 %.
-    #[arg(long, value_name = "W", value_parser = half_width)]
+    #[arg(long, value_name = "W",
+        value_parser = within(f64::MIN_POSITIVE..=0.5_f64.next_down(), "must be > 0 and < 0.5"))]
     pub until_width: Option<f64>,
     /// With --until-width: at most this many seeds for each row.
     #[arg(long, value_name = "N", default_value_t = 2000, requires = "until_width",
@@ -77,13 +79,6 @@ impl ReproduceArgs {
             (false, Some(_)) => self.max,
             (false, None) => self.seeds,
         }
-    }
-}
-
-fn half_width(s: &str) -> Result<f64, String> {
-    match s.parse::<f64>() {
-        Ok(w) if w > 0.0 && w < 0.5 => Ok(w),
-        _ => Err("must be > 0 and < 0.5".to_string()),
     }
 }
 

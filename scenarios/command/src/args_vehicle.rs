@@ -1,6 +1,6 @@
 //! Arguments of `rheotaxis vehicle`.
 
-use super::args_picture::Numbers;
+use super::args_values::Numbers;
 use clap::Subcommand;
 use std::path::PathBuf;
 

@@ -3,34 +3,20 @@
 
 use super::args_cache::{CacheArgs, CacheCommand, CacheCommandArgs};
 use super::exit::Exit;
+use super::failure::Failure;
 use super::say;
 use rheotaxis::cache::SpinUps;
 use world::cost::{duration, memory};
 use world::files::{ShelfError, Stock};
 
 /// Shows or clears the cache.
-pub(super) fn cache(args: &CacheCommandArgs) -> Exit {
-    let kept = match args.place.open() {
-        Ok(kept) => kept,
-        Err(problem) => {
-            say::error(problem, None);
-            return Exit::Error;
-        }
-    };
-    let told = match args.what {
-        None => show(&kept),
-        Some(CacheCommand::Clear) => clear(&kept),
-    };
-    match told {
-        Ok(text) => {
-            say::line(text);
-            Exit::Success
-        }
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
-    }
+pub(super) fn cache(args: &CacheCommandArgs) -> Result<Exit, Failure> {
+    let kept = args.place.open()?;
+    say::line(match args.what {
+        None => show(&kept)?,
+        Some(CacheCommand::Clear) => clear(&kept)?,
+    });
+    Ok(Exit::Success)
 }
 
 fn show(kept: &SpinUps) -> Result<String, ShelfError> {
@@ -49,10 +35,7 @@ fn clear(kept: &SpinUps) -> Result<String, ShelfError> {
 
 fn counted(stock: &Stock) -> String {
     let size = if stock.bytes == 0 { "0 MB".to_string() } else { memory(stock.bytes as f64) };
-    match stock.files {
-        1 => format!("1 spin-up, {size}"),
-        n => format!("{n} spin-ups, {size}"),
-    }
+    format!("{}, {size}", say::count(stock.files, "spin-up"))
 }
 
 /// The cache of a command, unless it does without.
@@ -61,16 +44,12 @@ pub(super) fn opened(args: &CacheArgs) -> Option<SpinUps> {
         return None;
     }
     let opened = args.place.open();
-    opened.inspect_err(|problem| warn(problem)).ok()
+    opened.inspect_err(|problem| say::note(problem)).ok()
 }
 
 /// Tells of the first fault of the cache, at the end of a command.
 pub(super) fn tell_fault(kept: Option<&SpinUps>) {
     if let Some(fault) = kept.and_then(SpinUps::fault) {
-        warn(&fault);
+        say::note(fault);
     }
-}
-
-fn warn(problem: &dyn std::fmt::Display) {
-    say::note(problem);
 }

@@ -3,69 +3,42 @@
 use super::args::RunArgs;
 use super::args_cache::CacheArgs;
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
-use super::campaign_plan::{count, plan};
-use super::campaign_report;
+use super::campaign_plan::plan;
+use super::campaign_report::report;
 use super::exit::Exit;
+use super::failure::{Failure, hinted};
 use super::lane_observers::LaneObservers;
-use super::run::RunError;
+use super::progress::bar;
 use super::run_observer::RunObserver;
-use super::{cache, say, stop};
-use indicatif::{ProgressBar, ProgressStyle};
+use super::say::{self, count};
+use super::{cache, stop};
 use output::shown::printable;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::Trial;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use studies::campaign::{
-    CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
-};
+use studies::campaign::{Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run};
 
 /// Runs one of its subcommands.
-pub(super) fn campaign(command: &CampaignCommand) -> Exit {
-    let done = match command {
+pub(super) fn campaign(command: &CampaignCommand) -> Result<Exit, Failure> {
+    match command {
         CampaignCommand::Plan(args) => plan(args),
         CampaignCommand::Run(args) => run_share(args),
         CampaignCommand::Status(args) => status(args),
         CampaignCommand::Merge(args) => merge_rows(args),
-        CampaignCommand::Report(args) => return campaign_report::report(args),
-        CampaignCommand::Rerun(args) => return rerun(args),
-    };
-    done.unwrap_or_else(refused)
-}
-
-pub(super) fn refused(error: CampaignError) -> Exit {
-    let help = match &error {
-        CampaignError::Differs { .. } => {
-            Some("give another --out; or --force, which continues here and keeps the blocks that are done")
-        }
-        CampaignError::Write { .. } => {
-            Some("blocks written before are whole; free some space or name another folder, and run again")
-        }
-        CampaignError::Broken { .. } => {
-            Some("`rheotaxis campaign run` makes it again, unless its place is taken by something that is not a file")
-        }
-        _ => None,
-    };
-    match error {
-        CampaignError::Scenario(error) => say::scenario_error(&error),
-        error => say::error(error, help),
+        CampaignCommand::Report(args) => report(args),
+        CampaignCommand::Rerun(args) => rerun(args),
     }
-    Exit::Error
 }
 
-fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
+fn run_share(args: &CampaignRunArgs) -> Result<Exit, Failure> {
     let shard = match args.shard {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
     let mut campaign = load(&args.file)?;
     campaign.key = args.key.get();
-    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(0) };
-    bar.set_style(
-        ProgressStyle::with_template("{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}")
-            .expect("the template is well formed")
-            .progress_chars("=> "),
-    );
+    let bar = bar(args.quiet, 0, "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}");
     bar.set_prefix(printable(&campaign.name).into_owned());
     let (failed, share) = (AtomicU64::new(0), AtomicU64::new(0));
     let say_so = |line: &str| {
@@ -148,7 +121,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     Ok(exit)
 }
 
-fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
+fn status(args: &StatusArgs) -> Result<Exit, Failure> {
     let status = Status::examine(&args.dir)?;
     let manifest = &status.manifest;
     let adaptive = status.wanted.runs < manifest.runs;
@@ -180,7 +153,7 @@ fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
     Ok(if status.complete() { Exit::Success } else { Exit::Unfinished })
 }
 
-fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
+fn merge_rows(args: &MergeArgs) -> Result<Exit, Failure> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
     let merged = merge(&args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
@@ -196,24 +169,19 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
     Ok(Exit::Success)
 }
 
-fn rerun(args: &RerunArgs) -> Exit {
-    let found = Manifest::open(&args.dir).and_then(|manifest| {
-        let row = read_row(&args.dir, args.run)?;
-        let mut campaign = manifest.campaign()?;
-        campaign.key = args.key.get();
-        manifest.same_key(&campaign)?;
-        let place = campaign.place(args.run);
-        let mut what = format!("arm {}", campaign.arm(place.arm).name);
-        let condition = campaign.condition_name(place.condition);
-        if !condition.is_empty() {
-            what += &format!(", {condition}");
-        }
-        Ok((campaign.loaded(place.condition, place.arm)?, place.seed, (what, row)))
-    });
-    let (loaded, seed, (what, row)) = match found {
-        Ok(found) => found,
-        Err(error) => return refused(error),
-    };
+fn rerun(args: &RerunArgs) -> Result<Exit, Failure> {
+    let manifest = Manifest::open(&args.dir)?;
+    let row = read_row(&args.dir, args.run)?;
+    let mut campaign = manifest.campaign()?;
+    campaign.key = args.key.get();
+    manifest.same_key(&campaign)?;
+    let place = campaign.place(args.run);
+    let mut what = format!("arm {}", campaign.arm(place.arm).name);
+    let condition = campaign.condition_name(place.condition);
+    if !condition.is_empty() {
+        what += &format!(", {condition}");
+    }
+    let (loaded, seed) = (campaign.loaded(place.condition, place.arm)?, place.seed);
     let out = args.out.clone().unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
         no_record: !args.record,
@@ -222,39 +190,29 @@ fn rerun(args: &RerunArgs) -> Exit {
         threads: 1,
         ..RunArgs::alone(seed.number(), &args.key, Some(&out))
     };
-    let again = || -> Result<(RunOutcome, String), RunError> {
-        let mut trial = Trial::assemble(&loaded, seed)?;
-        let mut alone = LaneObservers::default();
-        let mut onlooker = RunObserver::new(&loaded, &as_run, &out, &mut alone, stop::listen())?;
-        let ended = trial.run(&mut onlooker);
-        Ok((onlooker.finish(&trial, &ended, &mut alone)?, ended.digest))
-    };
-    match again() {
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
-        Ok((RunOutcome::Interrupted, _)) => Exit::Interrupted,
-        Ok((_, digest)) => match row {
-            None => {
-                say::line(format_args!(
-                    "run {} ({what}, seed {seed}) has no row yet to compare its digest with",
-                    args.run
-                ));
-                Exit::Success
-            }
-            Some(row) if row.digest == digest => {
-                say::line(format_args!("run {} ({what}, seed {seed}): the same digest as its row, {digest}", args.run));
-                Exit::Success
-            }
-            Some(row) => {
-                let theirs = if row.digest.is_empty() { "none" } else { &row.digest };
-                say::error(
-                    format!("run {} has digest {digest}, but its row has {theirs}", args.run),
-                    Some("was the campaign run by another version of the program?"),
-                );
-                Exit::Error
-            }
-        },
+    let mut trial = Trial::assemble(&loaded, seed)?;
+    let mut alone = LaneObservers::default();
+    let mut onlooker = RunObserver::new(&loaded, &as_run, Some(&out), &mut alone, stop::listen())?;
+    let ended = trial.run(&mut onlooker);
+    let outcome = onlooker.finish(&trial, &ended, &mut alone)?;
+    if outcome == RunOutcome::Interrupted {
+        return Ok(Exit::Interrupted);
     }
+    let (run, digest) = (args.run, ended.digest);
+    match row {
+        None => {
+            say::line(format_args!("run {run} ({what}, seed {seed}) has no row yet to compare its digest with"));
+        }
+        Some(row) if row.digest == digest => {
+            say::line(format_args!("run {run} ({what}, seed {seed}): the same digest as its row, {digest}"));
+        }
+        Some(row) => {
+            let theirs = if row.digest.is_empty() { "none" } else { &row.digest };
+            return Err(hinted(
+                format!("run {run} has digest {digest}, but its row has {theirs}"),
+                "was the campaign run by another version of the program?",
+            ));
+        }
+    }
+    Ok(Exit::Success)
 }

@@ -2,11 +2,12 @@
 
 use super::args_campaign::PlanArgs;
 use super::exit::Exit;
-use super::say;
-use studies::campaign::{Campaign, CampaignError, LONGEST, RunName, block_of, load, one_run};
+use super::failure::Failure;
+use super::say::{self, count};
+use studies::campaign::{Campaign, LONGEST, RunName, block_of, load, one_run};
 
 /// Checks a campaign and counts its runs. Unless `--no-probe` is given, makes the first run to estimate the cost.
-pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
+pub(super) fn plan(args: &PlanArgs) -> Result<Exit, Failure> {
     let campaign = load(&args.file)?;
     campaign.check()?;
     let (runs, conditions) = (campaign.n_runs(), campaign.spec.n_conditions());
@@ -57,12 +58,11 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
 
 /// Makes the first run and prints what all will cost; with `by_cost`, also the size of the blocks, which follows from
 /// it.
-fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
+fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, Failure> {
     let name = RunName { seed: campaign.place(0).seed, ..RunName::default() };
     let row = one_run(&campaign.loaded(0, 0)?, &name);
     if let Some(error) = row.error {
-        say::error(format!("the first run fails: {error}"), None);
-        return Ok(Exit::Error);
+        return Err(format!("the first run fails: {error}").into());
     }
     let runs = campaign.n_runs();
     let (spin_up, mission) = (row.spin_up_wall_s, row.mission_wall_s);
@@ -81,10 +81,6 @@ fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
 
 fn blocks(runs: u64, block: u64) {
     say::line(format_args!("  {} of {block} runs", count(runs.div_ceil(block), "block")));
-}
-
-pub(super) fn count(n: u64, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn hours(seconds: f64) -> String {

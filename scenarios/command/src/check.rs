@@ -3,25 +3,23 @@
 use super::args::CheckArgs;
 use super::exit::Exit;
 use super::say;
-use rheotaxis::scenario::{cost, load};
+use rheotaxis::scenario::cost;
 use world::cost::memory;
 
 /// Checks every file, also after one with mistakes.
 pub(super) fn check(args: &CheckArgs) -> Exit {
     let mut exit = Exit::Success;
     for file in &args.files {
-        let checked = load(file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
-        match checked {
-            Ok((loaded, odd)) => {
-                say::warnings(&odd);
+        match say::checked(file) {
+            Ok(loaded) => {
                 let s = &loaded.scenario;
                 say::line(format_args!(
                     "{}: fine: {} ({}, {}, {})",
                     file.display(),
                     s.title,
-                    count(s.robots.len(), "robot"),
-                    count(s.sources.len(), "source"),
-                    count(s.obstacles.len(), "obstacle")
+                    say::count(s.robots.len() as u64, "robot"),
+                    say::count(s.sources.len() as u64, "source"),
+                    say::count(s.obstacles.len() as u64, "obstacle")
                 ));
                 let cost = cost::cost(s);
                 say::line(format_args!(
@@ -39,8 +37,4 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
         }
     }
     exit
-}
-
-fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

@@ -2,6 +2,7 @@
 
 use super::args_explain::ExplainArgs;
 use super::exit::Exit;
+use super::failure::{Failure, hinted};
 use super::say;
 use output::columns::TableInfo;
 use output::report;
@@ -17,25 +18,17 @@ fn tables() -> Vec<TableInfo> {
 }
 
 /// Prints the explanation of one place, or the whole reference as Markdown or JSON Schema.
-pub(super) fn explain(args: &ExplainArgs) -> Exit {
+pub(super) fn explain(args: &ExplainArgs) -> Result<Exit, Failure> {
     let path = args.path.as_deref().unwrap_or_default();
     let table = tables().into_iter().find(|table| table.is_in(path));
     let text = match (args.markdown, args.json_schema, table) {
-        (true, ..) => Ok(explain::markdown(MORE)),
-        (_, true, _) => Ok(explain::json_schema()),
-        (.., Some(table)) => Ok(table.text()),
-        _ => explain::explain(path, MORE),
+        (true, ..) => explain::markdown(MORE),
+        (_, true, _) => explain::json_schema(),
+        (.., Some(table)) => table.text(),
+        _ => explain::explain(path, MORE).map_err(|unknown| hinted(&unknown, help(&unknown.near)))?,
     };
-    match text {
-        Ok(text) => {
-            say::line(text.trim_end());
-            Exit::Success
-        }
-        Err(unknown) => {
-            say::error(&unknown, Some(&help(&unknown.near)));
-            Exit::Error
-        }
-    }
+    say::line(text.trim_end());
+    Ok(Exit::Success)
 }
 
 fn help(near: &[String]) -> String {

@@ -3,6 +3,7 @@
 
 use super::args_init::InitArgs;
 use super::exit::Exit;
+use super::failure::{Failure, hinted};
 use super::{list, say};
 use rheotaxis::scenario::template;
 use robots::vehicles::CRAB_GANTRY;
@@ -11,18 +12,17 @@ use std::path::{Path, PathBuf};
 use world::files::{OutputError, make_folder, write_new};
 
 /// Writes the template, or lists the templates if none is named.
-pub(super) fn init(args: &InitArgs) -> Exit {
+pub(super) fn init(args: &InitArgs) -> Result<Exit, Failure> {
     if let Some(folder) = &args.gantry {
         return gantry(folder);
     }
     let Some(name) = &args.template else {
         say::line(format_args!("Templates for `rheotaxis init TEMPLATE [PATH]`:\n"));
         list::scenarios();
-        return Exit::Success;
+        return Ok(Exit::Success);
     };
     let Some(found) = template(name) else {
-        say::error(format!("there is no template `{name}`"), Some("`rheotaxis init` lists them"));
-        return Exit::Error;
+        return Err(hinted(format!("there is no template `{name}`"), "`rheotaxis init` lists them"));
     };
     let file_name = format!("{name}.ron");
     let path = match &args.path {
@@ -33,39 +33,30 @@ pub(super) fn init(args: &InitArgs) -> Exit {
     let shown = path.display();
     let folder = path.parent().unwrap_or(Path::new(""));
     let written = write_new(&path, found.text.as_bytes());
-    match written.and_then(|_| found.write_files(folder)) {
-        Ok(()) => {
-            say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
-            Exit::Success
-        }
-        Err(e) => refused(&e, "name another PATH"),
-    }
+    written.and_then(|_| found.write_files(folder)).map_err(|e| refused(e, "name another PATH"))?;
+    say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
+    Ok(Exit::Success)
 }
 
 /// Writes the URDF of the built-in gantry.
-fn gantry(folder: &Path) -> Exit {
+fn gantry(folder: &Path) -> Result<Exit, Failure> {
     let (name, text) = CRAB_GANTRY;
     let path = folder.join(name);
     let made = make_folder(folder).map_err(|e| OutputError::new(folder, e));
-    match made.and_then(|()| write_new(&path, text.as_bytes())) {
-        Ok(_) => {
-            say::line(format_args!(
-                "wrote {}; a scenario beside it takes it with `gantry: CrabGantry(urdf: \"{name}\")`",
-                path.display()
-            ));
-            Exit::Success
-        }
-        Err(e) => refused(&e, "name another FOLDER"),
-    }
+    let written = made.and_then(|()| write_new(&path, text.as_bytes()));
+    written.map_err(|e| refused(e, "name another FOLDER"))?;
+    say::line(format_args!(
+        "wrote {}; a scenario beside it takes it with `gantry: CrabGantry(urdf: \"{name}\")`",
+        path.display()
+    ));
+    Ok(Exit::Success)
 }
 
-/// Reports why a file was not written.
-fn refused(error: &OutputError, other: &str) -> Exit {
+/// Why a file was not written.
+fn refused(error: OutputError, other: &str) -> Failure {
     if error.source.kind() == ErrorKind::AlreadyExists {
         let problem = "is there already and is not overwritten";
-        say::error(format!("{}: {problem}", error.path.display()), Some(other));
-    } else {
-        say::error(error, None);
+        return hinted(format!("{}: {problem}", error.path.display()), other);
     }
-    Exit::Error
+    error.into()
 }

@@ -12,6 +12,7 @@ mod args_live;
 mod args_picture;
 mod args_reproduce;
 mod args_ros2;
+mod args_values;
 mod args_vehicle;
 mod args_vision;
 mod cache;
@@ -21,6 +22,7 @@ mod campaign_report;
 mod check;
 mod exit;
 mod explain;
+mod failure;
 mod init;
 mod lane_observers;
 mod list;
@@ -42,7 +44,7 @@ mod vehicle;
 mod vehicle_fly;
 mod version;
 
-pub use args::{Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs};
+pub use args::{Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, StatisticsArgs};
 pub use args_cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs, StatusArgs,
@@ -51,8 +53,9 @@ pub use args_control::{ControlArgs, RerunMcapArgs};
 pub use args_explain::ExplainArgs;
 pub use args_init::InitArgs;
 pub use args_live::{ListenArgs, TopicsArgs};
-pub use args_picture::{Numbers, PictureArgs};
+pub use args_picture::PictureArgs;
 pub use args_reproduce::ReproduceArgs;
+pub use args_values::{Numbers, Speed};
 pub use args_vehicle::{
     VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleFlyArgs, VehicleInitArgs, VehicleTrialsArgs,
 };
@@ -60,6 +63,7 @@ pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;
 
 use clap::Parser;
+use failure::{Failure, refused};
 use rheotaxis::scenario::cost;
 use std::process::ExitCode;
 use world::registry::Registry;
@@ -81,19 +85,20 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         Err(said) => return say::usage(&said).into(),
     };
     cost::set_limit(memory);
-    say::end(Exit::guarded(|| registry.scope(|| dispatch(command)))).into()
+    let work = || registry.scope(|| dispatch(command).unwrap_or_else(|error| refused(&error)));
+    say::end(Exit::guarded(work)).into()
 }
 
-fn dispatch(command: Command) -> Exit {
+fn dispatch(command: Command) -> Result<Exit, Failure> {
     stop::begin();
     match command {
         Command::Run(args) => run::run(&args),
         Command::Rerun(args) => rerun::rerun(&args),
-        Command::Check(args) => check::check(&args),
+        Command::Check(args) => Ok(check::check(&args)),
         Command::Init(args) => init::init(&args),
-        Command::List(args) => list::list(&args),
+        Command::List(args) => Ok(list::list(&args)),
         Command::Explain(args) => explain::explain(&args),
-        Command::Topics(args) => topics::topics(&args),
+        Command::Topics(args) => Ok(topics::topics(&args)),
         Command::Listen(args) => listen::listen(&args),
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),

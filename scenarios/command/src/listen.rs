@@ -3,6 +3,7 @@
 
 use super::args_live::ListenArgs;
 use super::exit::Exit;
+use super::failure::Failure;
 use super::{say, stop};
 use output::live::{ListenOptions, Listener, LiveError, News};
 use output::shown::turns;
@@ -20,12 +21,10 @@ const STEP: Duration = Duration::from_millis(100);
 const PATIENCE: u32 = 10;
 
 /// Prints messages until all runs have ended, there are enough, or nobody reads them.
-pub(super) fn listen(args: &ListenArgs) -> Exit {
+pub(super) fn listen(args: &ListenArgs) -> Result<Exit, Failure> {
     let stop = stop::listen();
-    let mut listener = match opened(args, stop) {
-        Ok(Some(listener)) => listener,
-        Ok(None) => return Exit::Interrupted,
-        Err(error) => return refused(&error),
+    let Some(mut listener) = opened(args, stop)? else {
+        return Ok(Exit::Interrupted);
     };
     if let Some(notice) = listener.notice() {
         say::note(notice);
@@ -34,9 +33,8 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
     let (mut going, mut met, mut steps) = (BTreeSet::new(), false, 0);
     let mut left = args.count.map(NonZeroU64::get);
     while !stop.load(Ordering::Relaxed) {
-        match listener.next(STEP) {
-            Err(error) => return refused(&error),
-            Ok(None) => {
+        match listener.next(STEP)? {
+            None => {
                 steps += 1;
                 if steps == PATIENCE && !met {
                     let place = listener.place();
@@ -46,37 +44,37 @@ pub(super) fn listen(args: &ListenArgs) -> Exit {
                     ));
                 }
             }
-            Ok(Some(News::Message(line))) => {
+            Some(News::Message(line)) => {
                 if let Err(error) = writeln!(std::io::stdout(), "{}", shown_json(&line.to_string())) {
                     // A reader that closes the pipe early (`| head`) has what it wanted.
                     let enough = error.kind() == ErrorKind::BrokenPipe;
-                    return if enough { exit } else { refused(&error) };
+                    return if enough { Ok(exit) } else { Err(error.into()) };
                 }
                 left = left.map(|left| left - 1);
                 if left == Some(0) {
-                    return exit;
+                    return Ok(exit);
                 }
             }
-            Ok(Some(News::Begun(run))) => {
+            Some(News::Begun(run)) => {
                 say::note(format_args!("rheotaxis/{run} is there"));
                 met = true;
                 going.insert(run);
             }
-            Ok(Some(News::Ended(run))) => {
+            Some(News::Ended(run)) => {
                 say::note(format_args!("rheotaxis/{run} has ended"));
                 going.remove(&run);
             }
-            Ok(Some(News::Gone(run))) => {
+            Some(News::Gone(run)) => {
                 say::note(format_args!("rheotaxis/{run} is gone and did not say that it ended"));
                 going.remove(&run);
                 exit = Exit::Error;
             }
         }
         if met && going.is_empty() && !args.follow {
-            return exit;
+            return Ok(exit);
         }
     }
-    Exit::Interrupted
+    Ok(Exit::Interrupted)
 }
 
 /// A listener as soon as there is a session, which a client's configuration gives only with a run. `None` at Ctrl-C.
@@ -97,11 +95,6 @@ fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, Live
         }
     }
     Ok(None)
-}
-
-fn refused(error: &dyn std::error::Error) -> Exit {
-    say::error(error, None);
-    Exit::Error
 }
 
 /// A line of JSON without characters that turn the direction of writing: they stand in it as JSON writes any character.

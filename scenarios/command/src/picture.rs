@@ -2,81 +2,42 @@
 
 use super::args_picture::PictureArgs;
 use super::exit::Exit;
+use super::failure::{Failure, hinted};
 use super::{cache, say};
 use image::RgbImage;
 use nalgebra::Vector3;
 use output::charts::picture_png;
 use output::files::{ReportError, beside_no_run, write_whole};
 use rheotaxis::assemble::WaterLight;
+use rheotaxis::ocean::Ocean;
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, CameraSpec, RenderedPicture, Scene, looking, render};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use world::ranges::Positive;
 use world::seeds;
 use world::units::Heading;
 
 /// Takes the picture and prints the names of the files.
-pub(super) fn picture(args: &PictureArgs) -> Exit {
+pub(super) fn picture(args: &PictureArgs) -> Result<Exit, Failure> {
     if args.truth.as_ref() == Some(&args.out) {
         let problem = format!("--out and --truth are the same file, {}", args.out.display());
-        say::error(problem, Some("name another file for one of them"));
-        return Exit::Error;
+        return Err(hinted(problem, "name another file for one of them"));
     }
-    let files = [Some(&args.out), args.truth.as_ref()];
-    let free = |file: &PathBuf| beside_no_run(file);
-    if let Err(error) = files.into_iter().flatten().try_for_each(free) {
-        say::error(error, None);
-        return Exit::Error;
+    for file in [Some(&args.out), args.truth.as_ref()].into_iter().flatten() {
+        beside_no_run(file)?;
     }
-    let checked = load(&args.file).and_then(|mut loaded| {
-        if let Some(metres) = args.visibility.and_then(|v| Positive::try_from(v).ok()) {
-            loaded.scenario.optics.clarity.visibility_m = metres;
-        }
-        loaded.check().map(|odd| (loaded, odd))
-    });
-    let loaded = match checked {
-        Ok((loaded, odd)) => {
-            say::warnings(&odd);
-            loaded
-        }
-        Err(error) => {
-            say::scenario_error(&error);
-            return Exit::Error;
-        }
-    };
-    if let Some(wrong) = args.visibility.filter(|v| Positive::try_from(*v).is_err()) {
-        say::error(format!("--visibility must be > 0, got {wrong}"), None);
-        return Exit::Error;
+    let mut loaded = load(&args.file)?;
+    let visibility_m = args.visibility.map(Positive::try_from);
+    if let Some(Ok(metres)) = visibility_m {
+        loaded.scenario.optics.clarity.visibility_m = metres;
     }
-    let mut trial = match Trial::assemble(&loaded, args.key.seed(args.seed)) {
-        Ok(trial) => trial,
-        Err(error) => {
-            say::error(error, None);
-            return Exit::Error;
-        }
-    };
-    let world_of = |trial: &Trial| {
-        let [east, north, up] = args.at.0;
-        let bed = trial.simulation.ocean().terrain.bed_z(east, north);
-        if up > 0.0 || up < bed {
-            return Err(format!(
-                "the camera must be in the water: at that place, up must be from {bed:.2} to 0 m, got {up}"
-            ));
-        }
-        let p = Vector3::new(east, north, up);
-        match trial.simulation.ocean().obstacles.containing(&p) {
-            Some(solid) => Err(format!("the camera would be inside obstacle \"{}\"", solid.id)),
-            None => Ok(p),
-        }
-    };
-    let p_W = match world_of(&trial) {
-        Ok(p_W) => p_W,
-        Err(problem) => {
-            say::error(problem, None);
-            return Exit::Error;
-        }
-    };
+    say::warnings(&loaded)?;
+    if let Some((wrong, Err(_))) = args.visibility.zip(visibility_m) {
+        return Err(format!("--visibility must be > 0, got {wrong}").into());
+    }
+    let mut trial = Trial::assemble(&loaded, args.key.seed(args.seed))?;
+    let p_W = place(trial.simulation.ocean(), args.at.0)?;
     match cache::opened(&args.cache) {
         Some(kept) => {
             trial.spin_up_with(&kept, &mut Unwatched);
@@ -99,21 +60,28 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());
     let noise = seeds::key(args.key.seed(args.seed), "picture", "camera");
     let made = render(&camera, &pose_WC, &scene, noise);
-    let files = [
-        Some((args.out.as_path(), made.image.clone())),
-        (args.truth.as_deref()).map(|path| (path, truth(&camera, &made))),
-    ];
-    let mut exit = Exit::Success;
-    for (path, image) in files.into_iter().flatten() {
-        match write_png(path, &image) {
-            Ok(()) => say::line(path.display()),
-            Err(error) => {
-                say::error(error, None);
-                exit = Exit::Error;
-            }
-        }
+    let written = write_png(&args.out, &made.image);
+    let beside = args.truth.as_ref().map_or(Ok(()), |path| write_png(path, &truth(&camera, &made)));
+    // If one file cannot be written, the other is.
+    match ReportError::combine(written.err().into_iter().chain(beside.err()).collect()) {
+        None => Ok(Exit::Success),
+        Some(error) => Err(error.into()),
     }
-    exit
+}
+
+/// The place of the camera (ENU, m), if it is in the water.
+fn place(ocean: &Ocean, [east, north, up]: [f64; 3]) -> Result<Vector3<f64>, String> {
+    let bed = ocean.terrain.bed_z(east, north);
+    if up > 0.0 || up < bed {
+        return Err(format!(
+            "the camera must be in the water: at that place, up must be from {bed:.2} to 0 m, got {up}"
+        ));
+    }
+    let p = Vector3::new(east, north, up);
+    match ocean.obstacles.containing(&p) {
+        Some(solid) => Err(format!("the camera would be inside obstacle \"{}\"", solid.id)),
+        None => Ok(p),
+    }
 }
 
 /// The truth as a picture. Red is how much the dye changes a pixel, blue the share of a solid's light that arrives.
@@ -126,7 +94,10 @@ fn truth(camera: &CameraModel, made: &RenderedPicture) -> RgbImage {
     RgbImage::from_raw(camera.width, camera.height, bytes.collect()).expect("there is a truth for every pixel")
 }
 
+/// Writes a picture and prints the name of the file.
 fn write_png(path: &Path, image: &RgbImage) -> Result<(), ReportError> {
     let png = picture_png(image).map_err(|e| ReportError::Draw { path: path.to_owned(), cause: e.to_string() })?;
-    write_whole(path, &png).map(drop)
+    write_whole(path, &png)?;
+    say::line(path.display());
+    Ok(())
 }

@@ -1,4 +1,4 @@
-//! The progress bar of a run, and the lines at its end.
+//! Progress bars; that of a run, and the lines at its end.
 
 use super::args::RunArgs;
 use super::say;
@@ -14,8 +14,8 @@ use rheotaxis::trial::{Event, Observer};
 use robots::handoff::{RegionState, Verdict, region_name};
 use std::path::Path;
 
-/// Steps of the progress bar during spin-up.
-const PARTS: u64 = 1000;
+/// Steps of a bar that shows a share.
+pub(super) const PARTS: u64 = 1000;
 
 /// Progress of one run. The bar appears only on a terminal, and nothing is printed with `--quiet`.
 pub(super) struct Progress {
@@ -37,8 +37,7 @@ impl Progress {
     /// Adds its bar to those of the runs in lanes beside it.
     pub(super) fn new(loaded: &Loaded, args: &RunArgs, bars: &MultiProgress) -> Self {
         let scenario = &loaded.scenario;
-        let bar = if args.quiet { ProgressBar::hidden() } else { bars.add(ProgressBar::new(PARTS)) };
-        bar.set_style(style("{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left"));
+        let bar = bars.add(bar(args.quiet, PARTS, "{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left"));
         let progress = Self {
             bar,
             quiet: args.quiet,
@@ -117,10 +116,10 @@ impl Progress {
         format!("{}{away}, {:.1} spikes/s", d.behaviour.name(), d.working.spike_hz)
     }
 
-    /// Removes the bar and prints how the run ended and where the results are.
-    pub(super) fn finish(&self, summary: &Summary, out: &Path) {
+    /// Removes the bar. If there are results, prints how the run ended and where they are.
+    pub(super) fn finish(&self, summary: &Summary, out: Option<&Path>) {
         self.bar.finish_and_clear();
-        if !self.quiet {
+        if let Some(out) = out.filter(|_| !self.quiet) {
             // The bars of lanes that go on would break the lines.
             self.bar.suspend(|| self.tell(summary, out));
         }
@@ -265,6 +264,12 @@ fn gantry_lines(g: &GantrySummary) -> Vec<String> {
         lines.push("a drive stopped because something was in its way".to_string());
     }
     lines
+}
+
+/// A bar of a length, which nobody sees if the command is quiet or there is no terminal.
+pub(super) fn bar(quiet: bool, length: u64, template: &str) -> ProgressBar {
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(length) };
+    bar.with_style(style(template))
 }
 
 fn style(template: &str) -> ProgressStyle {

@@ -1,10 +1,12 @@
 //! `rheotaxis reproduce`: repeats the papers' experiments and compares the figures.
 
 use super::args_reproduce::ReproduceArgs;
-use super::campaign_plan::count;
 use super::exit::Exit;
-use super::{cache, say, stop};
-use indicatif::{ProgressBar, ProgressStyle};
+use super::failure::Failure;
+use super::progress;
+use super::say::{self, count};
+use super::{cache, stop};
+use indicatif::ProgressBar;
 use output::shown::printable;
 use rheotaxis::cache::SpinUps;
 use std::path::Path;
@@ -16,26 +18,8 @@ use studies::reproduce::{
 };
 
 /// Runs the rows, prints their tables and writes them.
-pub(super) fn run(args: &ReproduceArgs) -> Exit {
+pub(super) fn run(args: &ReproduceArgs) -> Result<Exit, Failure> {
     stop::listen();
-    match all(args) {
-        Ok(()) => Exit::Success,
-        Err(ReproduceError::Interrupted) => {
-            say::error(ReproduceError::Interrupted, None);
-            Exit::Interrupted
-        }
-        Err(ReproduceError::Scenario(error)) => {
-            say::scenario_error(&error);
-            Exit::Error
-        }
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
-    }
-}
-
-fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     let references = wanted(&args.rows, &args.arms)?;
     // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
@@ -55,7 +39,8 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         work.take_kept(dir)?;
     }
     if args.no_runs {
-        return work.show_kept();
+        work.show_kept()?;
+        return Ok(Exit::Success);
     }
     let rows = 0..work.rows.len();
     if rows.len() > 1 && args.until_width.is_none() {
@@ -72,7 +57,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
         args.out.display()
     ));
-    Ok(())
+    Ok(Exit::Success)
 }
 
 /// A line that says how many trials will be run.
@@ -209,12 +194,7 @@ impl Work<'_> {
 }
 
 fn bar(reference: &Reference, quiet: bool, length: u64, done: u64) -> ProgressBar {
-    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(length) };
-    bar.set_style(
-        ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} runs | {msg}")
-            .expect("the template is well formed")
-            .progress_chars("=> "),
-    );
+    let bar = progress::bar(quiet, length, "{prefix} [{bar:30}] {pos} of {len} runs | {msg}");
     bar.set_prefix(printable(&reference.row.id).into_owned());
     bar.set_position(done);
     bar.enable_steady_tick(Duration::from_millis(500));

@@ -3,45 +3,21 @@
 use super::args::RunArgs;
 use super::args_control::RerunMcapArgs;
 use super::exit::Exit;
+use super::failure::{Failure, of_run};
 use super::lane_observers::LaneObservers;
-use super::progress::Progress;
-use super::run::{RunError, refused};
 use super::run_observer::RunObserver;
 use super::{cache, say, stop};
-use output::mcap::{ReadError, RecordedRun, read_recording};
+use output::mcap::{RecordedRun, read_recording};
 use rheotaxis::control::Replay;
-use rheotaxis::lanes::{LaneError, Lanes};
+use rheotaxis::lanes::Lanes;
 use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
-use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
+use rheotaxis::trial::RunEnd;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::registry::Registry;
 
-/// Why a recording cannot be run again.
-#[derive(Debug, thiserror::Error)]
-enum RerunError {
-    #[error(transparent)]
-    Read(#[from] ReadError),
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    #[error(transparent)]
-    Run(#[from] RunError),
-}
-
 /// Runs it.
-pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
-    match again(args) {
-        Ok(exit) => exit,
-        Err(RerunError::Scenario(error)) => refused(error.into()),
-        Err(RerunError::Run(error)) => refused(error),
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
-    }
-}
-
-fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
+pub(super) fn rerun(args: &RerunMcapArgs) -> Result<Exit, Failure> {
     say::hush_lost_states();
     let stop = stop::listen();
     let path = match args.recording.is_dir() {
@@ -50,7 +26,7 @@ fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
     };
     let recorded = read_recording(&path)?;
     let loaded = scenario(&recorded, args.base.as_deref())?;
-    let ended = made(args, &recorded, &loaded, stop)?;
+    let ended = made(args, &recorded, &loaded, stop).map_err(of_run)?;
     let Some(ended) = ended.filter(|_| !stop.load(Ordering::Relaxed)) else {
         return Ok(Exit::Interrupted);
     };
@@ -72,72 +48,39 @@ fn made(
     recorded: &RecordedRun,
     loaded: &Loaded,
     stop: &'static AtomicBool,
-) -> Result<Option<RunEnd>, RunError> {
+) -> Result<Option<RunEnd>, Failure> {
     let run = RunArgs {
         cache: args.cache.clone(),
         quiet: args.quiet,
         overwrite: args.overwrite,
         ..RunArgs::alone(recorded.seed, &args.key, args.out.as_deref())
     };
-    let seed = args.key.seed(recorded.seed);
-    let steps = recorded.result.as_ref().map(|(_, steps)| *steps);
     let mut company = LaneObservers::default();
-    let mut result = Ok(None);
-    match &args.out {
-        Some(out) => {
-            let mut lanes = Lanes::default().with_threads(0);
-            lanes.add(loaded, seed, || RunObserver::new(loaded, &run, out, &mut company, stop))?;
-            replay(&mut lanes, recorded)?;
-            if let (Some((_, onlooker)), Some(steps)) = (lanes.newest(), steps) {
-                onlooker.end_after(steps);
-            }
-            spun_up(&mut lanes, args);
-            lanes.run(|onlooker, trial| result = finished(onlooker, trial, &mut company));
-        }
-        None => {
-            let watch = || {
-                Ok::<_, RunError>(RerunObserver {
-                    progress: Progress::new(loaded, &run, &company.bars),
-                    left: steps,
-                    over: false,
-                    stop,
-                })
-            };
-            let mut lanes = Lanes::default().with_threads(0);
-            lanes.add(loaded, seed, watch)?;
-            replay(&mut lanes, recorded)?;
-            spun_up(&mut lanes, args);
-            lanes.run(|_, trial| result = trial.map(|t| Some(t.ended())).map_err(RunError::from));
-        }
-    }
-    result
-}
-
-fn finished(
-    onlooker: RunObserver,
-    trial: Result<&Trial, LaneError>,
-    company: &mut LaneObservers,
-) -> Result<Option<RunEnd>, RunError> {
-    let trial = trial?;
-    let ended = trial.ended();
-    onlooker.finish(trial, &ended, company)?;
-    Ok(Some(ended))
-}
-
-fn replay<O: Observer>(lanes: &mut Lanes<O>, recorded: &RecordedRun) -> Result<(), RunError> {
-    let told = Replay::new(recorded.exchanges.clone());
-    if let Some((trial, _)) = lanes.newest() {
+    let mut lanes = Lanes::default().with_threads(0);
+    lanes.add(loaded, args.key.seed(recorded.seed), || {
+        RunObserver::new(loaded, &run, args.out.as_deref(), &mut company, stop)
+    })?;
+    if let Some((trial, onlooker)) = lanes.newest() {
+        let told = Replay::new(recorded.exchanges.clone());
         for robot in trial.controlled() {
             trial.control(&robot, told.clone())?;
         }
+        if let Some((_, steps)) = recorded.result {
+            onlooker.end_after(steps);
+        }
     }
-    Ok(())
-}
-
-fn spun_up<O: Observer>(lanes: &mut Lanes<O>, args: &RerunMcapArgs) {
     if let Some(kept) = cache::opened(&args.cache) {
         lanes.spin_up_with(&kept);
     }
+    let mut result = Ok(None);
+    lanes.run(|onlooker, trial| {
+        result = trial.map_err(Failure::from).and_then(|trial| {
+            let ended = trial.ended();
+            onlooker.finish(trial, &ended, &mut company)?;
+            Ok(Some(ended))
+        });
+    });
+    result
 }
 
 fn compared(recorded: &RecordedRun, ended: &RunEnd) -> Exit {
@@ -163,28 +106,5 @@ fn compared(recorded: &RecordedRun, ended: &RunEnd) -> Exit {
             ));
             Exit::NotFound
         }
-    }
-}
-
-/// Follows a run of which nothing is written.
-struct RerunObserver {
-    progress: Progress,
-    /// Steps left.
-    left: Option<u64>,
-    over: bool,
-    stop: &'static AtomicBool,
-}
-
-impl Observer for RerunObserver {
-    fn see(&mut self, event: &Event) {
-        self.progress.see(event);
-        if let (Event::Tick(_), Some(left)) = (event, &mut self.left) {
-            *left = left.saturating_sub(1);
-            self.over = *left == 0;
-        }
-    }
-
-    fn goes_on(&mut self) -> bool {
-        !self.over && !self.stop.load(Ordering::Relaxed)
     }
 }

@@ -2,65 +2,28 @@
 
 use super::args::RunArgs;
 use super::exit::Exit;
+use super::failure::{Failure, of_run, refused};
 use super::lane_observers::LaneObservers;
 use super::run_observer::RunObserver;
 use super::{cache, say, stop};
 use output::files::{ReportError, could_begin_run};
-use output::live::LiveError;
 use output::report::is_result;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::error::AssembleError;
-use rheotaxis::lanes::{LaneError, Lanes, group_by_ocean};
+use rheotaxis::lanes::{Lanes, group_by_ocean};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
-use rheotaxis::trial::{NotControlled, consulted, controlled};
+use rheotaxis::scenario::{Loaded, cost};
+use rheotaxis::trial::{consulted, controlled};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use world::cost::memory;
 
-/// Why a run could not start or finish.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum RunError {
-    #[error(transparent)]
-    Scenario(#[from] ScenarioError),
-    #[error(transparent)]
-    Assemble(#[from] AssembleError),
-    #[error(transparent)]
-    Lane(#[from] LaneError),
-    #[error(transparent)]
-    Live(#[from] LiveError),
-    #[error(transparent)]
-    NotControlled(#[from] NotControlled),
-    #[error(transparent)]
-    Report(#[from] ReportError),
-    #[error(
-        "{robots} of {scenario} asks a searcher outside the program: start the run with --allow-control, or give it \
-         another strategy"
-    )]
-    NotAllowed { scenario: String, robots: String },
-    #[error("{}: another scenario of this command writes its results there", .0.display())]
-    Taken(PathBuf),
-    #[error("--ros2 shows one run, because topics of ROS 2 do not name a run: give one scenario")]
-    OneForRos2,
-}
-
-impl RunError {
-    /// What would help.
-    fn help(&self) -> Option<&'static str> {
-        let Self::Report(ReportError::Write(error)) = self else {
-            return None;
-        };
-        (error.is_foreign()).then_some("--overwrite replaces files that have the names of results")
-    }
-}
-
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 /// But none is run if two of them have one folder for their results, or if a folder is in use or holds files of others:
 /// hours may pass before the last of the folders is opened.
-pub(super) fn run(args: &RunArgs) -> Exit {
+pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     if args.ros2.ros2 && args.files.len() > 1 {
-        return refused(RunError::OneForRos2);
+        return Err("--ros2 shows one run, because topics of ROS 2 do not name a run: give one scenario".into());
     }
     say::hush_lost_states();
     let stop = stop::listen();
@@ -70,12 +33,14 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     for file in &args.files {
         match prepared(file, args) {
             Ok(one) => ready.push(one),
-            Err(error) => exit = exit.worse(refused(error)),
+            Err(error) => exit = exit.worse(refused(&error)),
         }
     }
     for (n, (_, folder)) in ready.iter().enumerate() {
         if ready[..n].iter().any(|(_, taken)| taken == folder) {
-            return refused(RunError::Taken(folder.clone()));
+            return Err(
+                format!("{}: another scenario of this command writes its results there", folder.display()).into()
+            );
         }
     }
     let mut writable = Vec::new();
@@ -84,9 +49,9 @@ pub(super) fn run(args: &RunArgs) -> Exit {
         match could_begin_run(&folder, (!args.overwrite).then_some(&own)) {
             Ok(()) => writable.push((loaded, folder)),
             Err(ReportError::Write(error)) if error.is_foreign() || error.is_busy() => {
-                return refused(ReportError::Write(error).into());
+                return Err(of_run(ReportError::Write(error).into()));
             }
-            Err(error) => exit = exit.worse(refused(error.into())),
+            Err(error) => exit = exit.worse(refused(&error.into())),
         }
     }
     let ready = writable;
@@ -100,15 +65,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
         }
     }
     cache::tell_fault(kept.as_ref());
-    exit
-}
-
-pub(super) fn refused(error: RunError) -> Exit {
-    match error {
-        RunError::Scenario(error) => say::scenario_error(&error),
-        error => say::error(&error, error.help()),
-    }
-    Exit::Error
+    Ok(exit)
 }
 
 fn code(outcome: RunOutcome) -> Exit {
@@ -121,12 +78,17 @@ fn code(outcome: RunOutcome) -> Exit {
 }
 
 /// The scenario of a file and the folder of its results.
-fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> {
-    let loaded = load(file)?;
-    say::warnings(&loaded.check()?);
+fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), Failure> {
+    let loaded = say::checked(file)?;
     let asking = controlled(&loaded.scenario);
     if !asking.is_empty() && !args.control.allow_control {
-        return Err(RunError::NotAllowed { scenario: loaded.name.clone(), robots: asking.join(", ") });
+        return Err(format!(
+            "{} of {} asks a searcher outside the program: start the run with --allow-control, or give it another \
+             strategy",
+            asking.join(", "),
+            loaded.name
+        )
+        .into());
     }
     let folder = folder(&loaded, args);
     Ok((loaded, folder))
@@ -142,11 +104,11 @@ fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>
             let bytes = cost::cost(&loaded.scenario).bytes();
             say::note(format_args!("{}: takes about {} of memory", loaded.name, memory(bytes)));
         }
-        let onlooker = || RunObserver::new(loaded, args, folder, &mut company, stop);
+        let onlooker = || RunObserver::new(loaded, args, Some(folder), &mut company, stop);
         let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);
         let added = added.and_then(|()| controllers(&mut lanes, loaded, args));
         if let Err(error) = added {
-            exit = exit.worse(refused(error));
+            exit = exit.worse(refused(&of_run(error)));
         }
     }
     if let Some(kept) = kept {
@@ -154,13 +116,10 @@ fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>
     }
     lanes.run(|onlooker, run| {
         let ended = match run {
-            Ok(trial) => {
-                let finished = onlooker.finish(trial, &trial.ended(), &mut company);
-                finished.map_err(RunError::from)
-            }
+            Ok(trial) => onlooker.finish(trial, &trial.ended(), &mut company).map_err(Failure::from),
             Err(error) => Err(error.into()),
         };
-        exit = exit.worse(ended.map_or_else(refused, code));
+        exit = exit.worse(ended.map_or_else(|error| refused(&of_run(error)), code));
     });
     let linger = Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO);
     company.part(linger, stop);
@@ -168,7 +127,7 @@ fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, kept: Option<&SpinUps>
 }
 
 /// Connects the robots of the run that was added last with their controllers.
-fn controllers(lanes: &mut Lanes<RunObserver>, loaded: &Loaded, args: &RunArgs) -> Result<(), RunError> {
+fn controllers(lanes: &mut Lanes<RunObserver>, loaded: &Loaded, args: &RunArgs) -> Result<(), Failure> {
     let Some((trial, onlooker)) = lanes.newest() else {
         return Ok(());
     };

@@ -1,9 +1,12 @@
 //! Everything that follows a run: its results, live state, progress, pace.
 #![allow(clippy::disallowed_methods, reason = "pace and wall time are for people; neither enters the run")]
 
-use super::args::{RunArgs, Speed};
+use super::args::RunArgs;
+use super::args_values::Speed;
+use super::failure::Failure;
 use super::lane_observers::LaneObservers;
 use super::progress::Progress;
+use super::say;
 use output::files::{ReportError, begin_run};
 use output::follow::Follower;
 use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
@@ -18,9 +21,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use std::time::Duration;
-
-use super::run::RunError;
-use super::say;
+use world::files::Folder;
 
 /// All that follows one run.
 pub(super) struct RunObserver {
@@ -38,14 +39,15 @@ pub(super) struct RunObserver {
 }
 
 impl RunObserver {
-    /// Opens folder, files and port, so that an error in them comes before the run starts.
+    /// Opens folder, files and port, so that an error in them comes before the run starts. Without a folder, nothing is
+    /// written.
     pub(super) fn new(
         loaded: &Loaded,
         args: &RunArgs,
-        out: &Path,
+        out: Option<&Path>,
         company: &mut LaneObservers,
         stop: &'static AtomicBool,
-    ) -> Result<Self, RunError> {
+    ) -> Result<Self, Failure> {
         let mut results = Follower::new(loaded, args.key.seed(args.seed))?;
         let progress = Progress::new(loaded, args, &company.bars);
         let times = match args.speed {
@@ -55,12 +57,14 @@ impl RunObserver {
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
         let live = live(args, &mut results, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
-        let own = |name: &str| is_result(&loaded.scenario, name);
-        let out = begin_run(out, (!args.overwrite).then_some(&own))?;
-        if let Some(removed) = say::removed(out.dir(), out.removed()) {
-            progress.say(&removed);
+        if let Some(out) = out {
+            let own = |name: &str| is_result(&loaded.scenario, name);
+            let out = begin_run(out, (!args.overwrite).then_some(&own))?;
+            if let Some(removed) = say::removed(out.dir(), out.removed()) {
+                progress.say(&removed);
+            }
+            results.write_into(&out, !args.no_record)?;
         }
-        results.write_into(&out, !args.no_record)?;
         // Where somebody keeps pace with the run, each frame is written at once.
         let at_once = times.is_some() || !controlled(&loaded.scenario).is_empty();
         if cores(args) > 1 && !at_once {
@@ -80,7 +84,7 @@ impl RunObserver {
         robot: &str,
         deadline_s: f64,
         args: &RunArgs,
-    ) -> Result<Option<LiveController>, RunError> {
+    ) -> Result<Option<LiveController>, Failure> {
         let Some(live) = &self.live else {
             return Ok(None);
         };
@@ -123,9 +127,7 @@ impl RunObserver {
         }
         let mut gathered = self.results.finish(trial, ended);
         let written = gathered.write(trial.simulation.ocean());
-        if let Some(out) = gathered.out() {
-            self.progress.finish(&gathered.summary, out.dir());
-        }
+        self.progress.finish(&gathered.summary, gathered.out().map(Folder::dir));
         if let Some(live) = self.live.take() {
             company.keep(live);
         }
@@ -149,7 +151,7 @@ fn live(
     progress: &Progress,
     company: &mut LaneObservers,
     plane: &Arc<Plane>,
-) -> Result<Option<Live>, RunError> {
+) -> Result<Option<Live>, Failure> {
     if args.no_zenoh {
         return Ok(None);
     }

@@ -4,7 +4,7 @@
 use super::exit::Exit;
 use console::{Term, colors_enabled_stderr};
 use output::shown::{self, Look, PLAIN, printable};
-use rheotaxis::scenario::{Fault, ScenarioError};
+use rheotaxis::scenario::{Loaded, ScenarioError, load};
 use std::io::{self, ErrorKind, Write};
 use std::panic::{set_hook, take_hook};
 use std::path::Path;
@@ -100,17 +100,36 @@ pub(super) fn usage(said: &clap::Error) -> u8 {
     end(Exit::Success).code()
 }
 
+/// So many things.
+pub(super) fn count(n: u64, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
 /// Names the files of an earlier run that were removed from a folder, if there were any.
 pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
     (!names.is_empty())
         .then(|| format!("removed from {} what an earlier run left: {}", folder.display(), names.join(", ")))
 }
 
-/// Prints mistakes or warnings about a scenario to standard error.
-pub(super) fn warnings(faults: &[Fault]) {
-    for fault in faults {
-        to_stderr(&shown::fault(fault, look()));
+/// Reads and checks a scenario, and prints the warnings about it to standard error.
+///
+/// # Errors
+/// Its mistakes.
+pub(super) fn checked(file: &Path) -> Result<Loaded, ScenarioError> {
+    let loaded = load(file)?;
+    warnings(&loaded)?;
+    Ok(loaded)
+}
+
+/// Checks a scenario, and prints the warnings about it to standard error.
+///
+/// # Errors
+/// Its mistakes.
+pub(super) fn warnings(loaded: &Loaded) -> Result<(), ScenarioError> {
+    for fault in loaded.check()? {
+        to_stderr(&shown::fault(&fault, look()));
     }
+    Ok(())
 }
 
 /// Prints any other error: what is wrong and, if known, how to correct it.

@@ -2,6 +2,7 @@
 
 use super::args_vision::SegmentArgs;
 use super::exit::Exit;
+use super::failure::{Failure, refused};
 use super::say;
 use output::files::begin_folder;
 use robots::vision::{Verifier, VerifierSpec};
@@ -10,21 +11,12 @@ use studies::campaign::stats::wilson;
 use studies::segment::{SegmentedPicture, read_picture, table, write};
 
 /// Segments one picture or judges several.
-pub(super) fn segment(args: &SegmentArgs) -> Exit {
-    let spec = match args.colours.spec() {
-        Ok(spec) => spec,
-        Err(problem) => {
-            say::error(problem, None);
-            return Exit::Error;
-        }
-    };
+pub(super) fn segment(args: &SegmentArgs) -> Result<Exit, Failure> {
+    let spec = args.colours.spec()?;
     match &args.images[..] {
         [image] => one(image, args.out.as_ref(), spec),
-        _ if args.out.is_some() => {
-            say::error("--out: of several pictures only the verdicts are printed", None);
-            Exit::Error
-        }
-        images => several(images, &spec),
+        _ if args.out.is_some() => Err("--out: of several pictures only the verdicts are printed".into()),
+        images => Ok(several(images, &spec)),
     }
 }
 
@@ -40,7 +32,9 @@ fn several(images: &[PathBuf], spec: &VerifierSpec) -> Exit {
                 verified += u64::from(sighting.verified);
                 say::line(format_args!("{}: {}", image.display(), sighting.label()));
             }
-            Err(error) => say::error(&error, error.help()),
+            Err(error) => {
+                refused(&error.into());
+            }
         }
     }
     let share = wilson(verified, read);
@@ -56,33 +50,17 @@ fn several(images: &[PathBuf], spec: &VerifierSpec) -> Exit {
 }
 
 /// Segments a picture, prints the result and writes the folder.
-fn one(image: &Path, out: Option<&PathBuf>, spec: VerifierSpec) -> Exit {
-    let picture = match read_picture(image) {
-        Ok(picture) => picture,
-        Err(error) => {
-            say::error(&error, error.help());
-            return Exit::Error;
-        }
-    };
+fn one(image: &Path, out: Option<&PathBuf>, spec: VerifierSpec) -> Result<Exit, Failure> {
+    let picture = read_picture(image)?;
     let part = |p: Option<&std::ffi::OsStr>| p.map_or("picture".to_string(), |s| s.to_string_lossy().into_owned());
     let segmented = SegmentedPicture::new(part(image.file_name()), picture, spec);
     say::line(table(&segmented));
     let folder =
         out.cloned().unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-segmented", part(image.file_stem()))));
-    let written = begin_folder(&folder, "segment").and_then(|out| {
-        if let Some(removed) = say::removed(&folder, out.removed()) {
-            say::note(removed);
-        }
-        write(&out, &segmented)
-    });
-    match written {
-        Ok(sheet) => {
-            say::line(format_args!("everything on one sheet: {}", sheet.display()));
-            Exit::Success
-        }
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
+    let out = begin_folder(&folder, "segment")?;
+    if let Some(removed) = say::removed(&folder, out.removed()) {
+        say::note(removed);
     }
+    say::line(format_args!("everything on one sheet: {}", write(&out, &segmented)?.display()));
+    Ok(Exit::Success)
 }

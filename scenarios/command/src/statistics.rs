@@ -2,70 +2,34 @@
 
 use super::args::StatisticsArgs;
 use super::exit::Exit;
+use super::failure::Failure;
+use super::progress::{PARTS, bar};
 use super::{say, stop};
-use indicatif::{ProgressBar, ProgressStyle};
 use output::files::make_folder;
 use output::shown::printable;
-use rheotaxis::scenario::load;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
-use studies::statistics::{self, StatisticsError, table, write};
-
-/// Steps of the progress bar.
-const PARTS: u64 = 1000;
+use studies::statistics::{self, table, write};
 
 /// Measures the plume, prints the table and writes it as CSV.
-pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
-    let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
-    let loaded = match checked {
-        Ok((loaded, odd)) => {
-            say::warnings(&odd);
-            loaded
-        }
-        Err(error) => {
-            say::scenario_error(&error);
-            return Exit::Error;
-        }
-    };
+pub(super) fn statistics(args: &StatisticsArgs) -> Result<Exit, Failure> {
+    let loaded = say::checked(&args.file)?;
     // First, so that an error does not come after minutes of work.
     let folder = args
         .out
         .clone()
         .unwrap_or_else(|| PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed)));
-    if let Err(error) = make_folder(&folder) {
-        say::error(error, None);
-        return Exit::Error;
-    }
+    make_folder(&folder)?;
     let stop = stop::listen();
-    let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(PARTS) };
-    let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
-    bar.set_style(style.expect("the template is well formed"));
+    let bar = bar(args.quiet, PARTS, "{prefix} [{bar:30}] {percent:>3} %, {eta} left");
     bar.set_prefix(printable(&loaded.name).into_owned());
     let measured = statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
         bar.set_position((share * PARTS as f64) as u64);
         !stop.load(Ordering::Relaxed)
     });
     bar.finish_and_clear();
-    let measured = match measured {
-        Ok(measured) => measured,
-        Err(error) => {
-            let exit = match error {
-                StatisticsError::Interrupted => Exit::Interrupted,
-                _ => Exit::Error,
-            };
-            say::error(error, None);
-            return exit;
-        }
-    };
+    let measured = measured?;
     say::line(table(&measured));
-    match write(&folder, &measured) {
-        Ok(path) => {
-            say::line(format_args!("the table is in {}", path.display()));
-            Exit::Success
-        }
-        Err(error) => {
-            say::error(error, None);
-            Exit::Error
-        }
-    }
+    say::line(format_args!("the table is in {}", write(&folder, &measured)?.display()));
+    Ok(Exit::Success)
 }

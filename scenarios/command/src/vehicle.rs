@@ -2,6 +2,7 @@
 
 use super::args_vehicle::{VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs};
 use super::exit::Exit;
+use super::failure::{Failure, hinted};
 use super::say;
 use super::vehicle_fly::flown;
 use output::charts::png;
@@ -12,37 +13,23 @@ use robots::handoff::{Capabilities, DriveEffect};
 use robots::vehicles::{
     CATALOGUE, FolderVehicle, KinematicSpec, RemusSpec, SHIPPED, ShippedVehicle, Vehicle, VehicleSpec,
 };
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use studies::trials::{Looks, Trial, drawn, figure, has_rudder, trials};
+use studies::trials::{Looks, Trial, drawn, figure, has_rudder, numbers_csv, steering_csv, trials};
 use world::files::make_folder;
 
 /// Runs a subcommand.
-pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
-    let done = match &args.command {
+pub(super) fn vehicle(args: &VehicleArgs) -> Result<Exit, Failure> {
+    match &args.command {
         VehicleCommand::Check(args) => check(args),
         VehicleCommand::Trials(args) => on_trial(args),
-        VehicleCommand::Fly(args) => flown(args),
+        VehicleCommand::Fly(args) => flown(args, &loaded(&args.folder)?),
         VehicleCommand::Init(args) => init(args),
-    };
-    match done {
-        Ok(()) => Exit::Success,
-        Err((problem, hint)) => {
-            say::error(problem, hint.as_deref());
-            Exit::Error
-        }
-    }
-}
-
-/// What is wrong, and what would help.
-pub(super) type Problem = (String, Option<String>);
-
-pub(super) fn plainly(problem: impl ToString) -> Problem {
-    (problem.to_string(), None)
+    }?;
+    Ok(Exit::Success)
 }
 
 /// A folder of the user's own, or a vehicle that `rheotaxis list vehicles` names; letters count as small ones.
-fn spec(folder: &Path) -> Result<VehicleSpec, Problem> {
+fn spec(folder: &Path) -> Result<VehicleSpec, Failure> {
     let name = folder.to_string_lossy().trim_end_matches('/').to_string();
     if folder.is_dir() {
         return Ok(VehicleSpec::File(name));
@@ -57,13 +44,13 @@ fn spec(folder: &Path) -> Result<VehicleSpec, Problem> {
             "only what moves freely in the water has trials; `rheotaxis run flume_crab` runs the gantry".to_string()
         }
         _ => {
-            return Err((
+            return Err(hinted(
                 format!("{name}: there is no such folder, and no such vehicle comes with the program"),
-                Some(format!("vehicles that come with the program: remus100, kinematic, {}", names())),
+                format!("vehicles that come with the program: remus100, kinematic, {}", names()),
             ));
         }
     };
-    Err((format!("{name} is a word of scenario files and no vehicle by itself"), Some(hint)))
+    Err(hinted(format!("{name} is a word of scenario files and no vehicle by itself"), hint))
 }
 
 fn names() -> String {
@@ -80,8 +67,8 @@ fn title(craft: &Vehicle) -> &str {
     }
 }
 
-pub(super) fn loaded(folder: &Path) -> Result<Vehicle, Problem> {
-    Vehicle::load(&spec(folder)?, &FolderFiles(Path::new(""))).map_err(plainly)
+fn loaded(folder: &Path) -> Result<Vehicle, Failure> {
+    Ok(Vehicle::load(&spec(folder)?, &FolderFiles(Path::new("")))?)
 }
 
 /// A name for files, from a folder.
@@ -89,7 +76,7 @@ fn stem(folder: &Path) -> String {
     folder.file_name().map_or("vehicle".into(), |n| n.to_string_lossy().into_owned())
 }
 
-fn check(args: &VehicleCheckArgs) -> Result<(), Problem> {
+fn check(args: &VehicleCheckArgs) -> Result<(), Failure> {
     let craft = loaded(&args.folder)?;
     for doubt in craft.doubts() {
         say::line(format_args!("doubt: {doubt}"));
@@ -106,16 +93,15 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Problem> {
     let out = (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
     let svg = drawn(&looks(vehicle));
     if out.extension().is_some_and(|e| e == "png") {
-        write_whole(&out, &png(&svg).map_err(plainly)?).map_err(plainly)?;
+        write_whole(&out, &png(&svg)?)?;
     } else {
-        write_whole(&out, svg.as_bytes()).map_err(plainly)?;
+        write_whole(&out, svg.as_bytes())?;
     }
     say::line(out.display());
     let n = craft.doubts().len();
     say::line(match n {
         0 => "no doubts".to_string(),
-        1 => "1 doubt".to_string(),
-        n => format!("{n} doubts"),
+        n => say::count(n as u64, "doubt"),
     });
     Ok(())
 }
@@ -206,17 +192,17 @@ fn looks(vehicle: &FolderVehicle) -> Looks {
     }
 }
 
-fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Problem> {
-    beside_no_run(&args.out.join("trials.csv")).map_err(plainly)?;
+fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Failure> {
+    beside_no_run(&args.out.join("trials.csv"))?;
     let craft = loaded(&args.folder)?;
     let name = title(&craft);
     say::line(format_args!("{name}: trials in water of 1025 kg/m3, steps of 0.02 s"));
     let all = trials(&craft);
     let is_lost = |trial: &&Trial| trial.found.iter().any(|f| f.value.is_some_and(|v| !v.is_finite()));
     if let Some(trial) = all.iter().find(is_lost) {
-        return Err((
+        return Err(hinted(
             format!("{}: the state of {name} is not a number any more: a force on it is too great", trial.name),
-            Some("look at masses, damping and drives in its folder".into()),
+            "look at masses, damping and drives in its folder",
         ));
     }
     for trial in &all {
@@ -226,68 +212,40 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Problem> {
             say::line(format_args!("  {:<42} {value}", found.what));
         }
     }
-    make_folder(&args.out).map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
+    make_folder(&args.out).map_err(|e| format!("{}: {e}", args.out.display()))?;
     let svg = figure(name, &all);
     let mut files = vec![
-        ("trials.csv", table(&all).into_bytes()),
-        ("trials.png", png(&svg).map_err(plainly)?),
+        ("trials.csv", numbers_csv(&all).into_bytes()),
+        ("trials.png", png(&svg)?),
         ("trials.svg", svg.into_bytes()),
     ];
     if has_rudder(&craft) {
-        files.push(("steering.csv", steering(&all).into_bytes()));
+        files.push(("steering.csv", steering_csv(&all).into_bytes()));
     } else {
         say::line("it has no rudder: no turning circle and no zigzag by rudder (IMO MSC.137(76))");
     }
     for (file, bytes) in files {
         let path = args.out.join(file);
-        write_whole(&path, &bytes).map_err(plainly)?;
+        write_whole(&path, &bytes)?;
         say::line(path.display());
     }
     Ok(())
 }
 
-fn table(trials: &[Trial]) -> String {
-    let mut text = String::from("trial,what,value,unit\n");
-    for trial in trials {
-        for found in &trial.found {
-            let value = found.value.map_or(String::new(), |v| v.to_string());
-            let what = found.what.replace(',', ";");
-            writeln!(text, "{},{what},{value},{}", trial.name, found.unit).expect("writing to a String succeeds");
-        }
-    }
-    text
-}
-
-/// Heading and rudder over time of the trials by rudder.
-fn steering(trials: &[Trial]) -> String {
-    let mut text = String::from("trial,t_s,ahead_m,starboard_m,heading_deg,rudder_deg,speed_m_s\n");
-    for trial in trials {
-        for r in &trial.rows {
-            writeln!(
-                text,
-                "{},{:.2},{:.3},{:.3},{:.3},{:.3},{:.4}",
-                trial.name, r.t_s, r.ahead_m, r.starboard_m, r.heading_deg, r.rudder_deg, r.speed_m_s
-            )
-            .expect("writing to a String succeeds");
-        }
-    }
-    text
-}
-
-fn init(args: &VehicleInitArgs) -> Result<(), Problem> {
+fn init(args: &VehicleInitArgs) -> Result<(), Failure> {
     let Some(shipped) = ShippedVehicle::named(&args.name) else {
-        return Err((
+        return Err(hinted(
             format!("no vehicle \"{}\" comes with the program", args.name),
-            Some(format!("there are {}", names())),
+            format!("there are {}", names()),
         ));
     };
     if args.folder.exists() {
-        return Err((format!("{} exists already", args.folder.display()), Some("name a new folder".into())));
+        return Err(hinted(format!("{} exists already", args.folder.display()), "name a new folder"));
     }
-    make_folder(&args.folder).map_err(|e| plainly(format!("{}: {e}", args.folder.display())))?;
+    make_folder(&args.folder).map_err(|e| format!("{}: {e}", args.folder.display()))?;
     for (name, text) in [("vehicle.ron", shipped.file), shipped.urdf] {
         let path = args.folder.join(name);
-        write_whole(&path, text.as_bytes()).map_err(plainly)?;
+        write_whole(&path, text.as_bytes())?;
         say::line(path.display());
     }
     Ok(())

@@ -3,59 +3,35 @@
 //! The crate `numpy` would do so too; it needs other features of the linear algebra that the simulator stands on, so
 //! that all of it would be built a second time.
 
+use bytemuck::NoUninit;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyTuple};
 
 /// A number as NumPy stores it.
-pub(crate) trait Element: Copy {
+pub(crate) trait Element: NoUninit {
     /// NumPy's name of the type.
     const TYPE: &'static str;
-    /// Its size, bytes.
-    const SIZE: usize;
-    /// Writes it, in the machine's order of bytes.
-    fn write(self, to: &mut [u8]);
 }
 
 impl Element for f64 {
     const TYPE: &'static str = "float64";
-    const SIZE: usize = 8;
-    fn write(self, to: &mut [u8]) {
-        to.copy_from_slice(&self.to_ne_bytes());
-    }
 }
 
 impl Element for f32 {
     const TYPE: &'static str = "float32";
-    const SIZE: usize = 4;
-    fn write(self, to: &mut [u8]) {
-        to.copy_from_slice(&self.to_ne_bytes());
-    }
 }
 
 impl Element for i64 {
     const TYPE: &'static str = "int64";
-    const SIZE: usize = 8;
-    fn write(self, to: &mut [u8]) {
-        to.copy_from_slice(&self.to_ne_bytes());
-    }
 }
 
 impl Element for bool {
     const TYPE: &'static str = "bool";
-    const SIZE: usize = 1;
-    fn write(self, to: &mut [u8]) {
-        to[0] = u8::from(self);
-    }
 }
 
 /// An array of a shape, with the values in C order.
 pub(crate) fn array<'py, T: Element>(py: Python<'py>, values: &[T], shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
-    let memory = PyByteArray::new_with(py, values.len() * T::SIZE, |bytes| {
-        for (to, value) in bytes.chunks_exact_mut(T::SIZE).zip(values) {
-            value.write(to);
-        }
-        Ok(())
-    })?;
+    let memory = PyByteArray::new(py, bytemuck::cast_slice(values));
     let shape = PyTuple::new(py, shape)?;
     let numpy = py.import("numpy")?;
     numpy.getattr("ndarray")?.call1((shape, T::TYPE, memory))

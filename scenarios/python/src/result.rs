@@ -256,7 +256,7 @@ fn copied<'py>(columns: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
 }
 
 /// A figure of a run.
-#[pyclass(frozen, name = "Figure", module = "rheotaxis")]
+#[pyclass(frozen, get_all, name = "Figure", module = "rheotaxis")]
 pub(crate) struct PyFigure {
     name: String,
     title: String,
@@ -271,21 +271,6 @@ impl PyFigure {
 
 #[pymethods]
 impl PyFigure {
-    #[getter]
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    #[getter]
-    fn title(&self) -> &str {
-        &self.title
-    }
-
-    #[getter]
-    fn svg(&self) -> &str {
-        &self.svg
-    }
-
     #[getter]
     fn png<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         self._repr_png_(py)

@@ -2,21 +2,11 @@
 
 use super::far::{self, Frame};
 use super::label_box::LabelBox;
-use super::panel::Panel;
 use super::thin::thinned;
 use crate::decimal::push_decimal;
 use std::fmt::Write as _;
 
-/// Position of a text relative to its point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Anchor {
-    /// The text begins at the point.
-    Start,
-    /// The text is centred on the point.
-    Middle,
-    /// The text ends at the point.
-    End,
-}
+pub use super::label_box::Anchor;
 
 /// How a line or shape looks; `None` leaves it out.
 #[derive(Clone, Debug, Default)]
@@ -207,34 +197,7 @@ impl Canvas {
         self.taken.push(room);
     }
 
-    /// The area of a label that would cover other things or lie outside the panel, px².
-    fn in_the_way(&self, room: &LabelBox, panel: &Panel) -> f64 {
-        let on_others: f64 = self.taken.iter().map(|t| room.shared(t)).sum();
-        on_others + room.outside(panel)
-    }
-
-    /// Draws rimmed text at the first of several places where it covers nothing and lies within the panel. If there is
-    /// none, it takes the place where it covers least, or omits the text if that is allowed.
-    pub fn label_at(
-        &mut self,
-        places: &[([f64; 2], Anchor)],
-        size: f64,
-        s: &str,
-        panel: &Panel,
-        may_be_left_out: bool,
-    ) {
-        let hidden =
-            |(at, anchor): &([f64; 2], Anchor)| self.in_the_way(&LabelBox::of_text(*at, size, *anchor, s), panel);
-        let free = places.iter().find(|p| hidden(p) == 0.0).copied();
-        let least = || places.iter().copied().min_by(|a, b| hidden(a).total_cmp(&hidden(b)));
-        let chosen = if may_be_left_out { free } else { free.or_else(least) };
-        if let Some((at, anchor)) = chosen {
-            self.rimmed(at, size, anchor, s);
-        }
-    }
-
     /// Space occupied so far.
-    #[cfg(test)]
     pub fn taken(&self) -> &[LabelBox] {
         &self.taken
     }

@@ -1,7 +1,15 @@
 //! Space on a sheet: what texts and keys occupy, and a free place for the next label.
 
-use super::canvas::Anchor;
-use super::panel::Panel;
+/// Position of a text relative to its point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Anchor {
+    /// The text begins at the point.
+    Start,
+    /// The text is centred on the point.
+    Middle,
+    /// The text ends at the point.
+    End,
+}
 
 /// A rectangle of the sheet, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +46,6 @@ impl LabelBox {
         let w = self.right.min(other.right) - self.left.max(other.left);
         let h = self.bottom.min(other.bottom) - self.top.max(other.top);
         w.max(0.0) * h.max(0.0)
-    }
-
-    /// The part outside a panel, px².
-    pub fn outside(&self, panel: &Panel) -> f64 {
-        let all = (self.right - self.left) * (self.bottom - self.top);
-        let sheet = LabelBox { left: panel.left, top: panel.top, right: panel.right(), bottom: panel.bottom() };
-        (all - self.shared(&sheet)).max(0.0)
     }
 }
 

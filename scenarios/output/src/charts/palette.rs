@@ -19,23 +19,28 @@ pub const BELIEVED: &str = "#555555";
 /// The flow.
 pub const FLOW: &str = "#1f4e79";
 
+/// Colour of a behaviour, and its name for people.
+pub fn behaviour_look(b: Behaviour) -> (&'static str, &'static str) {
+    match b {
+        Behaviour::Idle => ("#bbbbbb", "Idle"),
+        Behaviour::OpenLoop => ("#0072b2", "Open loop"),
+        Behaviour::GoTo => ("#56b4e9", "Go-To"),
+        Behaviour::Find => ("#0072b2", "Find"),
+        Behaviour::TrackIn => ("#d55e00", "Track-In"),
+        Behaviour::TrackOut => ("#e69f00", "Track-Out"),
+        Behaviour::Reacquire => ("#cc79a7", "Reacquire"),
+        Behaviour::GoHome => ("#000000", "Go-Home"),
+        Behaviour::Done => ("#888888", "Done"),
+        Behaviour::FollowPath => ("#009e73", "Follow path"),
+        Behaviour::Avoid => ("#f0e442", "Avoid"),
+        Behaviour::Survey => ("#6a3d9a", "Survey"),
+        Behaviour::Other(name) => ("#a6761d", name),
+    }
+}
+
 /// Colour of a behaviour.
 pub fn behaviour(b: Behaviour) -> &'static str {
-    match b {
-        Behaviour::Idle => "#bbbbbb",
-        Behaviour::OpenLoop => "#0072b2",
-        Behaviour::GoTo => "#56b4e9",
-        Behaviour::Find => "#0072b2",
-        Behaviour::TrackIn => "#d55e00",
-        Behaviour::TrackOut => "#e69f00",
-        Behaviour::Reacquire => "#cc79a7",
-        Behaviour::GoHome => "#000000",
-        Behaviour::Done => "#888888",
-        Behaviour::FollowPath => "#009e73",
-        Behaviour::Avoid => "#f0e442",
-        Behaviour::Survey => "#6a3d9a",
-        Behaviour::Other(_) => "#a6761d",
-    }
+    behaviour_look(b).0
 }
 
 /// Colour of the vehicle of this number, where there are several; none is that of the search, or of the plume.
@@ -44,47 +49,21 @@ pub fn vehicle(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 
-/// Name of a behaviour for people.
-pub fn behaviour_label(b: Behaviour) -> &'static str {
+/// Colour of a gantry's behaviour, and its name for people.
+pub fn gantry_look(b: GantryBehaviour) -> (&'static str, &'static str) {
     match b {
-        Behaviour::Idle => "Idle",
-        Behaviour::OpenLoop => "Open loop",
-        Behaviour::GoTo => "Go-To",
-        Behaviour::Find => "Find",
-        Behaviour::TrackIn => "Track-In",
-        Behaviour::TrackOut => "Track-Out",
-        Behaviour::Reacquire => "Reacquire",
-        Behaviour::GoHome => "Go-Home",
-        Behaviour::Done => "Done",
-        Behaviour::FollowPath => "Follow path",
-        Behaviour::Avoid => "Avoid",
-        Behaviour::Survey => "Survey",
-        Behaviour::Other(name) => name,
+        GantryBehaviour::Idle => ("#bbbbbb", "Idle"),
+        GantryBehaviour::Sweep => ("#0072b2", "Full sweep"),
+        GantryBehaviour::ToBest => ("#56b4e9", "To best place"),
+        GantryBehaviour::StepUp => ("#d55e00", "Step up-stream"),
+        GantryBehaviour::Cast => ("#cc79a7", "Cast"),
+        GantryBehaviour::Done => ("#888888", "Stopped"),
     }
 }
 
 /// Colour of a gantry's behaviour.
 pub fn gantry_behaviour(b: GantryBehaviour) -> &'static str {
-    match b {
-        GantryBehaviour::Idle => "#bbbbbb",
-        GantryBehaviour::Sweep => "#0072b2",
-        GantryBehaviour::ToBest => "#56b4e9",
-        GantryBehaviour::StepUp => "#d55e00",
-        GantryBehaviour::Cast => "#cc79a7",
-        GantryBehaviour::Done => "#888888",
-    }
-}
-
-/// Name of a gantry's behaviour for people.
-pub fn gantry_words(b: GantryBehaviour) -> &'static str {
-    match b {
-        GantryBehaviour::Idle => "Idle",
-        GantryBehaviour::Sweep => "Full sweep",
-        GantryBehaviour::ToBest => "To best place",
-        GantryBehaviour::StepUp => "Step up-stream",
-        GantryBehaviour::Cast => "Cast",
-        GantryBehaviour::Done => "Stopped",
-    }
+    gantry_look(b).0
 }
 
 fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
@@ -100,29 +79,22 @@ pub fn depth(share: f64) -> String {
     mix([0xf6, 0xf9, 0xfb], [0xb9, 0xcf, 0xdf], share)
 }
 
+/// A ramp over three colours.
+fn ramp([low, middle, high]: [[u8; 3]; 3], share: f64) -> String {
+    if share < 0.5 { mix(low, middle, 2.0 * share) } else { mix(middle, high, 2.0 * share - 1.0) }
+}
+
 /// Plume, from thin (0) to dense (1).
 pub fn plume(share: f64) -> String {
-    if share < 0.5 {
-        mix([0xd3, 0xe8, 0xa8], [0x5a, 0xae, 0x61], 2.0 * share)
-    } else {
-        mix([0x5a, 0xae, 0x61], [0x00, 0x44, 0x1b], 2.0 * share - 1.0)
-    }
+    ramp([[0xd3, 0xe8, 0xa8], [0x5a, 0xae, 0x61], [0x00, 0x44, 0x1b]], share)
 }
 
 /// Colour of the probability that the source is there, from small (0) to the largest (1).
 pub fn likelihood(share: f64) -> String {
-    if share < 0.5 {
-        mix([0xff, 0xf7, 0xec], [0xfc, 0x8d, 0x59], 2.0 * share)
-    } else {
-        mix([0xfc, 0x8d, 0x59], [0x7f, 0x00, 0x00], 2.0 * share - 1.0)
-    }
+    ramp([[0xff, 0xf7, 0xec], [0xfc, 0x8d, 0x59], [0x7f, 0x00, 0x00]], share)
 }
 
 /// Colour of a sidescan's echo, from none (0) to strong (1): the copper of paper records.
 pub fn echo(share: f64) -> String {
-    if share < 0.5 {
-        mix([0x08, 0x06, 0x04], [0x9a, 0x5f, 0x22], 2.0 * share)
-    } else {
-        mix([0x9a, 0x5f, 0x22], [0xff, 0xf3, 0xd2], 2.0 * share - 1.0)
-    }
+    ramp([[0x08, 0x06, 0x04], [0x9a, 0x5f, 0x22], [0xff, 0xf3, 0xd2]], share)
 }

@@ -1,6 +1,7 @@
 //! A pair of axes: conversion from values to pixels, ticks, frame.
 
 use super::canvas::{Anchor, Canvas, Style};
+use super::label_box::LabelBox;
 use super::palette::{GRID, INK};
 use world::math;
 
@@ -57,6 +58,11 @@ impl Panel {
         self.width / (self.x[1] - self.x[0])
     }
 
+    /// Positions of the corners of lines or rings, px.
+    pub fn lines(&self, lines: &[Vec<[f64; 2]>]) -> Vec<Vec<[f64; 2]>> {
+        lines.iter().map(|line| self.all(line)).collect()
+    }
+
     /// Hides what is drawn outside the panel until the next unclip.
     pub fn clip(&self, c: &mut Canvas) {
         c.clip(self.left, self.top, self.width, self.height);
@@ -72,6 +78,19 @@ impl Panel {
     /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(self.left, self.top, self.width, self.height, &Style::line(INK, width));
+    }
+
+    /// The edge, with ticks and numbers along the bottom and the left.
+    pub fn axes(&self, c: &mut Canvas, apart_px: f64, size: f64) {
+        self.frame(c, 1.0);
+        self.x_ticks(c, true, size);
+        self.y_ticks(c, apart_px, size);
+    }
+
+    /// What the axes are: words so far below the panel and to the left of it, px.
+    pub fn names(&self, c: &mut Canvas, size: f64, [x, y]: [&str; 2], [below, left]: [f64; 2]) {
+        c.text([self.left + self.width / 2.0, self.bottom() + below], size, Anchor::Middle, x);
+        c.upright([self.left - left, self.top + self.height / 2.0], size, y);
     }
 
     /// Ticks and numbers along the bottom.
@@ -115,6 +134,28 @@ impl Panel {
         for v in ticks(self.y, step) {
             let y = self.py(v);
             c.line([self.left, y], [self.right(), y], &Style::line(GRID, 0.7));
+        }
+    }
+
+    /// The part of a room outside it, px².
+    pub fn outside(&self, room: &LabelBox) -> f64 {
+        let all = (room.right - room.left) * (room.bottom - room.top);
+        let own = LabelBox { left: self.left, top: self.top, right: self.right(), bottom: self.bottom() };
+        (all - room.shared(&own)).max(0.0)
+    }
+
+    /// Draws rimmed text at the first of several places where it covers nothing and lies within the panel. If there is
+    /// none, it takes the place where it covers least, or omits the text if that is allowed.
+    pub fn label_at(&self, c: &mut Canvas, places: &[([f64; 2], Anchor)], size: f64, s: &str, may_be_left_out: bool) {
+        let in_the_way = |(at, anchor): &([f64; 2], Anchor)| {
+            let room = LabelBox::of_text(*at, size, *anchor, s);
+            c.taken().iter().map(|t| room.shared(t)).sum::<f64>() + self.outside(&room)
+        };
+        let free = places.iter().find(|p| in_the_way(p) == 0.0).copied();
+        let least = || places.iter().copied().min_by(|a, b| in_the_way(a).total_cmp(&in_the_way(b)));
+        let chosen = if may_be_left_out { free } else { free.or_else(least) };
+        if let Some((at, anchor)) = chosen {
+            c.rimmed(at, size, anchor, s);
         }
     }
 }

@@ -4,6 +4,7 @@
 
 use super::section::Axes;
 use super::series_panels::axes as scales;
+use super::thinned::stretches;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, GREY, INK};
 use crate::charts::panel::{Panel, range_of};
@@ -102,11 +103,8 @@ fn tracking(t: &GantryTrack) -> &[GantryRow] {
 
 fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
     let mut found = Vec::new();
-    let mut k = 0;
-    while k < rows.len() {
-        let run = rows[k..].iter().take_while(|r| r.command == rows[k].command).count();
-        // Up to the first row of the next motion, because the way between the two belongs to this one.
-        let of = &rows[k..(k + run + 1).min(rows.len())];
+    // Up to the first row of the next motion, because the way between the two belongs to this one.
+    for (_, of) in stretches(rows, |r| r.command) {
         let points: Vec<[f64; 2]> = of.iter().map(|r| place.cm(r.head)).collect();
         let way: f64 = (points.windows(2))
             .map(|w| [w[1][0] - w[0][0], w[1][1] - w[0][1]])
@@ -116,13 +114,12 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
         let n = points.len() as f64;
         if time > 0.0 {
             found.push(Motion {
-                behaviour: rows[k].behaviour,
+                behaviour: of[0].behaviour,
                 away: points.iter().map(|p| p[0]).sum::<f64>() / n,
                 aside: points.iter().map(|p| p[1].abs()).sum::<f64>() / n,
                 speed: way / time,
             });
         }
-        k += run;
     }
     found
 }
@@ -141,8 +138,8 @@ fn key(c: &mut Canvas, motions: &[Motion]) {
     let mut x = LEFT + 6.0;
     for b in GantryBehaviour::ALL {
         if motions.iter().any(|m| m.behaviour == b) {
-            c.circle([x, 43.0], 4.0, &Style::fill(palette::gantry_behaviour(b)));
-            let words = palette::gantry_words(b);
+            let (colour, words) = palette::gantry_look(b);
+            c.circle([x, 43.0], 4.0, &Style::fill(colour));
             c.text([x + 9.0, 47.0], 10.5, Anchor::Start, words);
             x += 30.0 + 6.8 * words.chars().count() as f64;
         }

@@ -3,13 +3,13 @@
 //! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 2 (field) and Fig. 9 (tracks), combined.
 
 use super::map_layers as layers;
-use super::map_legend::{BAR, LINE, SIZE, entry, heading, short};
+use super::map_legend::{BAR, LINE, Mark, SIZE, entry, heading, line, short, signs};
 use super::section::{Axes, Section};
-use super::thinned::thinned;
+use super::thinned::{stretches, thinned};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, FLOW, INK};
 use crate::charts::panel::Panel;
-use crate::results::{GantryTrack, RunReport};
+use crate::results::{GantryRow, GantryTrack, RunReport};
 use robots::handoff::GantryBehaviour;
 
 /// Largest size of the panel, px.
@@ -38,12 +38,11 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         for (k, level) in section.levels.iter().enumerate() {
             let colour = palette::plume(k as f64 / last);
             let style = Style::fill(&colour).faint(PLUME_OPACITY);
-            c.lines(&on(&panel, section.rings(*level)), true, &style);
+            c.lines(&panel.lines(&section.rings(*level)), true, &style);
         }
     }
     if let Some(below) = &below {
-        let edge = on(&panel, below.rings(below.edge()));
-        c.lines(&edge, true, &edge_style());
+        c.lines(&panel.lines(&below.rings(below.edge())), true, &edge_style());
     }
     if let Some([right, left]) = axes.sides {
         let (right, left) = (panel.py(right), panel.py(left));
@@ -69,10 +68,9 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     panel.y_ticks(&mut c, 60.0, 11.0);
     layers::scale_bar(&mut c, &panel, "cm");
     let origin = if run.sources.is_empty() { "start" } else { "source" };
-    let under = [panel.left + panel.width / 2.0, panel.bottom() + 40.0];
-    c.text(under, 12.0, Anchor::Middle, &format!("Down-stream of the {origin} (cm)"));
-    let beside = [22.0, panel.top + panel.height / 2.0];
-    c.upright(beside, 12.0, &format!("Left of the {origin}, looking down-stream (cm)"));
+    let names =
+        [format!("Down-stream of the {origin} (cm)"), format!("Left of the {origin}, looking down-stream (cm)")];
+    panel.names(&mut c, 12.0, [&names[0], &names[1]], [40.0, panel.left - 22.0]);
     let summary = run.summary;
     let title = format!("{} · {}", summary.headline(), t.info.id);
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
@@ -97,28 +95,15 @@ fn height(t: &GantryTrack) -> Option<f64> {
 
 /// The head's track, coloured by what the searcher did, and where each motion ended.
 fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
-    let at = |k: usize| panel.position(axes.cm(t.rows[k].head));
-    let all = thinned((0..t.rows.len()).map(at));
-    c.polyline(all, &Style::line("#ffffff", 4.4).faint(0.8));
-    let mut k = 0;
-    while k < t.rows.len() {
-        let b = t.rows[k].behaviour;
-        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
-        // One point into the next stretch, so that the line has no gaps.
-        let end = (k + run + 1).min(t.rows.len());
-        let points = thinned((k..end).map(at));
-        c.polyline(points, &Style::line(palette::gantry_behaviour(b), 2.2));
-        k += run;
+    let at = |r: &GantryRow| panel.position(axes.cm(r.head));
+    c.polyline(thinned(t.rows.iter().map(at)), &Style::line("#ffffff", 4.4).faint(0.8));
+    for (_, rows) in stretches(&t.rows, |r| r.behaviour) {
+        let style = Style::line(palette::gantry_behaviour(rows[0].behaviour), 2.2);
+        c.polyline(thinned(rows.iter().map(at)), &style);
     }
-    for (k, pair) in t.rows.windows(2).enumerate() {
-        if pair[0].command != pair[1].command && k > 0 {
-            halt(c, at(k));
-        }
+    for pair in t.rows.windows(2).skip(1).filter(|pair| pair[0].command != pair[1].command) {
+        halt(c, at(&pair[0]));
     }
-}
-
-fn on(panel: &Panel, rings: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
-    rings.iter().map(|r| panel.all(r)).collect()
 }
 
 fn edge_style() -> Style<'static> {
@@ -153,22 +138,17 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
     let moving =
         (GantryBehaviour::ALL.into_iter()).filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
     for b in moving.filter(seen) {
-        let colour = palette::gantry_behaviour(b);
-        c.line([x, y], [x + 24.0, y], &Style::line(colour, 2.6));
-        entry(c, x, &mut y, palette::gantry_words(b));
+        let (colour, words) = palette::gantry_look(b);
+        line(c, x, &mut y, &Style::line(colour, 2.6), words);
     }
-    type Draw = fn(&mut Canvas, [f64; 2]);
-    let marks: [(bool, Draw, &str); 5] = [
+    let marks: [Mark<'_>; 5] = [
         (true, halt, "end of a motion"),
         (true, layers::start, "start"),
         (!t.tips.is_empty(), probe, "probes at the end"),
         (t.declared.is_some(), layers::declared, "stopped: source declared"),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];
-    for (_, draw, words) in marks.iter().filter(|m| m.0) {
-        draw(c, [x + 12.0, y]);
-        entry(c, x, &mut y, words);
-    }
+    signs(c, x, &mut y, &marks);
     y += 10.0;
     for s in run.sources.iter().take(1).filter(|s| s.flow.norm() > 1e-6) {
         let along = -nalgebra::Vector2::from(t.forward).dot(&s.flow);
@@ -218,9 +198,7 @@ fn plume_key(
         y += 40.0;
     }
     if let (Some(below), Some(source)) = (below, run.sources.first()) {
-        c.line([x, y], [x + 24.0, y], &edge_style());
-        let words = format!("{} {}", short(below.edge()), below.unit);
-        entry(c, x, &mut y, &words);
+        line(c, x, &mut y, &edge_style(), &format!("{} {}", short(below.edge()), below.unit));
         let words = format!("{:.1} cm above the bed (source)", up_cm(source.position.z));
         entry(c, x, &mut y, &words);
     }

@@ -1,15 +1,14 @@
 //! The map: area, bed, plume, track by behaviour, and what was found where (after Pang 2009, Fig. 7).
 
-use super::map_layers as layers;
+use super::map_layers::{self as layers, Bed};
 use super::map_legend::keys;
 use super::map_section;
 use super::map_vehicles;
 use super::plume_load::PlumeLoad;
 use super::solids;
 use crate::charts::canvas::{Anchor, Canvas, Style};
-use crate::charts::contours::Grid;
 use crate::charts::palette::{GREY, INK};
-use crate::charts::panel::{Panel, nice_step, range_of};
+use crate::charts::panel::{Panel, range_of};
 use crate::results::{RobotTrack, RunReport, SourceTruth};
 use nalgebra::Vector2;
 
@@ -29,9 +28,6 @@ const LEAST_SHEET: f64 = 640.0;
 const ENLARGED: [f64; 2] = [1.5, 2.5];
 /// Largest and least inset, px.
 const INSET: [f64; 2] = [225.0, 120.0];
-/// Nodes of the bed's grid along each side.
-const BED_NODES: usize = 90;
-
 /// The map as SVG.
 pub fn map(run: &RunReport<'_>) -> String {
     sheet(run).svg("map")
@@ -50,10 +46,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     panel.frame(&mut c, 1.2);
     panel.x_ticks(&mut c, true, 11.0);
     panel.y_ticks(&mut c, 45.0, 11.0);
-    let middle = panel.left + panel.width / 2.0;
-    let under = [middle, panel.bottom() + 36.0];
-    c.text(under, 12.0, Anchor::Middle, "East (m)");
-    c.upright([22.0, panel.top + panel.height / 2.0], 12.0, "North (m)");
+    panel.names(&mut c, 12.0, ["East (m)", "North (m)"], [36.0, panel.left - 22.0]);
     let title = run.summary.headline();
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
     layers::scale_bar(&mut c, &panel, "m");
@@ -102,39 +95,6 @@ fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
     panel.clip(c);
     c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &Style::line(GREY, 1.0));
     c.unclip();
-}
-
-/// Depths over a panel.
-pub(super) struct Bed {
-    pub(super) grid: Grid,
-    /// Depths at which the shade changes, and depths drawn as lines.
-    pub(super) levels: Vec<f64>,
-    pub(super) range: [f64; 2],
-    pub(super) step: f64,
-}
-
-impl Bed {
-    fn from_run(run: &RunReport<'_>, panel: &Panel) -> Self {
-        let n = [BED_NODES, BED_NODES];
-        let depth = |x, y| (-run.terrain.bed_z(x, y)).max(0.0);
-        let grid = Grid::evaluate(panel.x, panel.y, n, depth);
-        let range = range_of(grid.values.iter().copied(), 0.0).unwrap_or([0.0, 1.0]);
-        let step = nice_step(range[1] - range[0], 5.0);
-        let level = range[1] - range[0] < 0.02 * range[1].max(1e-3);
-        let levels = if level {
-            Vec::new()
-        } else {
-            let first = (range[0] / step).floor() as i64 + 1;
-            let last = ((range[1] - 1e-9) / step).floor() as i64;
-            (first..=last).map(|k| k as f64 * step).collect()
-        };
-        Self { grid, levels, range, step }
-    }
-
-    /// Position in the ramp of shades for the band that begins at a depth.
-    pub(super) fn shade(&self, depth: f64) -> f64 {
-        (depth + 0.5 * self.step - self.range[0]) / (self.range[1] - self.range[0]).max(1e-9)
-    }
 }
 
 fn draw(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, bed: &Bed, plume: Option<&PlumeLoad>, close: bool) {

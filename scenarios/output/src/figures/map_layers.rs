@@ -1,19 +1,55 @@
 //! The map's layers, from the bed up.
 
-use super::map::Bed;
 use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
-use super::thinned::thinned;
+use super::thinned::{stretches, thinned};
 use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::contours::Grid;
 use crate::charts::label_box::LabelBox;
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
-use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
+use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten, range_of};
 use crate::results::{RobotTrack, RunReport, TrackRow};
 use nalgebra::Vector2;
 use robots::handoff::region_name;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
+
+/// Nodes of the bed's grid along each side.
+const BED_NODES: usize = 90;
+
+/// Depths over a panel.
+pub(super) struct Bed {
+    pub(super) grid: Grid,
+    /// Depths at which the shade changes, and depths drawn as lines.
+    pub(super) levels: Vec<f64>,
+    pub(super) range: [f64; 2],
+    pub(super) step: f64,
+}
+
+impl Bed {
+    pub(super) fn from_run(run: &RunReport<'_>, panel: &Panel) -> Self {
+        let n = [BED_NODES, BED_NODES];
+        let depth = |x, y| (-run.terrain.bed_z(x, y)).max(0.0);
+        let grid = Grid::evaluate(panel.x, panel.y, n, depth);
+        let range = range_of(grid.values.iter().copied(), 0.0).unwrap_or([0.0, 1.0]);
+        let step = nice_step(range[1] - range[0], 5.0);
+        let level = range[1] - range[0] < 0.02 * range[1].max(1e-3);
+        let levels = if level {
+            Vec::new()
+        } else {
+            let first = (range[0] / step).floor() as i64 + 1;
+            let last = ((range[1] - 1e-9) / step).floor() as i64;
+            (first..=last).map(|k| k as f64 * step).collect()
+        };
+        Self { grid, levels, range, step }
+    }
+
+    /// Position in the ramp of shades for the band that begins at a depth.
+    pub(super) fn shade(&self, depth: f64) -> f64 {
+        (depth + 0.5 * self.step - self.range[0]) / (self.range[1] - self.range[0]).max(1e-9)
+    }
+}
 
 /// Depth as shade.
 pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
@@ -22,7 +58,7 @@ pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     let style = palette::depth(level);
     c.rect(panel.left, panel.top, panel.width, panel.height, &Style::fill(&style));
     for &v in &bed.levels {
-        let rings = on(panel, bed.grid.rings(v));
+        let rings = panel.lines(&bed.grid.rings(v));
         c.lines(&rings, true, &Style::fill(&palette::depth(bed.shade(v))));
     }
 }
@@ -30,7 +66,7 @@ pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 /// Lines of equal depth with their depths.
 pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     for &v in &bed.levels {
-        let lines = on(panel, bed.grid.lines(v));
+        let lines = panel.lines(&bed.grid.lines(v));
         c.lines(&lines, false, &Style::line("#7893a8", 0.7));
     }
 }
@@ -39,14 +75,14 @@ pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     const PLACES: usize = 12;
     for &v in &bed.levels {
-        let lines = on(panel, bed.grid.lines(v));
+        let lines = panel.lines(&bed.grid.lines(v));
         if let Some(longest) = lines.iter().max_by_key(|l| l.len()) {
             let places: Vec<_> = (1..PLACES)
                 .map(|k| longest[k * longest.len() / PLACES])
                 .map(|[x, y]| ([x, y + 3.0], Anchor::Middle))
                 .collect();
             let text = format!("{} m", number(v, bed.step));
-            c.label_at(&places, 9.0, &text, panel, true);
+            panel.label_at(c, &places, 9.0, &text, true);
         }
     }
 }
@@ -55,14 +91,10 @@ pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
 pub(super) fn plume(c: &mut Canvas, panel: &Panel, load: &PlumeLoad) {
     let n = load.levels.len();
     for (k, &v) in load.levels.iter().enumerate() {
-        let rings = on(panel, load.grid.rings(v));
+        let rings = panel.lines(&load.grid.rings(v));
         let colour = palette::plume(k as f64 / (n - 1) as f64);
         c.lines(&rings, true, &Style::fill(&colour).faint(PLUME_OPACITY));
     }
-}
-
-fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
-    lines.iter().map(|l| panel.all(l)).collect()
 }
 
 /// The believed track. Among several vehicles, it is faint after the end of its mission.
@@ -85,16 +117,10 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, 
         (false, false) => 1.9,
     };
     let over = if several { over_from(t) } else { t.rows.len() };
-    let mut k = 0;
-    while k < t.rows.len() {
-        let b = t.rows[k].behaviour;
-        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
-        // One point into the next stretch, so that the line has no gaps.
-        let end = (k + run + 1).min(t.rows.len());
-        let points = thinned(t.rows[k..end].iter().map(|r| panel.position([r.p[0], r.p[1]])));
-        let style = Style::line(palette::behaviour(b), width);
-        c.polyline(points, &if k < over { style } else { style.faint(AFTER) });
-        k += run;
+    for (begin, rows) in stretches(&t.rows, |r| r.behaviour) {
+        let points = thinned(rows.iter().map(|r| panel.position([r.p[0], r.p[1]])));
+        let style = Style::line(palette::behaviour(rows[0].behaviour), width);
+        c.polyline(points, &if begin < over { style } else { style.faint(AFTER) });
     }
 }
 
@@ -169,7 +195,7 @@ pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robot
             .map(|p| (panel.position([p.x, p.y]), Anchor::Middle))
             .collect();
         let text = format!("{}: {}", region_name(k), region.state.label());
-        c.label_at(&places, 9.5, &text, panel, false);
+        panel.label_at(c, &places, 9.5, &text, false);
     }
     if let Some(r) = t.rows.first().filter(|_| several_robots) {
         beside(c, panel, [r.p[0], r.p[1]], &t.info.id);
@@ -197,7 +223,7 @@ fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
             ]
         })
         .collect();
-    c.label_at(&places, SIZE, name, panel, false);
+    panel.label_at(c, &places, SIZE, name, false);
 }
 
 pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {

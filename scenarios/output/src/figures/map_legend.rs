@@ -1,7 +1,6 @@
 //! The map's keys.
 
-use super::map::Bed;
-use super::map_layers as layers;
+use super::map_layers::{self as layers, Bed};
 use super::map_vehicles::{AFTER, BAND, WIDTH, over_from};
 use super::plume_load::PlumeLoad;
 use super::solids::{self, Passage};
@@ -52,14 +51,11 @@ fn vehicles(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
     let mut y = top + 6.0;
     heading(c, x, &mut y, "Vehicle, by the band round its track");
     for (k, t) in robots.iter().enumerate() {
-        let style = Style::line(palette::vehicle(k), WIDTH).faint(BAND);
-        c.line([x, y], [x + 24.0, y], &style);
-        entry(c, x, &mut y, &t.info.id);
+        line(c, x, &mut y, &Style::line(palette::vehicle(k), WIDTH).faint(BAND), &t.info.id);
     }
     if robots.iter().any(|t| over_from(t) < t.rows.len()) {
         let style = Style::line(palette::behaviour(Behaviour::Done), 2.6).faint(AFTER);
-        c.line([x, y], [x + 24.0, y], &style);
-        entry(c, x, &mut y, "after the end of its mission");
+        line(c, x, &mut y, &style, "after the end of its mission");
     }
     y
 }
@@ -68,22 +64,18 @@ fn tracks(c: &mut Canvas, seen: &[Behaviour], [x, top]: [f64; 2]) -> f64 {
     let mut y = top + 6.0;
     heading(c, x, &mut y, "True track, by behaviour");
     for b in seen {
-        let style = Style::line(palette::behaviour(*b), 2.6);
-        c.line([x, y], [x + 24.0, y], &style);
-        entry(c, x, &mut y, palette::behaviour_label(*b));
+        let (colour, words) = palette::behaviour_look(*b);
+        line(c, x, &mut y, &Style::line(colour, 2.6), words);
     }
-    let style = Style::line(BELIEVED, 0.9).dashed("2 2");
-    c.line([x, y], [x + 24.0, y], &style);
-    entry(c, x, &mut y, "believed track");
+    line(c, x, &mut y, &Style::line(BELIEVED, 0.9).dashed("2 2"), "believed track");
     y
 }
 
 fn marks(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
     let mut y = top + 6.0;
     let robots = &run.track.robots;
-    type Draw = fn(&mut Canvas, [f64; 2]);
     let any = |of: fn(&RobotTrack) -> bool| robots.iter().any(of);
-    let marks: [(bool, Draw, &str); 7] = [
+    let marks: [Mark<'_>; 7] = [
         (any(|t| !t.rows.is_empty()), layers::start, "start"),
         (any(|t| !t.detections.is_empty()), layers::detection, "detection"),
         (any(|t| !t.lost_points.is_empty()), layers::lost_point, "plume lost (believed)"),
@@ -96,15 +88,10 @@ fn marks(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
         (any(|t| t.declarations.iter().any(Declaration::at_edge)), layers::plume_at_edge, "plume at up-flow edge"),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];
-    for (_, draw, words) in marks.iter().filter(|m| m.0) {
-        draw(c, [x + 12.0, y]);
-        entry(c, x, &mut y, words);
-    }
-    c.line([x, y], [x + 24.0, y], &Style::line(INK, 1.6).dashed("7 4"));
-    entry(c, x, &mut y, "operating area");
+    signs(c, x, &mut y, &marks);
+    line(c, x, &mut y, &Style::line(INK, 1.6).dashed("7 4"), "operating area");
     if any(|t| !t.regions.is_empty()) {
-        c.line([x, y], [x + 24.0, y], &layers::region_line());
-        entry(c, x, &mut y, "subregion");
+        line(c, x, &mut y, &layers::region_line(), "subregion");
     }
     obstacles(c, run, x, &mut y);
     y
@@ -132,6 +119,23 @@ pub(super) fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
 pub(super) fn entry(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
     c.text([x + 34.0, *y + 4.0], SIZE, Anchor::Start, words);
     *y += LINE;
+}
+
+/// A line as it is drawn, and what it is.
+pub(super) fn line(c: &mut Canvas, x: f64, y: &mut f64, style: &Style<'_>, words: &str) {
+    c.line([x, *y], [x + 24.0, *y], style);
+    entry(c, x, y, words);
+}
+
+/// A mark: whether it is there, how it is drawn, and what it is.
+pub(super) type Mark<'a> = (bool, fn(&mut Canvas, [f64; 2]), &'a str);
+
+/// The marks that are there.
+pub(super) fn signs(c: &mut Canvas, x: f64, y: &mut f64, marks: &[Mark<'_>]) {
+    for (_, draw, words) in marks.iter().filter(|m| m.0) {
+        draw(c, [x + 12.0, *y]);
+        entry(c, x, y, words);
+    }
 }
 
 /// Direction and speed of the mean flow at each source.
@@ -164,19 +168,14 @@ fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
         return;
     }
     heading(c, x, y, "Water depth (m)");
-    let n = bed.levels.len() + 1;
-    let w = BAR / n as f64;
     let first = bed.levels[0] - bed.step;
-    for k in 0..n {
+    let n = bed.levels.len() + 1;
+    let levels = (0..n).map(|k| {
         let v = first + k as f64 * bed.step;
-        let colour = palette::depth(bed.shade(v));
-        c.rect(x + k as f64 * w, *y - 7.0, w, 11.0, &Style::fill(&colour).edged("#7893a8", 0.6));
-        if k > 0 {
-            let at = [x + k as f64 * w, *y + 16.0];
-            c.text(at, 9.0, Anchor::Middle, &number(v, bed.step));
-        }
-    }
-    *y += 36.0;
+        let label = if k > 0 { number(v, bed.step) } else { String::new() };
+        (palette::depth(bed.shade(v)), label)
+    });
+    levels_key(c, x, y, "#7893a8", levels);
 }
 
 fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
@@ -187,13 +186,26 @@ fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
 
 /// Colours of a plume's levels, each with the amount at which it begins.
 pub(super) fn plume_levels(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad) {
-    let n = p.levels.len();
-    let w = BAR / n as f64;
-    for (k, &v) in p.levels.iter().enumerate() {
-        let colour = palette::plume(k as f64 / (n - 1) as f64);
-        c.rect(x + k as f64 * w, *y - 7.0, w, 11.0, &Style::fill(&colour).edged("#5b7a5b", 0.6));
-        let at = [x + k as f64 * w, *y + 16.0];
-        c.text(at, 9.0, Anchor::Middle, &short(v));
+    let last = (p.levels.len() - 1) as f64;
+    let levels = p.levels.iter().enumerate();
+    levels_key(c, x, y, "#5b7a5b", levels.map(|(k, v)| (palette::plume(k as f64 / last), short(*v))));
+}
+
+/// A bar of colours, and what stands below the beginning of each.
+fn levels_key(
+    c: &mut Canvas,
+    x: f64,
+    y: &mut f64,
+    edge: &str,
+    levels: impl ExactSizeIterator<Item = (String, String)>,
+) {
+    let w = BAR / levels.len() as f64;
+    for (k, (colour, label)) in levels.enumerate() {
+        let left = x + k as f64 * w;
+        c.rect(left, *y - 7.0, w, 11.0, &Style::fill(&colour).edged(edge, 0.6));
+        if !label.is_empty() {
+            c.text([left, *y + 16.0], 9.0, Anchor::Middle, &label);
+        }
     }
     *y += 36.0;
 }

@@ -10,7 +10,7 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::contours::Grid;
 use crate::charts::palette::{self, INK};
 use crate::charts::panel::Panel;
-use crate::results::{ObstacleOutline, RobotTrack, RunReport, SourceTruth};
+use crate::results::{ObstacleOutline, RobotTrack, RunReport, SourceTruth, TrackRow};
 use nalgebra::{Vector2, Vector3};
 use world::obstacles::Obstacle;
 
@@ -94,12 +94,8 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
         }
     }
     c.unclip();
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 32.0, 10.0);
-    c.upright([22.0, top + HEIGHT / 2.0], 11.0, "Up (m)");
-    let middle = [left + panel.width / 2.0, panel.bottom() + 32.0];
-    c.text(middle, 11.0, Anchor::Middle, "Down-flow of the source (m)");
+    panel.axes(c, 32.0, 10.0);
+    panel.names(c, 11.0, ["Down-flow of the source (m)", "Up (m)"], [32.0, left - 22.0]);
     let name = if run.sources.len() > 1 { &source.id } else { "the source" };
     let words = format!("Vertical section along the flow at {name}; mean of ±{} m across", short_m(cut.half_m));
     c.bold([left, top - 8.0], 10.5, Anchor::Start, &words);
@@ -255,16 +251,11 @@ fn profile(o: &ObstacleOutline, shape: Option<&Obstacle>, cut: &Cut, [from, to]:
 
 /// The part of the robot's track that lies in the section's width.
 fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
-    let mut k = 0;
-    while k < t.rows.len() {
-        let b = t.rows[k].behaviour;
-        let inside =
-            |r: &&crate::results::TrackRow| r.behaviour == b && cut.local([r.p[0], r.p[1]]).y.abs() <= cut.half_m;
-        let run = t.rows[k..].iter().take_while(inside).count();
-        let points = t.rows[k..k + run].iter();
-        let points = points.map(|r| panel.position([cut.local([r.p[0], r.p[1]]).x, r.p[2]]));
-        c.polyline(thinned(points), &Style::line(palette::behaviour(b), 1.6));
-        k += run.max(1);
+    let place = |r: &TrackRow| cut.local([r.p[0], r.p[1]]);
+    let inside = |r: &TrackRow| place(r).y.abs() <= cut.half_m;
+    for run in t.rows.chunk_by(|a, b| a.behaviour == b.behaviour && inside(a) == inside(b)).filter(|r| inside(&r[0])) {
+        let points = run.iter().map(|r| panel.position([place(r).x, r.p[2]]));
+        c.polyline(thinned(points), &Style::line(palette::behaviour(run[0].behaviour), 1.6));
     }
 }
 

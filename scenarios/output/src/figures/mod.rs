@@ -16,7 +16,9 @@ mod probe_records;
 mod section;
 mod series;
 mod series_panels;
+mod shaded_cells;
 mod sidescan;
+mod small_maps;
 mod solids;
 #[cfg(test)]
 mod tests_map;

@@ -1,21 +1,15 @@
 //! Where odour was believed to be, at chosen times: probability of detection, the odour's way to the vehicle, and the
 //! vehicle's best way to the odour (products of Farrell, Pang & Li 2003 in addition to the source map).
 
-use super::belief::{axes, bounds, scale, shades};
 use super::map_layers as layers;
-use super::solids;
+use super::small_maps::{LEFT, axes, place, scale, shades, sheet, vehicle};
 use crate::charts::canvas::{Anchor, Canvas, Style};
-use crate::charts::palette::INK;
 use crate::charts::panel::Panel;
 use crate::results::RunReport;
 use crate::results::belief_track::RobotBelief;
 use robots::handoff::Odour;
 
-/// Largest panel, px.
-const LARGEST: [f64; 2] = [560.0, 430.0];
-const LEFT: f64 = 66.0;
 const TOP: f64 = 62.0;
-const GAP: [f64; 2] = [70.0, 92.0];
 /// Largest number of panels.
 const PANELS: usize = 4;
 /// The odour's way, and the vehicle's.
@@ -27,27 +21,11 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let last = robot.odour.len() - 1;
     let mut times: Vec<usize> = (0..PANELS).map(|k| k * last / (PANELS - 1)).collect();
     times.dedup();
-    let (x, y) = bounds(run);
-    let px = (LARGEST[0] / (x[1] - x[0])).min(LARGEST[1] / (y[1] - y[0]));
-    let (width, height) = ((x[1] - x[0]) * px, (y[1] - y[0]) * px);
-    let step = width.max(250.0) + GAP[0];
-    let mut c = Canvas::new(
-        LEFT + times.len().min(2) as f64 * step,
-        TOP + times.len().div_ceil(2) as f64 * (height + GAP[1]) + 30.0,
-    );
     let title = format!("{} · {}: where odour may be met", run.summary.headline(), robot.id);
-    c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
-    for (k, time) in times.iter().enumerate() {
-        let panel = Panel {
-            left: LEFT + (k % 2) as f64 * step,
-            top: TOP + (k / 2) as f64 * (height + GAP[1]),
-            width,
-            height,
-            x,
-            y,
-        };
+    let (mut c, panels) = sheet(run, &title, times.len(), TOP, 30.0);
+    for (panel, time) in panels.iter().zip(&times) {
         let o = &robot.odour[*time];
-        one(&mut c, run, &panel, o);
+        one(&mut c, run, panel, o);
         let caption = format!("t = {:.0} s", o.t_s);
         c.bold([panel.left, panel.top - 8.0], 11.0, Anchor::Start, &caption);
         let most = o.detection.iter().fold(0.0, |m: f64, p| m.max(*p));
@@ -64,8 +42,7 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let y = at[1] + 28.0;
     let keys = [(0.0, CAME, "way of odour to the vehicle"), (190.0, WALK, "way most likely to meet it")];
     let x = LEFT + 380.0;
-    let vehicle = Style::fill(WALK).edged("#ffffff", 1.2);
-    c.circle([x, y - 4.0], 4.0, &vehicle);
+    vehicle(&mut c, [x, y - 4.0]);
     c.text([x + 9.0, y], 10.0, Anchor::Start, "vehicle");
     layers::true_source(&mut c, [x + 68.0, y - 4.0]);
     c.text([x + 79.0, y], 10.0, Anchor::Start, "true source");
@@ -86,11 +63,7 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
         plan[i % layer] = plan[i % layer].max(*p);
     }
     shades(c, panel, &o.grid, &plan);
-    let corners = run.area.corners().map(|p| [p.x, p.y]);
-    c.polygon(panel.all(&corners), &Style::line(INK, 1.2).dashed("7 4"));
-    for below in [true, false] {
-        solids::draw(c, panel, run.obstacles, run.terrain, below);
-    }
+    place(c, panel, run);
     for (cells, colour) in [(&o.came, CAME), (&o.walk, WALK)] {
         let line = || {
             let points = cells.iter().map(|cell| o.grid.centre(*cell));
@@ -101,10 +74,8 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     }
     if let Some(cell) = o.walk.first() {
         let p = o.grid.centre(*cell);
-        c.circle(panel.position([p.x, p.y]), 4.0, &Style::fill(WALK).edged("#ffffff", 1.2));
+        vehicle(c, panel.position([p.x, p.y]));
     }
     layers::sources(c, panel, run);
-    c.unclip();
-    panel.frame(c, 1.0);
     axes(c, panel);
 }

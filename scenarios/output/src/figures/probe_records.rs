@@ -127,15 +127,9 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     c.upright([20.0, middle], 11.0, &name(t, k));
     c.upright([36.0, middle], 10.0, "V above clean");
     if let Some(v_per_c0) = volts_of_effluent(t) {
-        let range = panel.y.map(|y| y - log10(v_per_c0));
-        for n in ticks(range, 1.0) {
-            let y = panel.py(n + log10(v_per_c0));
-            let x = panel.right();
-            c.line([x, y], [x + 4.0, y], &Style::line(INK, 0.8));
-            let words = short(power_of_ten(n.round() as i32));
-            c.text([x + 7.0, y + 3.6], 10.0, Anchor::Start, &words);
-        }
-        c.upright([panel.right() + 58.0, middle], 10.0, "C/C0");
+        let decades = ticks(panel.y.map(|y| y - log10(v_per_c0)), 1.0);
+        let marks = decades.iter().map(|n| (n + log10(v_per_c0), short(power_of_ten(n.round() as i32))));
+        of_effluent(c, panel, marks);
     }
     let volts = t.rows.iter().map(|r| (r.t_s, r.volts.map(|v| at(v[k]))));
     let curve = panels::curve_of(panel, volts);
@@ -151,6 +145,17 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     let count = t.rows.iter().filter(|r| r.spike[k]).count();
     let spikes = format!("{count} spike{}", if count == 1 { "" } else { "s" });
     panel.key(c, &[("output", BLUE), ("threshold", ORANGE), (&spikes, DETECTION)]);
+}
+
+/// The axis at the right, of concentrations as shares of the effluent's: heights in the panel, and what stands there.
+fn of_effluent(c: &mut Canvas, panel: &Panel, marks: impl Iterator<Item = (f64, String)>) {
+    let x = panel.right();
+    for (at, words) in marks {
+        let y = panel.py(at);
+        c.line([x, y], [x + 4.0, y], &Style::line(INK, 0.8));
+        c.text([x + 7.0, y + 3.6], 10.0, Anchor::Start, &words);
+    }
+    c.upright([x + 58.0, panel.top + panel.height / 2.0], 10.0, "C/C0");
 }
 
 /// Times and outputs of a probe's spikes. A spike is known one scan late, so the moment before is shown.
@@ -170,7 +175,7 @@ fn behaviour(c: &mut Canvas, panel: &Panel, t: &GantryTrack) {
     let seen: Vec<GantryBehaviour> = (GantryBehaviour::ALL.into_iter())
         .filter(|b| t.rows.iter().filter(|r| r.behaviour == *b).count() > 1)
         .collect();
-    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::gantry_words(*b), palette::gantry_behaviour(*b))).collect();
+    let kinds: Vec<Band> = seen.iter().map(|b| palette::gantry_look(*b)).collect();
     let rows = t.rows.iter().filter_map(|r| {
         let band = seen.iter().position(|s| *s == r.behaviour)?;
         Some((r.t_s, band))
@@ -194,18 +199,13 @@ fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
     if let Some(v_per_c0) = volts_of_effluent(t) {
         let range = panel.y.map(|y| (y - bottom) / v_per_c0);
         let step = nice_step(range[1] - range[0], panel.height / 40.0);
-        for share in ticks(range, step).into_iter().filter(|s| *s > -0.5 * step) {
-            let (x, y) = (panel.right(), panel.py(bottom + share * v_per_c0));
-            c.line([x, y], [x + 4.0, y], &Style::line(INK, 0.8));
-            let base = decade(step);
-            let words = if base < -3 {
-                format!("{}e{base}", number(share / power_of_ten(base), 1.0))
-            } else {
-                number(share, step)
-            };
-            c.text([x + 7.0, y + 3.6], 10.0, Anchor::Start, &words);
-        }
-        c.upright([panel.right() + 58.0, middle], 10.0, "C/C0");
+        let base = decade(step);
+        let words = |share: f64| match base {
+            ..-3 => format!("{}e{base}", number(share / power_of_ten(base), 1.0)),
+            _ => number(share, step),
+        };
+        let shares = ticks(range, step).into_iter().filter(|s| *s > -0.5 * step);
+        of_effluent(c, &panel, shares.map(|share| (bottom + share * v_per_c0, words(share))));
     }
     let volts: Vec<[f64; 2]> =
         (t.rows.iter().filter(inside)).filter_map(|r| Some(panel.position([r.t_s, r.volts?[k]]))).collect();

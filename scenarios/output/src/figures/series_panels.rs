@@ -1,5 +1,6 @@
 //! The panels of the time series.
 
+use super::thinned::stretches;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::label_box::{LabelBox, width_of};
 use crate::charts::palette::{self, DETECTION, GREY, INK};
@@ -36,7 +37,7 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
         .map(|k| panel.top + 12.0 + 13.0 * k as f64)
         .flat_map(|y| [([x + 4.0, y], Anchor::Start), ([x - 4.0, y], Anchor::End)])
         .collect();
-    c.label_at(&places, 10.0, words, panel, false);
+    panel.label_at(c, &places, 10.0, words, false);
 }
 
 fn curve(panel: &Panel, rows: &[TrackRow], of: impl Fn(&TrackRow) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
@@ -174,7 +175,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
 /// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let seen = Behaviour::seen(t.rows.iter().map(|r| r.behaviour));
-    let kinds: Vec<Band> = (seen.iter()).map(|b| (palette::behaviour_label(*b), palette::behaviour(*b))).collect();
+    let kinds: Vec<Band> = seen.iter().map(|b| palette::behaviour_look(*b)).collect();
     let rows = t.rows.iter().map(|r| {
         let band = seen.iter().position(|s| *s == r.behaviour);
         (r.t_s, band.unwrap_or(0))
@@ -182,13 +183,13 @@ pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     bands(c, &panel, &kinds, &rows.collect::<Vec<_>>());
 }
 
-/// Words and colour of a band.
+/// Colour and words of a band.
 pub(super) type Band<'a> = (&'a str, &'a str);
 
 /// A band for each kind, filled while that kind holds. `rows` are times, each with the kind that holds from then on.
 pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64, usize)]) {
     let row = panel.height / kinds.len().max(1) as f64;
-    for (k, (words, _)) in kinds.iter().enumerate() {
+    for (k, (_, words)) in kinds.iter().enumerate() {
         let y = panel.top + k as f64 * row;
         if k > 0 {
             c.line([panel.left, y], [panel.right(), y], &Style::line("#e3e3e3", 0.7));
@@ -196,14 +197,10 @@ pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64,
         let at = [panel.left - 7.0, y + row / 2.0 + 3.5];
         c.text(at, 9.5, Anchor::End, words);
     }
-    let mut k = 0;
-    while k < rows.len() {
-        let (begin, kind) = rows[k];
-        let run = rows[k..].iter().take_while(|r| r.1 == kind).count();
-        let end = rows.get(k + run).or(rows.last()).map_or(0.0, |r| r.0);
-        let (x0, x1) = (panel.px(begin), panel.px(end));
-        c.rect(x0, panel.top + (kind as f64 + 0.14) * row, (x1 - x0).max(0.6), 0.72 * row, &Style::fill(kinds[kind].1));
-        k += run;
+    for (_, run) in stretches(rows, |r| r.1) {
+        let (begin, kind) = run[0];
+        let (x0, x1) = (panel.px(begin), panel.px(run[run.len() - 1].0));
+        c.rect(x0, panel.top + (kind as f64 + 0.14) * row, (x1 - x0).max(0.6), 0.72 * row, &Style::fill(kinds[kind].0));
     }
 }
 

@@ -2,6 +2,7 @@
 //! believed itself to be.
 
 use super::map_layers as layers;
+use super::shaded_cells::{self, ShadedCells};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette;
 use crate::charts::panel::Panel;
@@ -119,38 +120,11 @@ impl Levels {
     }
 }
 
-/// Cells of one size in shades; neighbours of one shade in a line form one shape.
-struct ShadedCells {
-    rings: Vec<Vec<Vec<[f64; 2]>>>,
-}
-
-impl ShadedCells {
-    fn new() -> Self {
-        Self { rings: vec![Vec::new(); SHADES] }
-    }
-
-    /// A line of cells between two `y` values, each `width` wide, from `x` on; `None` omits a cell.
-    fn line(&mut self, panel: &Panel, [x, width]: [f64; 2], y: [f64; 2], shades: &[Option<usize>]) {
-        let mut k = 0;
-        while k < shades.len() {
-            let from = k;
-            while k < shades.len() && shades[k] == shades[from] {
-                k += 1;
-            }
-            if let Some(shade) = shades[from] {
-                let at = |k: usize| x + k as f64 * width;
-                let corners = [[at(from), y[0]], [at(k), y[0]], [at(k), y[1]], [at(from), y[1]]];
-                self.rings[shade].push(panel.all(&corners));
-            }
-        }
-    }
-
-    fn draw(&self, c: &mut Canvas) {
-        for (shade, rings) in self.rings.iter().enumerate() {
-            let colour = palette::echo(shade as f64 / (SHADES - 1) as f64);
-            c.lines(rings, true, &Style::fill(&colour).edged(&colour, 0.3));
-        }
-    }
+/// A line of cells between two `y` values, each `width` wide, from `x` on.
+fn line(cells: &mut ShadedCells, panel: &Panel, [x, width]: [f64; 2], y: [f64; 2], shades: &[Option<usize>]) {
+    let at = |k: usize| x + k as f64 * width;
+    let corners = |from, to| [[at(from), y[0]], [at(to), y[0]], [at(to), y[1]], [at(from), y[1]]];
+    cells.line(shades, |from, to| corners(from, to).map(|p| panel.position(p)));
 }
 
 /// Mean of the finite levels.
@@ -168,7 +142,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
     let begin = rows[0].along_m;
     let width = BLOCK as f64 * pass.cell_m();
     panel.clip_black(c);
-    let mut cells = ShadedCells::new();
+    let mut cells = ShadedCells::new(SHADES);
     for lines in rows.chunks(BLOCK) {
         let along = |r: &Row| r.along_m - begin;
         let y = [along(&lines[0]), along(&lines[lines.len() - 1]) + pass.line_m()];
@@ -184,10 +158,10 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
                 shades.reverse();
                 x = -(n as f64) * width;
             }
-            cells.line(panel, [x, width], y, &shades);
+            line(&mut cells, panel, [x, width], y, &shades);
         }
     }
-    cells.draw(c);
+    cells.draw(c, palette::echo, 0.3);
     for o in detect(pass, &DetectSpec::default()) {
         let side = if o.port { -1.0 } else { 1.0 };
         let at = panel.position([side * o.ground_m, o.along_m - begin]);
@@ -195,9 +169,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
         c.circle(at, 11.0, &Style::line(FOUND, 1.8));
     }
     c.unclip();
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 50.0, 10.0);
+    panel.axes(c, 50.0, 10.0);
 }
 
 fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) {
@@ -219,14 +191,14 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
         }
     }
     panel.clip_black(c);
-    let mut cells = ShadedCells::new();
+    let mut cells = ShadedCells::new(SHADES);
     for j in 0..n {
         let of = |(sum, m): &(f64, u32)| (*m > 0).then(|| level.shade(sum / f64::from(*m)));
         let shades: Vec<_> = sums[j * n..(j + 1) * n].iter().map(of).collect();
         let y = panel.y[0] + j as f64 * CELL_M;
-        cells.line(panel, [panel.x[0], CELL_M], [y, y + CELL_M], &shades);
+        line(&mut cells, panel, [panel.x[0], CELL_M], [y, y + CELL_M], &shades);
     }
-    cells.draw(c);
+    cells.draw(c, palette::echo, 0.3);
     for pass in passes {
         let line = pass.rows().iter().map(|r| panel.position([r.place.x, r.place.y])).collect();
         c.polyline(line, &Style::line("#ffffff", 0.8).dashed("4 4").faint(0.7));
@@ -248,9 +220,7 @@ fn signs(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>, robot: &RobotEchoes
         found(c, panel.position(p));
     }
     c.unclip();
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 50.0, 10.0);
+    panel.axes(c, 50.0, 10.0);
 }
 
 fn surveyed(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<[f64; 2]> {
@@ -267,11 +237,8 @@ fn found(c: &mut Canvas, at: [f64; 2]) {
 
 fn key(c: &mut Canvas, [x, y]: [f64; 2], run: &RunReport<'_>, robot: &RobotEchoes) {
     c.text([x, y], 10.0, Anchor::Start, "Level over the bed's, dB:");
-    for shade in 0..SHADES {
-        let colour = palette::echo(shade as f64 / (SHADES - 1) as f64);
-        c.rect(x + 140.0 + 14.0 * shade as f64, y - 9.0, 14.0, 11.0, &Style::fill(&colour));
-    }
-    let end = x + 140.0 + 14.0 * SHADES as f64;
+    let colours = (0..SHADES).map(|shade| palette::echo(shade as f64 / (SHADES - 1) as f64));
+    let end = shaded_cells::scale(c, [x + 140.0, y], colours);
     c.text([x + 140.0, y + 14.0], 9.0, Anchor::Middle, &format!("−{:.0}", -RANGE_DB[0]));
     c.text([end, y + 14.0], 9.0, Anchor::Middle, &format!("{:.0}", RANGE_DB[1]));
     let y = y + 34.0;

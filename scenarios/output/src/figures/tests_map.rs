@@ -135,7 +135,7 @@ fn events_of_a_series_keep_off_its_key_and_each_other() {
     }
     assert_eq!(c.taken().len(), before + 9);
     assert_eq!(clashes(before, &c), []);
-    let inside = |r: &LabelBox| r.outside(&panel) == 0.0;
+    let inside = |r: &LabelBox| panel.outside(r) == 0.0;
     assert!(c.taken()[before..].iter().all(inside));
 }
 
@@ -286,8 +286,8 @@ fn a_label_without_a_free_place_is_left_out_or_hides_least() {
     c.keep_free(LabelBox::round([110.0, 58.0], 6.0));
     c.keep_free(LabelBox::round([140.0, 72.0], 2.0));
     let before = c.taken().len();
-    c.label_at(&places, 10.0, "declared", &panel, true);
+    panel.label_at(&mut c, &places, 10.0, "declared", true);
     assert_eq!(c.taken().len(), before);
-    c.label_at(&places, 10.0, "declared", &panel, false);
+    panel.label_at(&mut c, &places, 10.0, "declared", false);
     assert_eq!(c.taken()[before].bottom, 75.0 + 0.24 * 10.0);
 }

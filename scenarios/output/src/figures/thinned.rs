@@ -1,4 +1,4 @@
-//! Lines with no more points than can be told apart.
+//! Tracks as lines: in stretches of one kind, with no more points than can be told apart.
 
 /// Points of a track nearer than this to the last drawn point are omitted, px.
 const APART_PX: f64 = 0.5;
@@ -21,4 +21,14 @@ pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     }
     kept.extend(left_out);
     kept
+}
+
+/// Stretches of equal rows, each with one row of the next, so that lines along them have no gaps; and where they begin.
+pub(super) fn stretches<T, K: PartialEq>(rows: &[T], of: impl Fn(&T) -> K) -> impl Iterator<Item = (usize, &[T])> {
+    let mut next = 0;
+    rows.chunk_by(move |a, b| of(a) == of(b)).map(move |run| {
+        let begin = next;
+        next += run.len();
+        (begin, &rows[begin..(next + 1).min(rows.len())])
+    })
 }

@@ -1,32 +1,13 @@
 //! `report.html`: one self-contained file.
 
-use super::film::{FILM_STYLE, film_script, film_section};
+use super::film::FILM_STYLE;
+use super::page::Page;
 use crate::charts::escaped;
 use crate::results::GantrySummary;
 use crate::results::ShownPicture;
 use crate::results::{DeclarationSummary, DeclaredKind, Summary};
 use robots::handoff::Verdict;
 use std::fmt::Write as _;
-
-/// Style sheet of all pages.
-pub const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
-h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
-h3{font-size:1em;margin:1.2em 0 .2em;break-after:avoid}\
-table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
-th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f6f6;padding:1em;overflow:auto;font-size:12.5px}\
-.outcome{font-weight:600}code{font-size:.9em}img{max-width:100%;height:auto}\
-.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.6em}\
-figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}\
-p,.facts td:not(:first-child){overflow-wrap:anywhere}\
-table:not(.facts){display:block;overflow-x:auto}\
-@media(max-width:600px){body{font-size:14px;margin:1em auto;padding:0 .7em}table.facts td,table.facts th{display:block;padding-right:0}\
-pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
-@media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
-h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
-table:not(.facts){display:table}table:not(.facts) :is(td,th){overflow-wrap:break-word}\
-pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}\
-@media screen and (prefers-color-scheme:dark){:root{color-scheme:dark}body{color:#e2e4e7;background:#14171a}h2{border-color:#3a3f45}\
-th,figcaption{color:#a8adb3}pre{background:#1d2126}svg{background:#fff;border-radius:4px}}";
 
 const TEXT: &str = "writing to a String succeeds";
 
@@ -38,65 +19,46 @@ pub(super) fn page(
     pictures: &[ShownPicture],
     scenario_text: &str,
 ) -> String {
-    let name = escaped(&summary.scenario);
-    let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-         <title>{name}, seed {}</title><style>{STYLE}{}</style></head>\n<body>\n\
-         <h1>{}</h1>\n<p>{name}, seed {}. Success: {}.<br>Outcome: <span class=\"outcome\">{}</span>.</p>\n",
-        summary.seed,
-        film.map_or("", |_| FILM_STYLE),
-        escaped(&summary.title),
-        summary.seed,
+    let name = format!("{}, seed {}", summary.scenario, summary.seed);
+    let mut page = Page::new(&name, &summary.title, film.map_or("", |_| FILM_STYLE));
+    page.html(&format!(
+        "<p>{}. Success: {}.<br>Outcome: <span class=\"outcome\">{}</span>.</p>\n",
+        escaped(&name),
         escaped(&summary.success_rule),
         summary.outcome.label()
-    );
+    ));
     if let Some(e) = &summary.error {
-        writeln!(out, "<p>Error: {}</p>", escaped(e)).expect(TEXT);
+        page.paragraph(&format!("Error: {e}"));
     }
     if !summary.abnormal.is_empty() {
-        let rows: Vec<(String, String)> =
-            (summary.abnormal.iter()).map(|a| (escaped(&a.robot), a.line.clone())).collect();
-        table(&mut out, "What went wrong", &rows);
+        let rows: Vec<(&str, String)> = summary.abnormal.iter().map(|a| (a.robot.as_str(), a.line.clone())).collect();
+        page.facts("What went wrong", &rows);
     }
     for r in &summary.robots {
-        table(&mut out, &format!("Robot {}", r.id), &robot_rows(r));
+        page.facts(&format!("Robot {}", r.id), &robot_rows(r));
     }
     for g in &summary.gantries {
-        table(&mut out, &format!("Gantry {}", g.id), &gantry_rows(g));
+        page.facts(&format!("Gantry {}", g.id), &gantry_rows(g));
     }
-    table(&mut out, "Run", &run_rows(summary));
+    page.facts("Run", &run_rows(summary));
     if let Some(film) = film {
-        out.push_str(&film_section("Mission in motion", film));
+        page.film("Mission in motion", film);
     }
     for (title, svg) in figures {
-        writeln!(out, "<figure><h2>{}</h2>\n{svg}</figure>", escaped(title)).expect(TEXT);
+        page.html(&format!("<figure><h2>{}</h2>\n{svg}</figure>\n", escaped(title)));
     }
     if !pictures.is_empty() {
-        out.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
+        page.heading("Pictures");
+        page.html("<div class=\"pictures\">\n");
         for p in pictures {
             let (html, title) = (p.html(), escaped(&p.title()));
-            writeln!(out, "<figure>{html}<figcaption>{title}</figcaption></figure>").expect(TEXT);
+            page.html(&format!("<figure>{html}<figcaption>{title}</figcaption></figure>\n"));
         }
-        out.push_str("</div>\n");
+        page.html("</div>\n");
     }
-    writeln!(
-        out,
-        "<h2>Scenario</h2>\n<pre>{}</pre>\n{}</body>\n</html>",
-        escaped(scenario_text),
-        film.map_or_else(String::new, |_| film_script())
-    )
-    .expect(TEXT);
-    out
-}
-
-fn table<K: AsRef<str>>(out: &mut String, title: &str, rows: &[(K, String)]) {
-    writeln!(out, "<h2>{}</h2>\n<table class=\"facts\">", escaped(title)).expect(TEXT);
-    for (k, v) in rows {
-        let (k, v) = (k.as_ref(), escaped(v));
-        writeln!(out, "<tr><th>{k}</th><td>{v}</td></tr>").expect(TEXT);
-    }
-    out.push_str("</table>\n");
+    page.heading("Scenario");
+    page.html(&format!("<pre>{}</pre>\n", escaped(scenario_text)));
+    page.end()
 }
 
 fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(String, String)>) {

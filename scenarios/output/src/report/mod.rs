@@ -3,12 +3,13 @@
 mod film;
 mod html;
 mod names;
+mod page;
 mod tables;
 mod write;
 
-pub use film::{FILM_STYLE, film, film_script, film_section};
-pub use html::STYLE;
+pub use film::{FILM_STYLE, film};
 pub use names::is_result;
+pub use page::Page;
 pub use tables::tables;
 pub use write::{Figure, figures, write_all};
 

@@ -74,7 +74,7 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
 /// A cell that may be broken anywhere is squeezed until its words are: only prose and values of a list may be.
 #[test]
 fn words_in_cells_are_not_broken() {
-    let rules = super::STYLE.split('}').filter_map(|r| r.split_once('{'));
+    let rules = super::page::STYLE.split('}').filter_map(|r| r.split_once('{'));
     let anywhere = rules.filter(|(_, what)| what.contains("overflow-wrap:anywhere"));
     let of: Vec<&str> = anywhere.flat_map(|(of, _)| of.split(',')).collect();
     assert_eq!(of, ["p", ".facts td:not(:first-child)"]);

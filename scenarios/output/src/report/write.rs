@@ -109,10 +109,6 @@ pub struct Figure {
 }
 
 impl Figure {
-    fn new(name: String, title: String, svg: Result<String, String>) -> Self {
-        Self { name, title, svg }
-    }
-
     /// The drawing as PNG, or the reason why there is none.
     fn png(&self) -> Result<Vec<u8>, String> {
         guarded(|| png(self.svg.as_deref().map_err(String::clone)?)).flatten()
@@ -123,56 +119,38 @@ impl Figure {
 #[must_use]
 pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
+    let mut add = |kind: &str, id: &str, title: String, svg: Result<Option<String>, String>| {
+        let name = if id.is_empty() { kind.to_owned() } else { format!("{kind}-{}", file_name(id)) };
+        figures.extend(svg.transpose().map(|svg| Figure { name, title, svg }));
+    };
+    let some = |draw: &dyn Fn() -> String| guarded(draw).map(Some);
     // A gantry's own figures show all of a flume.
     if run.gantries.is_empty() || !run.track.robots.is_empty() {
-        figures.push(Figure::new("map".to_owned(), "Map".to_owned(), guarded(|| draw::map(run))));
+        add("map", "", "Map".to_owned(), some(&|| draw::map(run)));
     }
     for robot in &run.track.robots {
         let id = &robot.info.id;
-        figures.push(Figure::new(
-            format!("series-{}", file_name(id)),
-            format!("Time series of {id}"),
-            guarded(|| draw::series(run, robot)),
-        ));
+        add("series", id, format!("Time series of {id}"), some(&|| draw::series(run, robot)));
     }
     for robot in &run.beliefs.robots {
-        figures.push(Figure::new(
-            format!("belief-{}", file_name(&robot.id)),
-            format!("Where {} believed the source", robot.id),
-            guarded(|| draw::belief(run, robot)),
-        ));
+        let id = &robot.id;
+        add("belief", id, format!("Where {id} believed the source"), some(&|| draw::belief(run, robot)));
         if !robot.odour.is_empty() {
-            figures.push(Figure::new(
-                format!("odour-{}", file_name(&robot.id)),
-                format!("Where {} believed the odour", robot.id),
-                guarded(|| draw::odour(run, robot)),
-            ));
+            add("odour", id, format!("Where {id} believed the odour"), some(&|| draw::odour(run, robot)));
         }
     }
     for robot in &run.echoes.robots {
-        let svg = guarded(|| draw::sidescan(run, robot)).transpose();
-        figures.extend(svg.map(|svg| {
-            let name = format!("sidescan-{}", file_name(&robot.id));
-            Figure::new(name, format!("Sidescan of {}", robot.id), svg)
-        }));
+        add("sidescan", &robot.id, format!("Sidescan of {}", robot.id), guarded(|| draw::sidescan(run, robot)));
     }
     if !run.beliefs.robots.is_empty() {
-        let title = "Convergence of the maps".to_owned();
-        figures.push(Figure::new("convergence".to_owned(), title, guarded(|| draw::convergence(run))));
+        add("convergence", "", "Convergence of the maps".to_owned(), some(&|| draw::convergence(run)));
     }
     for t in run.gantries {
         let id = &t.info.id;
-        let kinds = [
-            ("flume", "Track over the plume", guarded(|| draw::flume(run, t))),
-            ("probes", "Probes, thresholds and spikes", guarded(|| draw::probe_records(run, t))),
-            ("approach", "Speed and distance from the centreline", guarded(|| draw::approach(run, t))),
-        ];
-        for (name, title, svg) in kinds {
-            figures.extend(svg.transpose().map(|svg| {
-                let name = format!("{name}-{}", file_name(id));
-                Figure::new(name, format!("{title}: {id}"), svg)
-            }));
-        }
+        add("flume", id, format!("Track over the plume: {id}"), guarded(|| draw::flume(run, t)));
+        add("probes", id, format!("Probes, thresholds and spikes: {id}"), guarded(|| draw::probe_records(run, t)));
+        let title = format!("Speed and distance from the centreline: {id}");
+        add("approach", id, title, guarded(|| draw::approach(run, t)));
     }
     figures
 }

@@ -1,6 +1,7 @@
 //! `belief-<robot>.csv`: how a map of where the source may be converged. Also the maps kept for the figures.
 
 use super::SourceTruth;
+use super::thinning::Thinning;
 use crate::columns::{ColumnInfo, columns, header};
 use nalgebra::Vector3;
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
@@ -62,7 +63,7 @@ pub struct RobotBelief {
     pub odour: Vec<Arc<Odour>>,
     /// The last map.
     pub last: BeliefSnapshot,
-    thinning: [(usize, usize); 3],
+    thinning: [Thinning; 3],
 }
 
 /// The maps of all robots that keep one.
@@ -106,7 +107,7 @@ impl RobotBelief {
             between: Vec::new(),
             odour: first.belief.odour.iter().cloned().collect(),
             last: first,
-            thinning: [(1, 0); 3],
+            thinning: Default::default(),
         }
     }
 
@@ -126,10 +127,10 @@ impl RobotBelief {
         if let Some(odour) = &self.last.belief.odour
             && old.belief.odour.as_ref().is_none_or(|o| o.t_s != odour.t_s)
         {
-            thin(&mut self.odour, odour.clone(), MAPS, &mut self.thinning[2]);
+            self.thinning[2].push(&mut self.odour, MAPS, || odour.clone());
         }
-        thin(&mut self.rows, row, ROWS, &mut self.thinning[0]);
-        thin(&mut self.between, old, most, &mut self.thinning[1]);
+        self.thinning[0].push(&mut self.rows, ROWS, || row);
+        self.thinning[1].push(&mut self.between, most, || old);
     }
 
     /// When the most probable cell reached its final place and stayed there, s.
@@ -138,25 +139,6 @@ impl RobotBelief {
         let end = self.rows.last()?;
         let same = self.rows.iter().rev().take_while(|r| r.best == end.best);
         same.last().filter(|r| r.informed).map(|r| r.t_s)
-    }
-}
-
-/// Keeps one of every few values, and drops half of them if there are too many.
-fn thin<T>(list: &mut Vec<T>, new: T, most: usize, (stride, skip): &mut (usize, usize)) {
-    if *skip > 0 {
-        *skip -= 1;
-        return;
-    }
-    *skip = *stride - 1;
-    list.push(new);
-    if list.len() > most {
-        let mut odd = false;
-        list.retain(|_| {
-            odd = !odd;
-            odd
-        });
-        *stride *= 2;
-        *skip = *stride - 1;
     }
 }
 

@@ -18,7 +18,7 @@ const FAR_M: [f64; 2] = [0.5, 1.0];
 const NEAR_M: [f64; 2] = [0.0, 0.5];
 
 /// A path being followed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct GantryPath {
     id: String,
     forward: Vector2<f64>,
@@ -75,20 +75,7 @@ impl GantryPath {
     /// Begins with the first frame.
     #[must_use]
     pub fn new(g: &GantryFrame) -> Self {
-        Self {
-            id: g.id.clone(),
-            forward: g.forward,
-            track: Vec::new(),
-            last: g.head_W.xy(),
-            swept: false,
-            sweep_s: None,
-            steps: 0,
-            casts: 0,
-            sweeps: 0,
-            latest: 0,
-            blocked: false,
-            stopped: None,
-        }
+        Self { id: g.id.clone(), forward: g.forward, last: g.head_W.xy(), ..Self::default() }
     }
 
     /// Adds the next frame.

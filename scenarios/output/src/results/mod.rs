@@ -14,6 +14,7 @@ mod run;
 mod sources;
 mod summary;
 mod summary_builder;
+mod thinning;
 mod track;
 pub(crate) mod track_columns;
 
@@ -26,10 +27,9 @@ pub use pictures::{Pictures, ShownPicture};
 pub use plume_film::{PlumeFilm, Wisp};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use run::{ObstacleOutline, RunInfo, RunReport};
-pub use sources::SourceTruth;
+pub use sources::{DeclarationSummary, DeclaredKind, Position, SourceError, SourceTruth};
 pub use summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary, RobotSummary, RunSummary,
-    SourceError, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, MassBalance, RegionSummary, RobotSummary, RunSummary, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{SummaryBuilder, SummaryEnd};
 pub use track::{LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

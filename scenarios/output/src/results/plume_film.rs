@@ -1,5 +1,6 @@
 //! The plume over a run, for the animation: a bounded number of moments, each with a bounded number of filaments.
 
+use super::thinning::Thinning;
 use rheotaxis::frame::PlumeFrame;
 
 /// One filament of one moment.
@@ -18,8 +19,7 @@ pub struct Wisp {
 pub struct PlumeFilm {
     /// Times (s) and filaments, in order of time.
     pub moments: Vec<(f64, Vec<Wisp>)>,
-    stride: usize,
-    skip: usize,
+    thinning: Thinning,
 }
 
 /// Most moments kept.
@@ -30,24 +30,11 @@ const WISPS: usize = 800;
 impl PlumeFilm {
     /// Adds a moment.
     pub fn push(&mut self, plume: &PlumeFrame) {
-        if self.skip > 0 {
-            self.skip -= 1;
-            return;
-        }
-        self.stride = self.stride.max(1);
-        self.skip = self.stride - 1;
-        let every = plume.points.len().div_ceil(WISPS).max(1);
-        let wisps = plume.points.iter().step_by(every).filter_map(wisp);
-        self.moments.push((plume.t_s, wisps.collect()));
-        if self.moments.len() > MOMENTS {
-            let mut odd = false;
-            self.moments.retain(|_| {
-                odd = !odd;
-                odd
-            });
-            self.stride *= 2;
-            self.skip = self.stride - 1;
-        }
+        self.thinning.push(&mut self.moments, MOMENTS, || {
+            let every = plume.points.len().div_ceil(WISPS).max(1);
+            let wisps = plume.points.iter().step_by(every).filter_map(wisp);
+            (plume.t_s, wisps.collect())
+        });
     }
 }
 

@@ -1,6 +1,7 @@
 //! `probes-<gantry>.csv`: readings of each gantry's probes, what its searcher derived from them, and the position of
 //! its head. The same data are kept for the figures.
 
+use super::thinning::Thinning;
 use crate::columns::{ColumnInfo, columns, header};
 use crate::decimal::push_decimal;
 use crate::files::ReportError;
@@ -64,8 +65,7 @@ pub struct GantryTrack {
     pub declared: Option<[f64; 2]>,
     /// When it stopped, s, and whether it declared a source.
     pub stopped: Option<(f64, bool)>,
-    stride: usize,
-    skip: usize,
+    thinning: Thinning,
     scanned_s: Option<f64>,
 }
 
@@ -74,7 +74,7 @@ const KEPT: usize = 40_000;
 
 impl GantryTrack {
     fn new(info: GantryInfo) -> Self {
-        Self { info, stride: 1, ..Self::default() }
+        Self { info, ..Self::default() }
     }
 
     /// Adds a frame; returns what it says about the latest scan, if that is new.
@@ -102,14 +102,12 @@ impl GantryTrack {
     }
 
     fn keep(&mut self, row: GantryRow) {
-        if self.skip > 0 {
-            self.skip -= 1;
+        if !self.thinning.keeps() {
             if let Some(last) = self.rows.last_mut() {
                 join(last, &row);
             }
             return;
         }
-        self.skip = self.stride - 1;
         self.rows.push(row);
         if self.rows.len() > KEPT {
             self.rows = (self.rows.chunks(2))
@@ -119,8 +117,7 @@ impl GantryTrack {
                     one
                 })
                 .collect();
-            self.stride *= 2;
-            self.skip = self.stride - 1;
+            self.thinning.halve();
         }
     }
 }

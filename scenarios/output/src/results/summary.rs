@@ -1,24 +1,14 @@
 //! What `summary.json` says about a run.
 
-use super::{MapEnd, MapStated};
-use crate::results::GantrySummary;
+use super::{DeclarationSummary, GantrySummary, MapEnd, MapStated, Position};
 use rheotaxis::incidents::{Incident, IncidentKind};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::VERSION;
 use rheotaxis::score::Consultations;
-use robots::handoff::{Evidence, PictureEvidence, RegionState, Verdict};
+use robots::handoff::RegionState;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-
-/// A horizontal position in the world.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Position {
-    /// East of the datum, m.
-    pub east_m: f64,
-    /// North of the datum, m.
-    pub north_m: f64,
-}
 
 /// A true source.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,72 +21,6 @@ pub struct SourceSummary {
     pub depth_m: f64,
     /// Where the mean flow at the source goes, degrees from north; `None` in still water.
     pub flow_heading_deg: Option<f64>,
-}
-
-/// A declared position compared with the nearest true source.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct SourceError {
-    /// The nearest true source.
-    pub source: String,
-    /// Its position.
-    pub position: Position,
-    /// Horizontal distance, m.
-    pub total_m: f64,
-    /// Component along the mean flow at the source, m; positive if declared too far down-flow.
-    pub along_flow_m: Option<f64>,
-    /// Component across it, m; positive if declared too far to the right, looking down-flow.
-    pub across_flow_m: Option<f64>,
-    /// Declared minus true, east, m.
-    pub east_m: f64,
-    /// Declared minus true, north, m.
-    pub north_m: f64,
-}
-
-/// What was declared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DeclaredKind {
-    /// A source at the declared place.
-    Source,
-    /// A plume that was traced to the up-flow edge of a subregion; its source is beyond.
-    UpFlowEdge,
-}
-
-/// A declaration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DeclarationSummary {
-    /// Its number among the robot's declarations, from 0, including edges.
-    pub number: u32,
-    /// Whether it declares a source or an edge.
-    pub kind: DeclaredKind,
-    /// Its name in report and pictures: `source 1` and so on, without counting edges, or `edge of A`.
-    pub name: String,
-    /// Subregion in which it was made, from 0; `None` if the area is not divided.
-    pub region: Option<u32>,
-    /// That subregion's name: a letter.
-    pub region_name: Option<String>,
-    /// Mission time, s.
-    pub t_s: f64,
-    /// Name of the rule that declared it.
-    pub rule: String,
-    /// Declared position.
-    pub position: Position,
-    /// Its error, or the distance of an edge from the nearest source; `None` in a scenario without a source.
-    pub error: Option<SourceError>,
-    /// The last detection points on which it rests, if its rule uses them.
-    pub evidence: Option<Evidence>,
-    /// The verdict of a look at it.
-    pub verdict: Verdict,
-    /// The pictures its verdict rests on, if they were added up.
-    pub looked: Option<PictureEvidence>,
-    /// Where the sidescan, or pictures added up, found the source, in the vehicle's believed coordinates.
-    pub surveyed: Option<Position>,
-    /// The error of that place.
-    pub surveyed_error: Option<SourceError>,
-    /// Straight distance from the first detection in this area or subregion to it, m.
-    pub traced_m: Option<f64>,
-    /// The largest shift by a position fix of what the robot believed, in the minute before, m; `None` without a fix.
-    pub fix_m: Option<f64>,
 }
 
 /// A subregion at the end of the run.

@@ -1,13 +1,10 @@
 //! Gathers a summary from the frames of a run.
 
-use super::GantryPath;
-use super::RunInfo;
-use super::sources::SourceTruth;
+use super::sources::{DeclarationSummary, DeclaredKind, Position, SourceTruth};
 use super::summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, EnergySummary, Position, RegionSummary, RobotSummary,
-    RunSummary, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, EnergySummary, RegionSummary, RobotSummary, RunSummary, SourceSummary, Summary, Totals, Versions,
 };
-use super::{MapEnd, MapStated};
+use super::{GantryPath, MapEnd, MapStated, RunInfo};
 use nalgebra::Vector2;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;

@@ -1,5 +1,6 @@
 //! `track.csv`: where each robot was, and what it believed, read and did. The same data are kept for the figures.
 
+use super::thinning::Thinning;
 use super::track_columns::{COLUMNS, DECIMALS, columns, numbers};
 use crate::columns::header;
 use crate::decimal::push_decimal;
@@ -59,7 +60,7 @@ pub struct LostPoint {
 }
 
 /// A robot's whole track.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotTrack {
     /// Data of the robot.
     pub info: RobotInfo,
@@ -80,8 +81,7 @@ pub struct RobotTrack {
     lost_before: usize,
     /// States of its planner's layers, each from a time (s) until the next, up to a limit.
     pub layers: Vec<(f64, Vec<Layer>)>,
-    stride: usize,
-    skip: usize,
+    thinning: Thinning,
 }
 
 /// The tracks of a run.
@@ -100,21 +100,7 @@ const LOST: usize = 400;
 
 impl RobotTrack {
     fn new(info: RobotInfo) -> Self {
-        Self {
-            info,
-            rows: Vec::new(),
-            detections: Vec::new(),
-            lost_points: Vec::new(),
-            lost_over_time: Vec::new(),
-            lost_now: Vec::new(),
-            declarations: Vec::new(),
-            regions: Vec::new(),
-            region: None,
-            lost_before: 0,
-            layers: Vec::new(),
-            stride: 1,
-            skip: 0,
-        }
+        Self { info, ..Self::default() }
     }
 
     /// Where it declared sources (east, north), m.
@@ -180,13 +166,8 @@ impl RobotTrack {
         if new && !r.shown.layers.is_empty() && self.layers.len() < KEPT {
             self.layers.push((t_s, r.shown.layers.clone()));
         }
-        if self.skip > 0 {
-            self.skip -= 1;
-            return;
-        }
-        self.skip = self.stride - 1;
         let asked = r.asked_height();
-        self.rows.push(TrackRow {
+        self.thinning.push(&mut self.rows, KEPT, || TrackRow {
             t_s,
             p: [p.x, p.y, p.z],
             believed: [r.estimate.position.x, r.estimate.position.y],
@@ -202,15 +183,6 @@ impl RobotTrack {
             reading: r.chemical.map(|c| c.of_full_scale),
             behaviour: r.behaviour,
         });
-        if self.rows.len() > KEPT {
-            let mut odd = false;
-            self.rows.retain(|_| {
-                odd = !odd;
-                odd
-            });
-            self.stride *= 2;
-            self.skip = self.stride - 1;
-        }
     }
 }
 

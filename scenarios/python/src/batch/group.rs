@@ -61,16 +61,8 @@ pub(crate) enum Task {
 impl Group {
     /// A group of so many environments.
     pub(crate) fn new(rules: &Rules, places: usize) -> Self {
-        let env = || Env {
-            minds: rules.agents.iter().map(SearcherState::new).collect(),
-            state: State::Empty,
-            success: false,
-            t_s: 0.0,
-            outcome: None,
-            digest: None,
-            began_s: 0.0,
-        };
-        Self { shared: None, envs: (0..places).map(|_| env()).collect(), task: Task::Nothing, fault: None }
+        let envs = (0..places).map(|_| Env::new(rules, 0.0)).collect();
+        Self { shared: None, envs, task: Task::Nothing, fault: None }
     }
 
     /// Does what there is to do.
@@ -98,15 +90,7 @@ impl Group {
         for (place, seed) in places {
             let env = &mut self.envs[place];
             shared.leave(place);
-            *env = Env {
-                minds: rules.agents.iter().map(SearcherState::new).collect(),
-                state: State::Empty,
-                success: false,
-                t_s: 0.0,
-                outcome: None,
-                digest: None,
-                began_s: shared.step() as f64 * rules.step_s,
-            };
+            *env = Env::new(rules, shared.step() as f64 * rules.step_s);
             let asked = shared.begin(place, seed).map_err(|e| e.to_string())?;
             env.state = State::Going;
             for question in asked {
@@ -157,6 +141,19 @@ impl Group {
 }
 
 impl Env {
+    /// One without an episode, from a time on.
+    fn new(rules: &Rules, began_s: f64) -> Self {
+        Self {
+            minds: rules.agents.iter().map(SearcherState::new).collect(),
+            state: State::Empty,
+            success: false,
+            t_s: 0.0,
+            outcome: None,
+            digest: None,
+            began_s,
+        }
+    }
+
     fn ask(&mut self, rules: &Rules, question: Question) {
         self.t_s = question.t_s - self.began_s;
         let mut all = rules.agents.iter().zip(&mut self.minds);

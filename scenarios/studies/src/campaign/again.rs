@@ -4,8 +4,8 @@ use super::contained::contained;
 use super::plan::Campaign;
 use super::report::{Film, Pick, RemadeRun};
 use super::row::RunRow;
+use super::threads::pool;
 use output::follow::Follower;
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use rheotaxis::trial::Trial;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -24,8 +24,7 @@ impl Campaign {
             made();
             RemadeRun { pick, film }
         };
-        let pool = ThreadPoolBuilder::new().num_threads(jobs).build();
-        match pool {
+        match pool(jobs) {
             Ok(pool) => pool.install(|| picks.into_par_iter().map(one).collect()),
             Err(_) => picks.into_iter().map(one).collect(),
         }

@@ -16,9 +16,9 @@ use super::table::{TableWriter, read};
 use parquet::file::metadata::KeyValue;
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::{ErrorKind, Seek, SeekFrom};
+use std::io::{self, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use world::files::{self, write_on_disk};
+use world::files::{self, OutputError, write_on_disk};
 
 /// The state of a block.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ pub(super) fn is_of_campaign(name: &str) -> bool {
 
 /// The blocks that have a file, in order. Readers go by the files that exist, not by the plan.
 pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, CampaignError> {
-    let unread = |e: std::io::Error| CampaignError::Read { path: dir.to_owned(), problem: e.to_string() };
+    let unread = |e: io::Error| CampaignError::Read { path: dir.to_owned(), problem: e.to_string() };
     let files = match fs::read_dir(dir) {
         Ok(files) => files,
         Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
@@ -103,7 +103,7 @@ fn write_table<T: Record>(path: &Path, rows: &[T], notes: &[(&str, String)]) -> 
         table.rows(rows)?;
         table.finish()
     });
-    let mut bytes = sealed.map_err(|e| CampaignError::Write { path: path.to_owned(), problem: e.to_string() })?;
+    let mut bytes = sealed.map_err(|e| OutputError::new(path, io::Error::other(e)))?;
     seal::close(&mut bytes);
     write_on_disk(path, &bytes)?;
     Ok(())
@@ -174,7 +174,7 @@ type TableContent<T> = (Vec<T>, Vec<KeyValue>);
 /// there may be, there are at most as many as the file has bytes.
 fn read_table<T: Record>(path: &Path, most: Option<usize>) -> Result<Option<TableContent<T>>, CampaignError> {
     let path = || path.to_owned();
-    let unread = |e: std::io::Error| {
+    let unread = |e: io::Error| {
         let (path, problem) = (path(), e.to_string());
         match e.kind() {
             ErrorKind::InvalidInput => CampaignError::Broken { path, problem },

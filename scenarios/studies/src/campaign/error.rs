@@ -48,13 +48,8 @@ pub enum CampaignError {
         problem: String,
     },
     /// A file or folder cannot be written: no permission, or the disk is full.
-    #[error("cannot write {}: {problem}", path.display())]
-    Write {
-        /// The path.
-        path: PathBuf,
-        /// The system's message.
-        problem: String,
-    },
+    #[error(transparent)]
+    Write(#[from] OutputError),
     /// A file cannot be read.
     #[error("cannot read {}: {problem}", path.display())]
     Read {
@@ -82,10 +77,4 @@ pub enum CampaignError {
         /// The number of runs.
         runs: u64,
     },
-}
-
-impl From<OutputError> for CampaignError {
-    fn from(error: OutputError) -> Self {
-        CampaignError::Write { path: error.path, problem: error.source.to_string() }
-    }
 }

@@ -1,4 +1,4 @@
-//! The runs of one seed: those with the same ocean in lanes, the others one after the other.
+//! One run, or the runs of one seed: those with the same ocean in lanes, the others one after the other.
 #![allow(clippy::disallowed_methods, reason = "wall times are columns of the table; nothing of them enters a run")]
 
 use super::contained::contained;
@@ -24,6 +24,20 @@ pub(crate) struct LaneLimits<'a> {
     pub(crate) go_on: &'a dyn Fn() -> bool,
     /// Hears the wall time of the runs that went in lanes together.
     pub(crate) took: &'a dyn Fn(Duration),
+}
+
+impl LaneLimits<'_> {
+    /// All runs go to their ends.
+    pub(crate) const NONE: LaneLimits<'static> = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
+}
+
+/// Makes the run. A run that fails or panics also becomes a row, with its error.
+#[must_use]
+pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
+    let mut made = None;
+    let runs = [(name.clone(), loaded)];
+    in_lanes(&runs, None, LaneLimits::NONE, &mut |row| made = Some(row));
+    made.unwrap_or_else(|| failed(name, "it did not come to its end".to_string()))
 }
 
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
@@ -126,7 +140,6 @@ impl Walls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::campaign::one_run;
     use rheotaxis::scenario::{load_text, template};
     use std::cell::Cell;
     use world::registry::Registry;

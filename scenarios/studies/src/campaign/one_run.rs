@@ -1,7 +1,6 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
 
 use super::contained::contained;
-use super::in_lanes::{LaneLimits, in_lanes};
 use super::row::{DeclarationRow, RunRow};
 use output::results::{
     DeclarationSummary, GantrySummary, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary, SummaryBuilder,
@@ -26,16 +25,6 @@ pub struct RunName {
     pub seed_index: u64,
     /// The seed itself, with the campaign's key.
     pub seed: Seed,
-}
-
-/// Makes the run. A run that fails or panics also becomes a row, with its error.
-#[must_use]
-pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
-    let heed = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
-    let mut made = None;
-    let runs = [(name.clone(), loaded)];
-    in_lanes(&runs, None, heed, &mut |row| made = Some(row));
-    made.unwrap_or_else(|| failed(name, "it did not come to its end".to_string()))
 }
 
 /// Makes a row from `run`, or from its panic.

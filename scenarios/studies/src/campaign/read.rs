@@ -8,9 +8,10 @@ use super::manifest::Manifest;
 use super::record::Record;
 use super::row::RunRow;
 use super::table::TableWriter;
-use std::io::BufWriter;
+use std::error::Error;
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
-use world::files::{Output, clear_abandoned, folder_of};
+use world::files::{Output, OutputError, clear_abandoned, folder_of};
 
 /// All existing rows, in the order of runs; runs that are not done yet are left out.
 ///
@@ -90,9 +91,7 @@ fn beside(path: &Path) -> PathBuf {
 /// If a block is not whole, or if a file cannot be written; what was there before then stays.
 pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<MergeResult, CampaignError> {
     if csv == Some(to) {
-        let problem = "the Parquet file and the CSV file would be the same".to_string();
-        let path = to.to_owned();
-        return Err(CampaignError::Write { path, problem });
+        return Err(unwritten(to)("the Parquet file and the CSV file would be the same"));
     }
     let declarations_path = beside(to);
     let csv_beside = csv.map(beside);
@@ -121,8 +120,8 @@ struct Table<'a, T> {
     lines: u64,
 }
 
-fn unwritten<E: ToString>(path: &Path) -> impl Fn(E) -> CampaignError + use<'_, E> {
-    move |e| CampaignError::Write { path: path.to_owned(), problem: e.to_string() }
+fn unwritten<E: Into<Box<dyn Error + Send + Sync>>>(path: &Path) -> impl Fn(E) -> CampaignError + use<'_, E> {
+    move |e| OutputError::new(path, io::Error::other(e)).into()
 }
 
 impl<'a, T: Record> Table<'a, T> {

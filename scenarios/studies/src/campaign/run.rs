@@ -10,7 +10,7 @@ use super::plan::Campaign;
 use super::row::RunRow;
 use super::shard::Shard;
 use super::share::Share;
-use super::work::{Limits, Work};
+use super::work::{Event, Limits, Work};
 use rheotaxis::cache::SpinUps;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -39,24 +39,6 @@ pub struct RunOptions {
     pub force: bool,
     /// Where spin-ups are kept; without it, each is made.
     pub kept: Option<Arc<SpinUps>>,
-}
-
-/// What is reported while a campaign runs, from any thread.
-#[derive(Debug)]
-pub enum Event<'a> {
-    /// Before the first run: the number of runs of this share, and how many of them are done.
-    Begun {
-        /// Number of runs of this share.
-        runs: u64,
-        /// Number of runs done before.
-        done: u64,
-    },
-    /// A block is not whole and is computed again.
-    Broken(&'a CampaignError),
-    /// A run has ended.
-    Ran(&'a RunRow),
-    /// A block was written with all its rows.
-    Wrote(u64),
 }
 
 /// How the campaign ended.

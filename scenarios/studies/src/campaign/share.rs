@@ -4,8 +4,8 @@ use super::block::{BlockState, add_to_block, block_path, declarations_path, pres
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
-use super::run::Event;
 use super::shard::Shard;
+use super::work::Event;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};

@@ -2,6 +2,19 @@
 
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
+/// Threads could not be started.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start {jobs} threads: {problem}")]
+pub struct ThreadsError {
+    jobs: usize,
+    problem: ThreadPoolBuildError,
+}
+
+/// So many threads; 0 means one for each core.
+pub(crate) fn pool(jobs: usize) -> Result<ThreadPool, ThreadsError> {
+    ThreadPoolBuilder::new().num_threads(jobs).build().map_err(|problem| ThreadsError { jobs, problem })
+}
+
 /// Does some work with one thread for each core; where the system gives none, with this one. (The pool that rayon makes
 /// by itself panics then.)
 pub(super) fn with_threads<R: Send>(work: impl FnOnce() -> R + Send) -> R {

@@ -3,11 +3,10 @@
 #![allow(clippy::disallowed_methods, reason = "the limit of wall time decides when to stop, never what a run does")]
 
 use super::error::CampaignError;
-use super::in_lanes::{LaneLimits, PlannedRun, in_lanes};
-use super::one_run::{RunName, one_run};
+use super::in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
+use super::one_run::RunName;
 use super::plan::Campaign;
 use super::row::RunRow;
-use super::run::Event;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::collections::BTreeMap;
@@ -22,6 +21,24 @@ const LOOK: Duration = Duration::from_millis(100);
 
 /// Number of conditions whose scenarios are kept in memory.
 const CONDITIONS: usize = 64;
+
+/// What is reported while a campaign runs, from any thread.
+#[derive(Debug)]
+pub enum Event<'a> {
+    /// Before the first run: the number of runs of this share, and how many of them are done.
+    Begun {
+        /// Number of runs of this share.
+        runs: u64,
+        /// Number of runs done before.
+        done: u64,
+    },
+    /// A block is not whole and is computed again.
+    Broken(&'a CampaignError),
+    /// A run has ended.
+    Ran(&'a RunRow),
+    /// A block was written with all its rows.
+    Wrote(u64),
+}
 
 /// Limits up to which runs begin.
 pub(super) struct Limits<'a> {

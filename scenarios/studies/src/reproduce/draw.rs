@@ -122,10 +122,7 @@ fn changed<'a>(
     let Cow::Owned(text) = text else {
         return Ok(Cow::Borrowed(loaded));
     };
-    let (path, name, base_dir) = (loaded.path.clone(), loaded.name.clone(), loaded.base_dir.clone());
-    let read = || Loaded::of_text(path, name, base_dir, text);
-    let changed = loaded.registry.scope(read);
-    changed.map(Cow::Owned).map_err(|e| e.to_string())
+    loaded.with_text(text).map(Cow::Owned).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

@@ -4,12 +4,9 @@
 //! `<row>-declarations.csv` a line for each declaration. The first line of the former names scenario and hash, and holds
 //! a fingerprint of all lines of both. Wall times are left out, so the same runs give the same bytes on any machine.
 
-use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
-use super::run::RowResult;
-use crate::campaign::{
-    DeclarationRow, LaneLimits, PlannedRun, RunName, RunRow, as_csv, difference, from_csv, in_lanes,
-};
+use super::run::{RowResult, seed_runs};
+use crate::campaign::{DeclarationRow, LaneLimits, RunRow, as_csv, difference, from_csv};
 use output::files::{ReportError, make_folder, write_whole};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasher, RandomState};
@@ -169,25 +166,8 @@ impl Table {
 
     fn differs(&self, reference: &Reference, seed: u64) -> Option<String> {
         let was = |arm: &String| self.runs.get(&(seed, arm.clone()));
-        let mut scenarios = Vec::new();
-        for (arm, loaded) in reference.arms.iter().filter(|(arm, _)| was(arm).is_some()) {
-            let made = drawn(&reference.row.draw, arm, loaded, Seed::from(seed));
-            scenarios.push((arm, made.expect("ends and values of every draw were checked")));
-        }
-        let mut runs: Vec<PlannedRun<'_>> = Vec::new();
-        for (arm, loaded) in &scenarios {
-            let name = RunName {
-                run: 0,
-                arm: (*arm).clone(),
-                condition: String::new(),
-                seed_index: 0,
-                seed: Seed::from(seed),
-            };
-            runs.push((name, loaded));
-        }
-        let heed = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
         let mut found = None;
-        in_lanes(&runs, None, heed, &mut |is| {
+        seed_runs(reference, |arm| was(arm).is_some(), (0, Seed::from(seed)), None, LaneLimits::NONE, &mut |is| {
             let is = &is;
             let was = was(&is.arm).expect("only arms of the table are run");
             let counts = [is, was].map(|run| run.declarations.len());

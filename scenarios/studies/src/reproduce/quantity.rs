@@ -4,7 +4,8 @@ use super::measure::{Measure, RunEvent};
 use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
 use crate::campaign::stats::{
-    Interval, LEAST_VALUES, finite_sorted, mean_interval, positive_mean_interval, quantile, quantile_interval, wilson,
+    Interval, LEAST_VALUES, finite_sorted, mean_interval, middle, positive_mean_interval, quantile, quantile_interval,
+    wilson,
 };
 use serde::{Deserialize, Serialize};
 
@@ -105,13 +106,7 @@ fn of_values(
 ) -> Estimate {
     let sorted = finite_sorted(rows.iter().filter_map(|r| measure.value(r)));
     let (value, interval) = figure(&sorted);
-    Estimate {
-        n: sorted.len() as u64,
-        count: None,
-        value,
-        interval,
-        spread: quantile(&sorted, 0.025).zip(quantile(&sorted, 0.975)).map(|(low, high)| Interval { low, high }),
-    }
+    Estimate { n: sorted.len() as u64, count: None, value, interval, spread: middle(&sorted) }
 }
 
 #[cfg(test)]

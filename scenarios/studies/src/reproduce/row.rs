@@ -5,7 +5,7 @@ mod shipped;
 use super::draw::{Draw, check};
 use super::measure::RunEvent;
 use super::quantity::Quantity;
-use crate::campaign::Arm;
+use crate::campaign::{Arm, ThreadsError};
 use output::files::ReportError;
 use rheotaxis::scenario::{Loaded, ScenarioError, load, set_value, template};
 use ron::extensions::Extensions;
@@ -154,13 +154,8 @@ pub enum ReproduceError {
         problem: String,
     },
     /// The threads cannot be started.
-    #[error("cannot start {jobs} threads: {problem}")]
-    Threads {
-        /// The number asked for; 0 means one for each core.
-        jobs: usize,
-        /// The system's message.
-        problem: String,
-    },
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// Ctrl-C or a termination signal.
     #[error("interrupted: nothing is written, for the runs that end first are not a fair sample")]
     Interrupted,

@@ -4,13 +4,13 @@ use super::compare::{FigureComparison, compare};
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
-use crate::campaign::{LaneLimits, PlannedRun, RunName, RunRow, in_lanes};
-use rayon::ThreadPoolBuilder;
+use crate::campaign::{LaneLimits, PlannedRun, RunName, RunRow, in_lanes, pool};
 use rayon::prelude::*;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
-use world::seeds::Key;
+use world::seeds::{Key, Seed};
 
 /// Seeds after which the current results are written, so that little is lost if the program is killed.
 const BATCH: u64 = 50;
@@ -71,54 +71,52 @@ pub fn reproduce(
     heard: impl Fn(&RunRow, u64) + Sync,
     mut so_far: impl FnMut(&RowResult) -> Result<(), ReproduceError>,
 ) -> Result<RowResult, ReproduceError> {
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(plan.jobs)
-        .build()
-        .map_err(|e| ReproduceError::Threads { jobs: plan.jobs, problem: e.to_string() })?;
+    let pool = pool(plan.jobs)?;
     let n_arms = reference.arms.len() as u64;
     while let Some(planned) = next(&row.runs, reference, plan) {
         let from = row.runs.len() as u64 / n_arms;
         let n = planned.min(from + BATCH);
-        let batch: Vec<Option<Vec<RunRow>>> = pool.install(|| {
-            (from..n)
-                .into_par_iter()
-                .map(|index| {
-                    let seed = plan.key.seed(plan.first_seed + index);
-                    let mut scenarios = Vec::new();
-                    for (arm, loaded) in &reference.arms {
-                        let made = drawn(&reference.row.draw, arm, loaded, seed);
-                        scenarios.push(made.expect("ends and values of every draw were checked"));
-                    }
-                    let mut runs: Vec<PlannedRun<'_>> = Vec::new();
-                    for (k, ((arm, _), loaded)) in (0..).zip(reference.arms.iter().zip(&scenarios)) {
-                        let name = RunName {
-                            run: index * n_arms + k,
-                            arm: arm.clone(),
-                            condition: String::new(),
-                            seed_index: index,
-                            seed,
-                        };
-                        runs.push((name, loaded));
-                    }
-                    let going = || !stop.load(Ordering::Relaxed);
-                    let heed = LaneLimits { begin: &going, go_on: &going, took: &|_| {} };
-                    let mut rows = Vec::new();
-                    in_lanes(&runs, kept, heed, &mut |row| {
-                        heard(&row, planned * n_arms);
-                        rows.push(row);
-                    });
-                    rows.sort_by_key(|row| row.run);
-                    (rows.len() == runs.len()).then_some(rows)
-                })
-                .collect()
-        });
-        let batch: Option<Vec<Vec<RunRow>>> = batch.into_iter().collect();
+        let of_seed = |index: u64| {
+            let going = || !stop.load(Ordering::Relaxed);
+            let heed = LaneLimits { begin: &going, go_on: &going, took: &|_| {} };
+            let seed = plan.key.seed(plan.first_seed + index);
+            let mut rows = Vec::new();
+            seed_runs(reference, |_| true, (index, seed), kept, heed, &mut |row| {
+                heard(&row, planned * n_arms);
+                rows.push(row);
+            });
+            rows.sort_by_key(|row| row.run);
+            (rows.len() as u64 == n_arms).then_some(rows)
+        };
+        let batch: Option<Vec<Vec<RunRow>>> = pool.install(|| (from..n).into_par_iter().map(of_seed).collect());
         let batch = batch.ok_or(ReproduceError::Interrupted)?;
         row.runs.extend(batch.into_iter().flatten());
         row.figures = compare(&reference.row, &row.runs);
         so_far(&row)?;
     }
     Ok(row)
+}
+
+/// Makes the runs of a seed and its index, in those arms of a row that are `asked` for.
+pub(super) fn seed_runs(
+    reference: &Reference,
+    asked: impl Fn(&String) -> bool,
+    (index, seed): (u64, Seed),
+    kept: Option<&SpinUps>,
+    heed: LaneLimits<'_>,
+    keep: &mut dyn FnMut(RunRow),
+) {
+    let n_arms = reference.arms.len() as u64;
+    let arms = (0..).zip(&reference.arms).filter(|(_, (arm, _))| asked(arm));
+    let made = arms.map(|(k, (arm, loaded))| {
+        let run = index * n_arms + k;
+        let name = RunName { run, arm: arm.clone(), seed_index: index, seed, ..RunName::default() };
+        let made = drawn(&reference.row.draw, arm, loaded, seed);
+        (name, made.expect("ends and values of every draw were checked"))
+    });
+    let made: Vec<(RunName, Cow<'_, Loaded>)> = made.collect();
+    let runs: Vec<PlannedRun<'_>> = made.iter().map(|(name, loaded)| (name.clone(), &**loaded)).collect();
+    in_lanes(&runs, kept, heed, keep);
 }
 
 /// The next number of seeds; `None` if there are enough for every arm.

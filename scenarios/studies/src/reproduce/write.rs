@@ -4,15 +4,18 @@ use super::compare::{FigureComparison, Standing};
 use super::row::Paper;
 use super::run::RowResult;
 use crate::campaign::as_csv;
-use crate::campaign::report::{Reliability, Table, Walls, range, reliability, reliable, wrapped};
+use crate::campaign::report::{Reliability, Table, TableColumn, Walls, range, reliability, reliable, wrapped};
 use crate::campaign::stats::Interval;
-use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
+use output::files::{ReportError, csv_number, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 const TEXT: &str = "writing to a String succeeds";
 
-const HEAD: [&str; 6] = ["figure", "ours", "95 % interval", "n", "paper", "the paper's is"];
+/// The figures of a row beside the paper's.
+fn figures(r: &RowResult) -> Table {
+    Table::new(["figure", "ours", "95 % interval", "n", "paper", "the paper's is"], r.figures.iter().map(cells))
+}
 
 /// A row of the table; all its values have one unit.
 fn cells(c: &FigureComparison) -> [String; 6] {
@@ -71,7 +74,7 @@ pub fn table(r: &RowResult, columns: Option<usize>) -> String {
     let mut out = line(&format!("{}: {}", r.row.id, r.row.what));
     let runs = line(&format!("{} [{}]", runs_line(r), r.row.source));
     writeln!(out, "\n{runs}\n").expect(TEXT);
-    out.push_str(&Table::new(HEAD, r.figures.iter().map(cells)).text(columns));
+    out.push_str(&figures(r).text(columns));
     let maps = maps(r);
     if !maps.is_empty() {
         out.push('\n');
@@ -119,7 +122,7 @@ pub fn write(dir: &Path, all: &[RowResult]) -> Result<Vec<PathBuf>, ReportError>
         let maps = maps(r);
         if !maps.is_empty() {
             files.push((format!("{}.csv", r.row.id), reliable::csv(&maps)));
-            let svg = reliable::picture(&maps, reliable::colour);
+            let svg = reliable::picture(&maps);
             files.push((format!("{}.svg", r.row.id), svg));
         }
     }
@@ -155,24 +158,14 @@ fn markdown(all: &[RowResult]) -> String {
             runs_line(r)
         )
         .expect(TEXT);
-        writeln!(out, "| {} |\n|{}", HEAD.join(" | "), " --- |".repeat(HEAD.len())).expect(TEXT);
-        for c in &r.figures {
-            let safe = cells(c).map(|s| s.replace('|', "\\|"));
-            writeln!(out, "| {} |", safe.join(" | ")).expect(TEXT);
-        }
-        out.push('\n');
+        writeln!(out, "{}", figures(r).markdown()).expect(TEXT);
         for c in r.figures.iter().filter(|c| !c.figure.note.is_empty()) {
             writeln!(out, "- {}: {}.", c.figure.name, c.figure.note).expect(TEXT);
         }
         let maps = maps(r);
         if !maps.is_empty() {
-            let table = reliable::table(&maps);
-            let rule = " --- |".repeat(table.head.len());
-            writeln!(out, "\n| {} |\n|{rule}", table.head.join(" | ")).expect(TEXT);
-            for line in &table.rows {
-                writeln!(out, "| {} |", line.join(" | ")).expect(TEXT);
-            }
-            writeln!(out, "\n{}\n\n![]({}.svg)\n", reliable::notes(&maps), r.row.id).expect(TEXT);
+            let (table, notes) = (reliable::table(&maps).markdown(), reliable::notes(&maps));
+            writeln!(out, "\n{table}\n{notes}\n\n![]({}.svg)\n", r.row.id).expect(TEXT);
         }
         if let Some(error) = first_error(r) {
             writeln!(out, "- First failure: {error}.").expect(TEXT);
@@ -183,31 +176,28 @@ fn markdown(all: &[RowResult]) -> String {
 }
 
 fn figures_csv(all: &[RowResult]) -> String {
-    let figures = all.iter().flat_map(|r| {
-        r.figures.iter().map(|c| {
-            let (i, s, p) = (c.ours.interval, c.ours.spread, c.papers_interval);
-            let standing = match c.standing {
-                Standing::None => "",
-                standing => standing.label(),
-            };
-            [
-                r.row.id.clone(),
-                c.figure.name.clone(),
-                c.ours.n.to_string(),
-                c.ours.count.map_or(String::new(), |k| k.to_string()),
-                csv_number(c.ours.value),
-                csv_number(i.map(|i| i.low)),
-                csv_number(i.map(|i| i.high)),
-                csv_number(s.map(|i| i.low)),
-                csv_number(s.map(|i| i.high)),
-                csv_number(c.figure.paper.map(Paper::value)),
-                csv_number(p.map(|i| i.low)),
-                csv_number(p.map(|i| i.high)),
-                standing.to_string(),
-            ]
-        })
-    });
-    csv_text("row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing", figures)
+    let low = |i: Option<Interval>| csv_number(i.map(|i| i.low));
+    let high = |i: Option<Interval>| csv_number(i.map(|i| i.high));
+    let standing = |c: &FigureComparison| match c.standing {
+        Standing::None => String::new(),
+        standing => standing.label().to_string(),
+    };
+    let columns: [TableColumn<'_, (&RowResult, &FigureComparison)>; 13] = [
+        ("row", &|(r, _)| r.row.id.clone()),
+        ("figure", &|(_, c)| c.figure.name.clone()),
+        ("n", &|(_, c)| c.ours.n.to_string()),
+        ("count", &|(_, c)| c.ours.count.map_or(String::new(), |k| k.to_string())),
+        ("ours", &|(_, c)| csv_number(c.ours.value)),
+        ("low", &|(_, c)| low(c.ours.interval)),
+        ("high", &|(_, c)| high(c.ours.interval)),
+        ("runs_low", &|(_, c)| low(c.ours.spread)),
+        ("runs_high", &|(_, c)| high(c.ours.spread)),
+        ("paper", &|(_, c)| csv_number(c.figure.paper.map(Paper::value))),
+        ("paper_low", &|(_, c)| low(c.papers_interval)),
+        ("paper_high", &|(_, c)| high(c.papers_interval)),
+        ("standing", &|(_, c)| standing(c)),
+    ];
+    Table::of(all.iter().flat_map(|r| r.figures.iter().map(move |c| (r, c))), &columns).csv()
 }
 
 #[cfg(test)]

@@ -1,12 +1,63 @@
-//! Precision and recall by visibility, and the verification curves, drawn.
+//! Precision and recall by visibility and the verification curves, computed and drawn.
 
-use super::draw::BINS;
-use super::methods::METHODS;
-use super::pixels::Ratio;
-use super::write::{Figures, range_words};
+use super::draw::{BINS, Content, bin};
+use super::methods::{METHODS, Method};
+use super::pixels::{Counts, Ratio, precision, recall};
+use super::roc::{Roc, ScoredPicture};
+use super::run::SceneRow;
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::{GREY, INK};
 use output::charts::panel::Panel;
+use serde::Serialize;
+
+/// All figures of one method in one range of visibility.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Figures {
+    pub(super) method: Method,
+    /// Range of visibility, m; `None` for all ranges.
+    pub(super) visibility_m: Option<(f64, f64)>,
+    pub(super) dye_precision: Ratio,
+    pub(super) dye_recall: Ratio,
+    pub(super) source_precision: Ratio,
+    pub(super) source_recall: Ratio,
+    pub(super) verification: Roc,
+}
+
+/// The figures of each method: all scenes, then each range.
+pub(super) fn figures(rows: &[SceneRow]) -> Vec<Figures> {
+    let mut all = Vec::new();
+    for method in METHODS {
+        let of_method: Vec<&SceneRow> = rows.iter().filter(|r| r.method == method).collect();
+        all.push(one(method, None, &of_method));
+        for (k, range) in BINS.into_iter().enumerate() {
+            let within: Vec<&SceneRow> =
+                (of_method.iter().copied()).filter(|r| bin(r.scene.visibility_m) == k).collect();
+            all.push(one(method, Some(range), &within));
+        }
+    }
+    all
+}
+
+fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> Figures {
+    let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
+    let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
+    let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
+    let scored: Vec<ScoredPicture> =
+        (rows.iter()).map(|r| ScoredPicture { score: r.score, source: r.scene.content == Content::Source }).collect();
+    Figures {
+        method,
+        visibility_m,
+        dye_precision: precision(&dye, &name("dye precision")),
+        dye_recall: recall(&dye, &name("dye recall")),
+        source_precision: precision(&source, &name("source precision")),
+        source_recall: recall(&source, &name("source recall")),
+        verification: Roc::new(&scored, &name("verification")),
+    }
+}
+
+pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
+    range.map_or("all".to_string(), |(low, high)| format!("{low}–{high} m"))
+}
 
 /// Colours of the methods (Okabe & Ito 2008), in their order.
 const COLOURS: [&str; 6] = ["#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73"];

@@ -8,7 +8,7 @@
 //!
 //! *Deviations*: none.
 
-use crate::campaign::stats::{Interval, quantile};
+use crate::campaign::stats::{Interval, middle};
 use image::GrayImage;
 use serde::Serialize;
 use world::seeds::Stream;
@@ -79,12 +79,7 @@ fn ratio(counts: &[Counts], name: &str, of: impl Fn(&Counts) -> (u64, u64)) -> R
         .filter_map(|_| pooled(&mut (0..n).map(|_| parts[((rng.uniform() * n as f64) as usize).min(n - 1)])))
         .collect();
     drawn.sort_by(f64::total_cmp);
-    let at = |p: f64| quantile(&drawn, p);
-    Ratio {
-        pictures: n,
-        value: pooled(&mut parts.iter().copied()),
-        interval: (at(0.025).zip(at(0.975))).map(|(low, high)| Interval { low, high }),
-    }
+    Ratio { pictures: n, value: pooled(&mut parts.iter().copied()), interval: middle(&drawn) }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
 use super::draw::{Content, SceneDraw};
-use super::run::ScoreError;
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
@@ -41,10 +40,6 @@ pub(super) const DYED: f32 = 0.1;
 /// A pixel shows the body if at least this share of the body's own light arrives.
 pub(super) const CLEAR: f32 = 0.02;
 
-/// Width and height of the pictures, px.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SizePx(pub u32, pub u32);
-
 /// A picture with known content.
 #[derive(Clone, Debug)]
 pub struct Shot {
@@ -56,34 +51,33 @@ pub struct Shot {
     pub source: GrayImage,
 }
 
-/// Renders a scene.
+/// Renders a scene as a picture of a width and height, px.
 ///
 /// # Errors
 /// If the scene cannot be built: a mistake in its ranges.
-pub fn shoot(seed: u64, d: &SceneDraw, size: SizePx) -> Result<Shot, ScoreError> {
-    let wrong = |problem: String| ScoreError::Scene { n: d.n, problem };
+pub fn shoot(seed: u64, d: &SceneDraw, [width, height]: [u32; 2]) -> Result<Shot, String> {
     let terrain = Terrain::Level { depth_m: DEPTH_M };
     let standing = matches!(d.content, Content::Source | Content::Body);
     let obstacles = if standing {
         let body = Obstacle::build(&body(d), &terrain, Path::new(""));
-        Obstacles(vec![body.map_err(|e| wrong(e.to_string()))?])
+        Obstacles(vec![body.map_err(|e| e.to_string())?])
     } else {
         Obstacles::default()
     };
     let dyed = matches!(d.content, Content::Source | Content::Dye);
-    let plume = dyed.then(|| plume(seed, d, &terrain)).transpose().map_err(wrong)?;
-    let optics = Optics::new(&optics(d)).map_err(|e| wrong(e.to_string()))?;
+    let plume = dyed.then(|| plume(seed, d, &terrain)).transpose()?;
+    let optics = Optics::new(&optics(d)).map_err(|e| e.to_string())?;
     let scene = Scene {
         terrain: &terrain,
         obstacles: &obstacles,
         dye: plume.as_ref().map_or(&Clean as &dyn Concentration, |p| p),
         optics: &optics,
     };
-    let camera = CameraModel::new(&CameraSpec { width: size.0, height: size.1, ..CameraSpec::default() });
+    let camera = CameraModel::new(&CameraSpec { width, height, ..CameraSpec::default() });
     let noise = world::seeds::key(seed, &format!("scene-{}", d.n), "camera");
     let made = render(&camera, &pose(d), &scene, noise);
     let mask = |of: &dyn Fn(usize) -> bool| {
-        GrayImage::from_fn(size.0, size.1, |x, y| Luma([255 * u8::from(of((y * size.0 + x) as usize))]))
+        GrayImage::from_fn(width, height, |x, y| Luma([255 * u8::from(of((y * width + x) as usize))]))
     };
     let is_source = d.content == Content::Source;
     Ok(Shot {
@@ -185,7 +179,7 @@ mod tests {
     fn pictures_show_what_was_drawn() {
         for n in 18..24 {
             let d = draw(5, n);
-            let shot = shoot(5, &d, SizePx(48, 36)).unwrap();
+            let shot = shoot(5, &d, [48, 36]).unwrap();
             let (dye, source) = (count(&shot.dye), count(&shot.source));
             assert_eq!(source > 0, d.content == Content::Source, "{n}: {source}");
             match d.content {
@@ -199,7 +193,7 @@ mod tests {
     #[test]
     fn pictures_are_repeatable_bit_by_bit() {
         let d = draw(5, 18);
-        let [a, b] = [(); 2].map(|()| shoot(5, &d, SizePx(32, 24)).unwrap());
+        let [a, b] = [(); 2].map(|()| shoot(5, &d, [32, 24]).unwrap());
         assert_eq!(a.picture, b.picture);
     }
 }

@@ -11,7 +11,7 @@
 //! *Written here*: no light crate has this area with ties and an interval.
 
 use super::pixels::RESAMPLES;
-use crate::campaign::stats::{Interval, quantile, wilson};
+use crate::campaign::stats::{Interval, middle, wilson};
 use serde::Serialize;
 use world::seeds::Stream;
 
@@ -88,8 +88,7 @@ fn interval(with: &[f64], without: &[f64], name: &str) -> Option<Interval> {
     };
     let mut areas: Vec<f64> = (0..RESAMPLES).filter_map(|_| area(&again(with), &again(without))).collect();
     areas.sort_by(f64::total_cmp);
-    let [low, high] = [0.025, 0.975].map(|p| quantile(&areas, p));
-    Some(Interval { low: low?, high: high? })
+    middle(&areas)
 }
 
 fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {

@@ -3,12 +3,26 @@
 use super::draw::{SceneDraw, draw};
 use super::methods::{METHODS, Method};
 use super::pixels::Counts;
-use super::render::{Shot, SizePx, shoot};
+use super::render::{Shot, shoot};
+use crate::campaign::{ThreadsError, pool};
 use output::files::ReportError;
 use rayon::prelude::*;
 use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The plan of a test.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ScenePlan {
+    /// Seed of the scenes.
+    pub seed: u64,
+    /// Number of scenes.
+    pub scenes: u64,
+    /// Width and height of the pictures, px.
+    pub size_px: [u32; 2],
+    /// The verifier.
+    pub verifier: VerifierSpec,
+}
 
 /// The result of one method for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,13 +53,8 @@ pub enum ScoreError {
         problem: String,
     },
     /// The threads cannot be started.
-    #[error("cannot start {jobs} threads: {problem}")]
-    Threads {
-        /// The number asked for; 0 means one for each core.
-        jobs: usize,
-        /// The system's message.
-        problem: String,
-    },
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
     /// Results cannot be written.
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -54,32 +63,29 @@ pub enum ScoreError {
     Interrupted,
 }
 
-/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one for each core). The rows are in order and do not
+/// Scores the scenes of a plan, `jobs` at a time (0: one for each core). The rows are in order and do not
 /// depend on `jobs`. `done` gets every scene with its picture when it is finished.
 ///
 /// # Errors
 /// If threads cannot be started, if a scene cannot be built, or if `stop` is set.
 pub fn score(
-    seed: u64,
-    scenes: u64,
-    size: SizePx,
-    spec: &VerifierSpec,
+    plan: &ScenePlan,
     jobs: usize,
     stop: &AtomicBool,
     done: impl Fn(&SceneDraw, &Shot) + Sync,
 ) -> Result<Vec<SceneRow>, ScoreError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
-    let pool = pool.map_err(|e| ScoreError::Threads { jobs, problem: e.to_string() })?;
+    let pool = pool(jobs)?;
     let one = |n: u64| {
         if stop.load(Ordering::Relaxed) {
             return Err(ScoreError::Interrupted);
         }
-        let scene = draw(seed, n);
-        let shot = shoot(seed, &scene, size)?;
+        let scene = draw(plan.seed, n);
+        let shot = shoot(plan.seed, &scene, plan.size_px).map_err(|problem| ScoreError::Scene { n, problem })?;
         done(&scene, &shot);
-        Ok(rows(&scene, &shot, spec))
+        Ok(rows(&scene, &shot, &plan.verifier))
     };
-    let all: Result<Vec<Vec<SceneRow>>, ScoreError> = pool.install(|| (0..scenes).into_par_iter().map(one).collect());
+    let all: Result<Vec<Vec<SceneRow>>, ScoreError> =
+        pool.install(|| (0..plan.scenes).into_par_iter().map(one).collect());
     Ok(all?.concat())
 }
 
@@ -105,7 +111,8 @@ mod tests {
     #[test]
     fn rows_do_not_depend_on_the_number_of_jobs() {
         let go = AtomicBool::new(false);
-        let of = |jobs| score(3, 4, SizePx(24, 18), &VerifierSpec::default(), jobs, &go, |_, _| {}).unwrap();
+        let plan = ScenePlan { seed: 3, scenes: 4, size_px: [24, 18], verifier: VerifierSpec::default() };
+        let of = |jobs| score(&plan, jobs, &go, |_, _| {}).unwrap();
         let one = of(1);
         assert_eq!(one.len(), 4 * METHODS.len());
         assert_eq!(one, of(2));

@@ -1,110 +1,36 @@
 //! The results as a table, CSV, JSON and figures.
 
-use super::draw::{BINS, bin};
-use super::figures::{curves, shares};
-use super::methods::{METHODS, Method};
-use super::pixels::{Counts, Ratio, precision, recall};
-use super::roc::{Roc, ScoredPicture};
-use super::run::SceneRow;
+use super::figures::{Figures, curves, figures, range_words, shares};
+use super::methods::Method;
+use super::pixels::Ratio;
+use super::roc::Roc;
+use super::run::{ScenePlan, SceneRow};
+use crate::campaign::report::{Table, TableColumn};
 use crate::campaign::stats::Interval;
 use output::files::{PendingFiles, ReportError, csv_number, csv_text};
-use robots::vision::VerifierSpec;
 use serde::Serialize;
-use std::fmt::Write as _;
 use world::files::Folder;
-
-/// The plan of a test.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ScenePlan {
-    /// Seed of the scenes.
-    pub seed: u64,
-    /// Number of scenes.
-    pub scenes: u64,
-    /// Width and height of the pictures, px.
-    pub size_px: [u32; 2],
-    /// The verifier.
-    pub verifier: VerifierSpec,
-}
-
-/// All figures of one method in one range of visibility.
-#[derive(Clone, Debug, Serialize)]
-pub(super) struct Figures {
-    pub(super) method: Method,
-    /// Range of visibility, m; `None` for all ranges.
-    pub(super) visibility_m: Option<(f64, f64)>,
-    pub(super) dye_precision: Ratio,
-    pub(super) dye_recall: Ratio,
-    pub(super) source_precision: Ratio,
-    pub(super) source_recall: Ratio,
-    pub(super) verification: Roc,
-}
-
-/// The figures of each method: all scenes, then each range.
-fn figures(rows: &[SceneRow]) -> Vec<Figures> {
-    let mut all = Vec::new();
-    for method in METHODS {
-        let of_method: Vec<&SceneRow> = rows.iter().filter(|r| r.method == method).collect();
-        all.push(one(method, None, &of_method));
-        for (k, range) in BINS.into_iter().enumerate() {
-            let within: Vec<&SceneRow> =
-                (of_method.iter().copied()).filter(|r| bin(r.scene.visibility_m) == k).collect();
-            all.push(one(method, Some(range), &within));
-        }
-    }
-    all
-}
-
-fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> Figures {
-    let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
-    let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
-    let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
-    let scored: Vec<ScoredPicture> = (rows.iter())
-        .map(|r| ScoredPicture { score: r.score, source: r.scene.content == super::Content::Source })
-        .collect();
-    Figures {
-        method,
-        visibility_m,
-        dye_precision: precision(&dye, &name("dye precision")),
-        dye_recall: recall(&dye, &name("dye recall")),
-        source_precision: precision(&source, &name("source precision")),
-        source_recall: recall(&source, &name("source recall")),
-        verification: Roc::new(&scored, &name("verification")),
-    }
-}
 
 /// The figures as a table, with 95 % intervals.
 #[must_use]
 pub fn table(rows: &[SceneRow]) -> String {
-    let mut out = String::from(
-        "| way | visibility | dye: precision | recall | source: precision | recall | verified of those with a source | of those without | area under the curve |\n\
-         | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
-    );
-    for f in figures(rows) {
-        let v = &f.verification;
-        let share =
-            |(n, k): (u64, u64), i: &Interval| format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high);
-        let _ = writeln!(
-            out,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            f.method.name(),
-            range_words(f.visibility_m),
-            percent(&f.dye_precision),
-            percent(&f.dye_recall),
-            percent(&f.source_precision),
-            percent(&f.source_recall),
-            share(v.with, &v.true_share),
-            share(v.without, &v.false_share),
-            match (v.area, &v.area_interval) {
-                (Some(a), Some(i)) => format!("{a:.2} ({:.2}–{:.2})", i.low, i.high),
-                _ => "–".to_string(),
-            },
-        );
-    }
-    out
-}
-
-pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
-    range.map_or("all".to_string(), |(low, high)| format!("{low}–{high} m"))
+    let share = |(n, k): (u64, u64), i: &Interval| format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high);
+    let area = |v: &Roc| match (v.area, &v.area_interval) {
+        (Some(a), Some(i)) => format!("{a:.2} ({:.2}–{:.2})", i.low, i.high),
+        _ => "–".to_string(),
+    };
+    let columns: [TableColumn<'_, Figures>; 9] = [
+        ("way", &|f| f.method.name().to_string()),
+        ("visibility", &|f| range_words(f.visibility_m)),
+        ("dye: precision", &|f| percent(&f.dye_precision)),
+        ("recall", &|f| percent(&f.dye_recall)),
+        ("source: precision", &|f| percent(&f.source_precision)),
+        ("recall", &|f| percent(&f.source_recall)),
+        ("verified of those with a source", &|f| share(f.verification.with, &f.verification.true_share)),
+        ("of those without", &|f| share(f.verification.without, &f.verification.false_share)),
+        ("area under the curve", &|f| area(&f.verification)),
+    ];
+    Table::of(figures(rows), &columns).markdown()
 }
 
 fn percent(r: &Ratio) -> String {
@@ -185,41 +111,37 @@ fn scores_csv(all: &[Figures]) -> String {
 }
 
 fn scenes_csv(rows: &[SceneRow]) -> String {
-    let one = |r: &SceneRow| {
-        let s = &r.scene;
-        [
-            s.n.to_string(),
-            s.content.name().to_string(),
-            format!("{:.3}", s.visibility_m),
-            format!("{:.2}", s.illuminance_klx),
-            format!("{:.1}", s.sun_elevation_deg),
-            s.current_m_s.to_string(),
-            format!("{:.3}", s.dye_g_min),
-            format!("{:.4}", s.albedo),
-            format!("{:.3}", s.range_m),
-            format!("{:.3}", s.height_m),
-            plain(r.method),
-            r.dye.hit.to_string(),
-            r.dye.false_alarm.to_string(),
-            r.dye.missed.to_string(),
-            r.source.hit.to_string(),
-            r.source.false_alarm.to_string(),
-            r.source.missed.to_string(),
-            r.score.to_string(),
-            r.verified.to_string(),
-        ]
-    };
-    csv_text(
-        "scene,content,visibility_m,illuminance_klx,sun_elevation_deg,current_m_s,dye_g_min,albedo,range_m,height_m,\
-         method,dye_hit,dye_false,dye_missed,source_hit,source_false,source_missed,score,verified",
-        rows.iter().map(one),
-    )
+    let columns: [TableColumn<'_, &SceneRow>; 19] = [
+        ("scene", &|r| r.scene.n.to_string()),
+        ("content", &|r| r.scene.content.name().to_string()),
+        ("visibility_m", &|r| format!("{:.3}", r.scene.visibility_m)),
+        ("illuminance_klx", &|r| format!("{:.2}", r.scene.illuminance_klx)),
+        ("sun_elevation_deg", &|r| format!("{:.1}", r.scene.sun_elevation_deg)),
+        ("current_m_s", &|r| r.scene.current_m_s.to_string()),
+        ("dye_g_min", &|r| format!("{:.3}", r.scene.dye_g_min)),
+        ("albedo", &|r| format!("{:.4}", r.scene.albedo)),
+        ("range_m", &|r| format!("{:.3}", r.scene.range_m)),
+        ("height_m", &|r| format!("{:.3}", r.scene.height_m)),
+        ("method", &|r| plain(r.method)),
+        ("dye_hit", &|r| r.dye.hit.to_string()),
+        ("dye_false", &|r| r.dye.false_alarm.to_string()),
+        ("dye_missed", &|r| r.dye.missed.to_string()),
+        ("source_hit", &|r| r.source.hit.to_string()),
+        ("source_false", &|r| r.source.false_alarm.to_string()),
+        ("source_missed", &|r| r.source.missed.to_string()),
+        ("score", &|r| r.score.to_string()),
+        ("verified", &|r| r.verified.to_string()),
+    ];
+    Table::of(rows, &columns).csv()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::draw::draw;
+    use super::super::draw::{BINS, draw};
+    use super::super::methods::METHODS;
+    use super::super::pixels::Counts;
     use super::*;
+    use robots::vision::VerifierSpec;
 
     fn rows() -> Vec<SceneRow> {
         (0..24)

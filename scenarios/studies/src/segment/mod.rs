@@ -6,5 +6,6 @@ mod picture;
 mod sheet;
 mod write;
 
+pub use overlay::SegmentedPicture;
 pub use picture::{MOST_PIXELS, MOST_SIDE, PictureError, read_picture};
-pub use write::{SegmentedPicture, table, write};
+pub use write::{table, write};

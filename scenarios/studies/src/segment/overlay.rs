@@ -1,7 +1,7 @@
-//! The picture with the results drawn over it.
+//! A picture with its results, and these drawn over it.
 
 use image::{GrayImage, Rgb, RgbImage};
-use robots::vision::{Blob, Segmentation, Target};
+use robots::vision::{Blob, Segmentation, Sighting, Target, Verifier, VerifierSpec};
 
 /// Colour for the plume: yellow, which neither dye nor water has.
 pub(super) const PLUME: [u8; 3] = [255, 221, 0];
@@ -11,6 +11,34 @@ pub(super) const SOURCE: [u8; 3] = [0, 220, 255];
 pub(super) const PATCH: [u8; 3] = [255, 255, 255];
 /// Share of the colour over the picture.
 const COVER: f64 = 0.45;
+
+/// A picture, analysed and judged.
+#[derive(Clone, Debug)]
+pub struct SegmentedPicture {
+    /// The file's name.
+    pub name: String,
+    /// The picture.
+    pub picture: RgbImage,
+    /// The parameters.
+    pub spec: VerifierSpec,
+    /// The results of the passes.
+    pub parts: Segmentation,
+    /// The verdict.
+    pub sighting: Sighting,
+}
+
+impl SegmentedPicture {
+    /// Analyses a picture and judges it.
+    #[must_use]
+    pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
+        let (parts, sighting) = Verifier::new(&spec).look(&picture);
+        Self { name, picture, spec, parts, sighting }
+    }
+
+    pub(super) fn overlay(&self) -> RgbImage {
+        overlay(&self.picture, &self.parts, self.sighting.source.as_ref())
+    }
+}
 
 /// The picture with plume and source (of the patterns that stayed in their groups) tinted and outlined, and a frame
 /// round the patch that counts as the source.

@@ -1,6 +1,6 @@
 //! All pictures of a segmentation on one sheet.
 
-use super::write::SegmentedPicture;
+use super::overlay::SegmentedPicture;
 use image::imageops::{self, FilterType};
 use image::{ImageFormat, RgbImage};
 use output::charts::canvas::{Anchor, Canvas, Style};

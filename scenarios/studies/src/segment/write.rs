@@ -1,31 +1,17 @@
 //! The files of a segmentation: a picture for each step, the clusters, a sheet of all, and the numbers.
 
 use super::clusters::{clusters, fate};
-use super::overlay::overlay;
+use super::overlay::SegmentedPicture;
 use super::sheet::sheet;
+use crate::campaign::report::{Table, TableColumn};
 use image::RgbImage;
 use output::charts::{mask_png, picture_png};
 use output::files::{PendingFiles, ReportError};
-use robots::vision::{Segmentation, Sighting, Target, Verifier, VerifierSpec};
+use robots::vision::{Pass, Sighting, Target, VerifierSpec};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use world::files::Folder;
-
-/// A picture, analysed and judged.
-#[derive(Clone, Debug)]
-pub struct SegmentedPicture {
-    /// The file's name.
-    pub name: String,
-    /// The picture.
-    pub picture: RgbImage,
-    /// The parameters.
-    pub spec: VerifierSpec,
-    /// The results of the passes.
-    pub parts: Segmentation,
-    /// The verdict.
-    pub sighting: Sighting,
-}
 
 #[derive(Serialize)]
 struct Numbers<'a> {
@@ -34,19 +20,6 @@ struct Numbers<'a> {
     height: u32,
     parameters: &'a VerifierSpec,
     sighting: &'a Sighting,
-}
-
-impl SegmentedPicture {
-    /// Analyses a picture and judges it.
-    #[must_use]
-    pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
-        let (parts, sighting) = Verifier::new(&spec).look(&picture);
-        Self { name, picture, spec, parts, sighting }
-    }
-
-    pub(super) fn overlay(&self) -> RgbImage {
-        overlay(&self.picture, &self.parts, self.sighting.source.as_ref())
-    }
 }
 
 /// Writes everything into a folder; returns the sheet's path.
@@ -93,21 +66,16 @@ fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
 pub fn table(s: &SegmentedPicture) -> String {
     let (w, h) = s.picture.dimensions();
     let all = f64::from(w) * f64::from(h);
-    let mut out = format!("{}, {w} x {h}\n\n", s.name);
-    out.push_str("pass  towards    pattern          distance    share  in the group\n");
-    for p in &s.sighting.passes {
-        let [r, g, b] = p.pattern.rgb;
-        let pattern = format!("({r}, {g}, {b})");
-        let (_, says) = fate(p.fate, &s.spec.colours);
-        let _ = writeln!(
-            out,
-            "{:>4}  {:<9}  {pattern:<15}  {:>8.1}  {:>6.2}%  {says}",
-            p.number,
-            p.target.reference().name(),
-            p.pattern.distance,
-            100.0 * p.pixels as f64 / all,
-        );
-    }
+    let columns: [TableColumn<'_, &Pass>; 6] = [
+        ("pass", &|p| p.number.to_string()),
+        ("towards", &|p| p.target.reference().name().to_string()),
+        ("pattern", &|p| format!("({}, {}, {})", p.pattern.rgb[0], p.pattern.rgb[1], p.pattern.rgb[2])),
+        ("distance", &|p| format!("{:.1}", p.pattern.distance)),
+        ("share", &|p| format!("{:.2}%", 100.0 * p.pixels as f64 / all)),
+        ("in the group", &|p| fate(p.fate, &s.spec.colours).1),
+    ];
+    let passes = Table::of(&s.sighting.passes, &columns).text(None);
+    let mut out = format!("{}, {w} x {h}\n\n{passes}", s.name);
     let v = &s.sighting;
     let _ = writeln!(
         out,

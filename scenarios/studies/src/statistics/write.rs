@@ -1,7 +1,8 @@
 //! The figures as a table to read and as CSV.
 
-use super::figure::Statistics;
-use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
+use super::figure::{PlumeFigure, Statistics};
+use crate::campaign::report::{Table, TableColumn};
+use output::files::{ReportError, csv_number, make_folder, write_whole};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -10,19 +11,16 @@ use std::path::{Path, PathBuf};
 pub fn table(statistics: &Statistics) -> String {
     let s = statistics;
     let mut out = format!("{}: plume statistics, seed {}, {} s after the spin-up\n\n", s.name, s.seed, s.watched_s);
-    let wide = s.figures.iter().map(|f| f.name.len()).max().unwrap_or(6);
-    let mut row = |name: &str, unit: &str, ours: &str, expected: &str, ratio: &str, source: &str| {
-        let line = format!("{name:wide$}  {unit:5} {ours:>9} {expected:>9} {ratio:>7}  {source}");
-        out.push_str(line.trim_end());
-        out.push('\n');
-    };
-    row("figure", "unit", "ours", "expected", "ratio", "source");
-    for f in &s.figures {
-        let mark = if f.flagged() { "!" } else { " " };
-        let ratio = f.ratio().map_or(String::new(), |r| format!("{r:.2}{mark}"));
-        let expected = f.expected.map_or(String::new(), number);
-        row(&f.name, f.unit, &number(f.ours), &expected, &ratio, f.source);
-    }
+    let mark = |f: &PlumeFigure| if f.flagged() { "!" } else { "" };
+    let columns: [TableColumn<'_, &PlumeFigure>; 6] = [
+        ("figure", &|f| f.name.clone()),
+        ("unit", &|f| f.unit.to_string()),
+        ("ours", &|f| number(f.ours)),
+        ("expected", &|f| f.expected.map_or(String::new(), number)),
+        ("ratio", &|f| f.ratio().map_or(String::new(), |r| format!("{r:.2}{}", mark(f)))),
+        ("source", &|f| f.source.to_string()),
+    ];
+    out.push_str(&Table::of(&s.figures, &columns).text(None));
     let flagged = s.figures.iter().filter(|f| f.flagged()).count();
     let _ = writeln!(
         out,
@@ -41,19 +39,16 @@ fn number(v: f64) -> String {
 /// # Errors
 /// If the folder or the file cannot be written.
 pub fn write(folder: &Path, statistics: &Statistics) -> Result<PathBuf, ReportError> {
-    let figures = statistics.figures.iter().map(|f| {
-        [
-            f.name.clone(),
-            f.unit.to_string(),
-            f.ours.to_string(),
-            csv_number(f.expected),
-            csv_number(f.ratio()),
-            f.flagged().to_string(),
-            f.source.to_string(),
-        ]
-    });
-    let columns = "figure,unit,ours,expected,ratio,outside_factor_2,source";
-    let csv = csv_text(columns, figures);
+    let columns: [TableColumn<'_, &PlumeFigure>; 7] = [
+        ("figure", &|f| f.name.clone()),
+        ("unit", &|f| f.unit.to_string()),
+        ("ours", &|f| f.ours.to_string()),
+        ("expected", &|f| csv_number(f.expected)),
+        ("ratio", &|f| csv_number(f.ratio())),
+        ("outside_factor_2", &|f| f.flagged().to_string()),
+        ("source", &|f| f.source.to_string()),
+    ];
+    let csv = Table::of(&statistics.figures, &columns).csv();
     make_folder(folder)?;
     write_whole(&folder.join("statistics.csv"), csv.as_bytes())
 }
@@ -86,9 +81,9 @@ mod tests {
     #[test]
     fn what_is_off_is_marked() {
         let text = table(&statistics());
-        assert!(text.contains("width       m        0.0500    0.0400   1.25   somewhere"), "{text}");
+        assert!(text.contains("width       m     0.0500   0.0400    1.25   somewhere"), "{text}");
         assert!(text.contains("0.25!"), "{text}");
-        assert!(text.contains("ours alone  m       2.50e-5                    somewhere"), "{text}");
+        assert!(text.contains("ours alone  m     2.50e-5                   somewhere"), "{text}");
         assert!(text.contains("1 of 2 figures"), "{text}");
     }
 

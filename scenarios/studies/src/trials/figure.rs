@@ -42,13 +42,9 @@ fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
     }
     let panel = Panel { left, top, width: SIDES[0], height: SIDES[1], x, y };
     panel.grid(c, 40.0);
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 11.0);
-    panel.y_ticks(c, 40.0, 11.0);
+    panel.axes(c, 40.0, 11.0);
     c.bold([left, top - 10.0], 13.0, Anchor::Start, labels[0]);
-    let middle = left + SIDES[0] / 2.0;
-    c.text([middle, panel.bottom() + 34.0], 11.0, Anchor::Middle, labels[1]);
-    c.upright([left - 48.0, top + SIDES[1] / 2.0], 11.0, labels[2]);
+    panel.names(c, 11.0, [labels[1], labels[2]], [34.0, 48.0]);
     panel.clip(c);
     c.polyline(panel.all(rudder), &Style::line(RUDDER, 1.2));
     c.polyline(panel.all(points), &Style::line(INK, 1.6));

@@ -69,9 +69,7 @@ fn view(
 ) {
     let flat = |p: &Vector3<f64>| panel.position([p[axes[0]], p[axes[1]]]);
     panel.grid(c, 45.0);
-    panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 11.0);
-    panel.y_ticks(c, 45.0, 11.0);
+    panel.axes(c, 45.0, 11.0);
     c.bold([panel.left, panel.top - 10.0], 13.0, Anchor::Start, title);
     panel.clip(c);
     // What is farther from the eye is drawn first.

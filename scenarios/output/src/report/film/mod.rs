@@ -19,7 +19,7 @@ const SCRIPTS: [&str; 4] = [
     include_str!("film_play.js"),
 ];
 
-/// The data of the animation as JSON that is safe inside a page; `None` for a run in which nothing moved.
+/// The data of the animation as JSON, for [`Page::film`](super::Page::film), that is safe inside a page; `None` for a run in which nothing moved.
 #[must_use]
 pub fn film(run: &RunReport<'_>) -> Option<String> {
     data::film_data(run).map(|data| in_page(&data.to_string()))
@@ -28,21 +28,17 @@ pub fn film(run: &RunReport<'_>) -> Option<String> {
 /// A section of the page with an animation and its heading; the data are those of [`film`]. The page needs
 /// [`FILM_STYLE`] and, once after all animations, [`film_script`].
 #[must_use]
-pub fn film_section(title: &str, film: &str) -> String {
-    let mut out = String::new();
+pub(super) fn film_section(title: &str, film: &str) -> String {
     let title = crate::charts::escaped(title);
-    write!(
-        out,
+    format!(
         "<section class=\"film\" hidden aria-label=\"{title}\"><h2>{title}</h2>\n\
          <script type=\"application/json\">{film}</script></section>\n"
     )
-    .expect("writing to a String succeeds");
-    out
 }
 
 /// The script that brings all animations of a page to life.
 #[must_use]
-pub fn film_script() -> String {
+pub(super) fn film_script() -> String {
     format!("<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n", SCRIPTS.concat())
 }
 

@@ -16,7 +16,7 @@ const MOST: usize = 1500;
 pub(super) struct Behaviours(Vec<[String; 2]>);
 
 impl Behaviours {
-    fn number(&mut self, name: &str, colour: &str) -> usize {
+    fn number(&mut self, (colour, name): (&str, &str)) -> usize {
         let known = self.0.iter().position(|b| b[0] == name);
         known.unwrap_or_else(|| {
             self.0.push([name.to_owned(), colour.to_owned()]);
@@ -88,7 +88,7 @@ pub(super) fn robot(t: &RobotTrack, plan: &Plan, n: usize, known: &mut Behaviour
         let read = highest(group.iter().filter_map(|r| r.reading));
         reads.push(read.and_then(|x| whole(x, 1e-4)));
         above.push(whole(r.altitude_m, 0.01));
-        does.push(known.number(palette::behaviour_label(r.behaviour), palette::behaviour(r.behaviour)));
+        does.push(known.number(palette::behaviour_look(r.behaviour)));
     }
     let lost = t.lost_over_time.iter().filter_map(|l| {
         let p = plan.position(l.p);
@@ -153,8 +153,7 @@ pub(super) fn gantry(g: &GantryTrack, plan: &Plan, n: usize, known: &mut Behavio
             let limit = r.threshold_v.get(k).filter(|v| **v != 0.0);
             limits.push(limit.and_then(|v| whole(*v, 1e-3)));
         }
-        let (name, colour) = (palette::gantry_words(r.behaviour), palette::gantry_behaviour(r.behaviour));
-        does.push(known.number(name, colour));
+        does.push(known.number(palette::gantry_look(r.behaviour)));
     }
     let head = g.rows.last().map_or([0.0; 2], |r| plan.position(r.head));
     let tips = g.tips.iter().filter_map(|p| {

@@ -2,7 +2,6 @@
 
 mod arms;
 mod curves;
-mod page;
 mod pairs;
 mod plots;
 mod reliability;
@@ -26,14 +25,14 @@ pub(crate) use reliability::reliability;
 pub use reliability::{Bin, Reliability, StatedEvent};
 pub(crate) mod reliable {
     //! The reliability of maps as table, notes, CSV and picture.
-    pub(crate) use super::plots::colour;
     pub(crate) use super::reliability::{csv, notes, picture, table};
 }
 pub use pairs::{Compares, Comparison};
 pub use restricted::RestrictedMean;
+pub use screen::Film;
 pub(crate) use tables::range;
-pub(crate) use text::{Table, wrapped};
-pub use tracks::{Film, Pick, Rank, RemadeRun, picks};
+pub(crate) use text::{Table, TableColumn, wrapped};
+pub use tracks::{Pick, Rank, RemadeRun, picks};
 pub use unit::{Scale, Unit};
 pub(crate) use walls::Walls;
 pub use write::{About, WrittenReport, write};

@@ -21,12 +21,12 @@ const LINE: f64 = 24.0;
 const NAMES: f64 = 300.0;
 
 /// Colour of the k-th arm.
-pub(crate) fn colour(k: usize) -> &'static str {
+pub(super) fn colour(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 
 /// After seven colours, they repeat with dashes.
-fn line_style(k: usize) -> Style<'static> {
+pub(super) fn line_style(k: usize) -> Style<'static> {
     let style = Style::line(colour(k), 2.0);
     match k / COLOURS.len() {
         0 => style,
@@ -38,8 +38,7 @@ fn line_style(k: usize) -> Style<'static> {
 /// Step curves with their bands. With `until_end`, each curve goes to its own end (survival), otherwise to the right
 /// edge.
 pub(super) fn curves(name: &str, title: &str, x: &str, y: &str, all: &[Curve], until_end: bool) -> String {
-    let keys = all.len() as f64 * 17.0;
-    let mut c = Canvas::new(LEFT + WIDTH + 24.0, 40.0 + HEIGHT + 48.0 + keys);
+    let mut c = Canvas::new(LEFT + WIDTH + 24.0, 40.0 + HEIGHT + 48.0 + 17.0 * all.len() as f64);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, title);
     let right = all.iter().map(|c| c.end).fold(0.0, f64::max);
     let panel = Panel {
@@ -65,19 +64,19 @@ pub(super) fn curves(name: &str, title: &str, x: &str, y: &str, all: &[Curve], u
         c.polyline(panel.all(&steps(curve, end, |p| p.y)), &line_style(k));
     }
     c.unclip();
-    panel.frame(&mut c, 1.0);
-    panel.x_ticks(&mut c, true, 11.0);
-    panel.y_ticks(&mut c, 60.0, 11.0);
-    let below = panel.bottom() + 38.0;
-    c.text([LEFT + WIDTH / 2.0, below], 12.0, Anchor::Middle, x);
-    c.upright([22.0, panel.top + HEIGHT / 2.0], 12.0, y);
-    for (k, curve) in all.iter().enumerate() {
-        let y = below + 17.0 * (k + 1) as f64;
-        c.line([LEFT, y - 4.0], [LEFT + 26.0, y - 4.0], &line_style(k));
-        let words = format!("{} (n = {})", curve.arm, curve.n);
-        c.text([LEFT + 34.0, y], 11.0, Anchor::Start, &words);
-    }
+    panel.axes(&mut c, 60.0, 11.0);
+    panel.names(&mut c, 12.0, [x, y], [38.0, LEFT - 22.0]);
+    keys(&mut c, LEFT, panel.bottom() + 38.0, all.iter().map(|curve| (curve.arm.as_str(), curve.n)));
     c.svg(name)
+}
+
+/// The arms below a figure, each with its number of runs.
+pub(super) fn keys<'a>(c: &mut Canvas, left: f64, below: f64, arms: impl Iterator<Item = (&'a str, u64)>) {
+    for (k, (arm, n)) in arms.enumerate() {
+        let y = below + 17.0 * (k + 1) as f64;
+        c.line([left, y - 4.0], [left + 26.0, y - 4.0], &line_style(k));
+        c.text([left + 34.0, y], 11.0, Anchor::Start, &format!("{arm} (n = {n})"));
+    }
 }
 
 /// Corners of a step curve.

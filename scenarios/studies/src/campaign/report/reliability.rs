@@ -2,14 +2,14 @@
 //!
 //! *Source*: reliability diagram: Murphy & Winkler 1977, Applied Statistics 26, 41; intervals of the shares: Wilson.
 
-use super::text::Table;
+use super::plots::{colour, keys, line_style};
+use super::text::{Table, TableColumn};
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, wilson};
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::GREY;
 use output::charts::panel::Panel;
-use output::files::{csv_number, csv_text};
 
 /// Edges of the bins of the stated probability. They are closer where maps are sure.
 const EDGES: [f64; 8] = [0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.99, 1.0];
@@ -123,36 +123,30 @@ pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
     StatedEvent::ALL.into_iter().filter_map(one).collect()
 }
 
+/// All runs of each arm, then bin by bin.
+fn lines(all: &[Reliability]) -> impl Iterator<Item = (&Reliability, &Bin)> {
+    all.iter().flat_map(|r| std::iter::once(&r.all).chain(&r.bins).map(move |b| (r, b)))
+}
+
 /// The table: all runs of an arm, then bin by bin.
 pub(crate) fn table(all: &[Reliability]) -> Table {
     let share = Unit::Share.scale([]);
-    let of_arm = |r: &Reliability| {
-        let line = |b: &Bin, between: String| {
-            [
-                r.arm.clone(),
-                r.of.label().to_string(),
-                between,
-                b.n.to_string(),
-                share.number(b.stated),
-                share.number(b.share()),
-                share.numbers(b.interval()),
-            ]
-        };
-        let mut lines = vec![line(&r.all, "any".to_string())];
-        let between = |b: &Bin| format!("{:.0} to {:.0}", 100.0 * b.from, 100.0 * b.to);
-        lines.extend(r.bins.iter().map(|b| line(b, between(b))));
-        lines
+    let between = |b: &Bin| match [b.from, b.to] {
+        [0.0, 1.0] => "any".to_string(),
+        [from, to] => format!("{:.0} to {:.0}", 100.0 * from, 100.0 * to),
     };
-    let head = [
-        "arm".to_string(),
-        "probability of".to_string(),
-        share.head("stated"),
-        "runs".to_string(),
-        share.head("stated, mean"),
-        share.head("true"),
-        share.head("95 % interval"),
-    ];
-    Table::new(head, all.iter().flat_map(of_arm))
+    Table::of(
+        lines(all),
+        &[
+            ("arm", &|(r, _)| r.arm.clone()),
+            ("probability of", &|(r, _)| r.of.label().to_string()),
+            (&share.head("stated"), &|(_, b)| between(b)),
+            ("runs", &|(_, b)| b.n.to_string()),
+            (&share.head("stated, mean"), &|(_, b)| share.number(b.stated)),
+            (&share.head("true"), &|(_, b)| share.number(b.share())),
+            (&share.head("95 % interval"), &|(_, b)| share.numbers(b.interval())),
+        ],
+    )
 }
 
 /// What stands below the table.
@@ -173,26 +167,19 @@ pub(crate) fn notes(all: &[Reliability]) -> String {
 
 /// The same as CSV.
 pub(crate) fn csv(all: &[Reliability]) -> String {
-    let of_arm = |r: &Reliability| {
-        let line = |b: &Bin| {
-            let i = b.interval();
-            [
-                r.arm.clone(),
-                r.of.label().to_string(),
-                b.from.to_string(),
-                b.to.to_string(),
-                b.n.to_string(),
-                csv_number(Some(b.stated)),
-                b.count.to_string(),
-                csv_number(Some(b.share())),
-                csv_number(Some(i.low)),
-                csv_number(Some(i.high)),
-            ]
-        };
-        let bins: Vec<_> = std::iter::once(&r.all).chain(&r.bins).map(line).collect();
-        bins
-    };
-    csv_text("arm,probability_of,from,to,n,stated,count,share,low,high", all.iter().flat_map(of_arm))
+    let columns: [TableColumn<'_, (&Reliability, &Bin)>; 10] = [
+        ("arm", &|(r, _)| r.arm.clone()),
+        ("probability_of", &|(r, _)| r.of.label().to_string()),
+        ("from", &|(_, b)| b.from.to_string()),
+        ("to", &|(_, b)| b.to.to_string()),
+        ("n", &|(_, b)| b.n.to_string()),
+        ("stated", &|(_, b)| b.stated.to_string()),
+        ("count", &|(_, b)| b.count.to_string()),
+        ("share", &|(_, b)| b.share().to_string()),
+        ("low", &|(_, b)| b.interval().low.to_string()),
+        ("high", &|(_, b)| b.interval().high.to_string()),
+    ];
+    Table::of(lines(all), &columns).csv()
 }
 
 const SIDE: f64 = 330.0;
@@ -200,7 +187,7 @@ const LEFT: f64 = 72.0;
 const TOP: f64 = 62.0;
 
 /// The picture: a panel for each statement, a line for each arm; the diagonal is a map that is as sure as it should be.
-pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) -> String {
+pub(crate) fn picture(all: &[Reliability]) -> String {
     let mut arms: Vec<&str> = all.iter().map(|r| r.arm.as_str()).collect();
     arms.dedup();
     let below = TOP + SIDE + 38.0;
@@ -221,7 +208,7 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
         let diagonal = panel.all(&[[0.0, 0.0], [1.0, 1.0]]);
         c.polyline(diagonal, &Style::line(GREY, 1.0).dashed("4 4"));
         for (n, arm) in arms.iter().enumerate() {
-            let line = Style::line(colour(n), 1.6);
+            let line = Style { width: 1.6, ..line_style(n) };
             let Some(r) = all.iter().find(|r| r.arm == *arm && r.of == of) else {
                 continue;
             };
@@ -237,21 +224,14 @@ pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) ->
                 c.circle(panel.position([b.stated, b.share()]), size, &Style::fill(colour(n)));
             }
         }
-        panel.frame(&mut c, 1.0);
-        panel.x_ticks(&mut c, true, 11.0);
-        panel.y_ticks(&mut c, 60.0, 11.0);
+        panel.axes(&mut c, 60.0, 11.0);
         let middle = panel.left + SIDE / 2.0;
         c.text([middle, TOP - 10.0], 12.0, Anchor::Middle, of.label());
         c.text([middle, TOP + SIDE + 34.0], 12.0, Anchor::Middle, "Stated");
     }
     c.upright([22.0, TOP + SIDE / 2.0], 12.0, "Share that is true");
-    for (k, arm) in arms.iter().enumerate() {
-        let y = below + 17.0 * (k + 1) as f64;
-        let n = all.iter().find(|r| r.arm == *arm).map_or(0, |r| r.all.n);
-        c.line([LEFT, y - 4.0], [LEFT + 26.0, y - 4.0], &Style::line(colour(k), 2.0));
-        let words = format!("{arm} (n = {n})");
-        c.text([LEFT + 34.0, y], 11.0, Anchor::Start, &words);
-    }
+    let n = |arm: &str| all.iter().find(|r| r.arm == arm).map_or(0, |r| r.all.n);
+    keys(&mut c, LEFT, below, arms.iter().map(|arm| (*arm, n(arm))));
     c.svg("reliability")
 }
 
@@ -295,7 +275,7 @@ mod tests {
         assert_eq!(words.rows[1][..6], ["a", "best cell", "20 to 40", "10", "30.0", "30.0"]);
         assert!(notes(&all).contains("Without a declaration: 1 of 14 of a."));
         assert_eq!(csv(&all).lines().count(), 1 + 3 + 2);
-        let svg = picture(&all, |_| "#000000");
+        let svg = picture(&all);
         assert!(svg.contains("a (n = 14)") && !svg.contains("NaN"));
     }
 

@@ -1,84 +1,77 @@
-//! What a report says in tables and words, and the same as plain text for a terminal.
+//! A report on its way: the page, and the same tables and words as plain text for a terminal.
 
 use super::text::{Table, wrapped};
-use std::fmt::Write as _;
+use output::charts::escaped;
+use output::report::{FILM_STYLE, Page};
 
-const TEXT: &str = "writing to a String succeeds";
+/// Pictures of tracks are for print, and for browsers without JavaScript.
+const STILL_STYLE: &str = ".still{display:none}.still img{max-width:100%;background:#fff}\
+@media print{.still{display:block}.still img{max-height:215mm;margin:auto;display:block}}";
 
-/// The tables and words of a report.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Content {
-    pub(super) title: String,
-    /// Which campaign it is, and what counts as a success.
-    pub(super) about: Vec<String>,
-    /// What each arm sets.
-    pub(super) sets: Table,
-    pub(super) limit_s: f64,
-    pub(super) success: Table,
-    /// A table for each measure.
-    pub(super) measured: Vec<(String, Table)>,
-    pub(super) restricted: Table,
-    /// A table for each quantity by which arms are compared; none for one arm.
-    pub(super) pairs: Vec<(String, Table)>,
-    pub(super) warnings: Vec<String>,
-    /// How sure the maps are, and what stands below that; none without maps.
-    pub(super) reliable: Option<(Table, String)>,
-    pub(super) walls: String,
-    pub(super) first_error: Option<String>,
+/// The tracks of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// The data of its [animation](output::report::film).
+    pub data: String,
+    /// A picture of them as a `data:` address, for print and for browsers without JavaScript.
+    pub still: Option<String>,
 }
 
-impl Content {
-    /// As plain text, in at most `columns` characters where there is such a limit.
-    pub(super) fn text(&self, columns: Option<usize>) -> String {
-        let mut out = String::new();
-        let mut line = |words: &str| {
-            let words = wrapped(words, columns);
-            out.push_str(words.trim_end());
-            out.push('\n');
-        };
-        line(&self.title);
-        for words in &self.about {
-            line(words);
-        }
-        for row in &self.sets.rows {
-            line(&format!("  arm {}: {}", row[0], row[1]));
-        }
-        let limit = format!("The limit is {:.0} s", self.limit_s);
-        let restricted = (limit, self.restricted.clone());
-        let mut tables = vec![(String::new(), self.success.clone())];
-        tables.extend(self.measured.iter().cloned());
-        tables.push(restricted);
-        for (title, table) in &tables {
-            section(&mut out, title, table, columns);
-        }
-        for (title, table) in &self.pairs {
-            section(&mut out, &format!("{title}, arm against arm"), table, columns);
-        }
-        for warning in &self.warnings {
-            paragraph(&mut out, &format!("Warning: {warning}"), columns);
-        }
-        if let Some((table, notes)) = &self.reliable {
-            section(&mut out, "How sure the maps are", table, columns);
-            paragraph(&mut out, notes, columns);
-        }
-        paragraph(&mut out, &self.walls, columns);
-        if let Some(error) = &self.first_error {
-            paragraph(&mut out, error, columns);
-        }
-        out
+/// Both. What stands in the page alone is added to it.
+pub(super) struct Shown {
+    pub(super) page: Page,
+    pub(super) text: String,
+    /// Width of the terminal, characters; without it, lines are as long as they are.
+    columns: Option<usize>,
+}
+
+impl Shown {
+    pub(super) fn new(title: &str, columns: Option<usize>) -> Self {
+        let page = Page::new(title, title, &[FILM_STYLE, STILL_STYLE].concat());
+        let mut begun = Self { page, text: String::new(), columns };
+        begun.line(title);
+        begun
     }
-}
 
-fn section(out: &mut String, title: &str, table: &Table, columns: Option<usize>) {
-    out.push('\n');
-    if !title.is_empty() {
-        writeln!(out, "{title}").expect(TEXT);
+    /// A line of the text alone.
+    pub(super) fn line(&mut self, words: &str) {
+        self.text.push_str(wrapped(words, self.columns).trim_end());
+        self.text.push('\n');
     }
-    out.push_str(&table.text(columns));
-}
 
-fn paragraph(out: &mut String, words: &str, columns: Option<usize>) {
-    out.push('\n');
-    out.push_str(wrapped(words, columns).trim_end());
-    out.push('\n');
+    /// A paragraph.
+    pub(super) fn paragraph(&mut self, words: &str) {
+        self.page.paragraph(words);
+        self.text.push('\n');
+        self.line(words);
+    }
+
+    /// A table. In the text it has a title, unless that is empty.
+    pub(super) fn table(&mut self, title: &str, table: &Table) {
+        self.page.table(&table.head, &table.rows, false);
+        self.text.push('\n');
+        if !title.is_empty() {
+            self.line(title);
+        }
+        self.text.push_str(&table.text(self.columns));
+    }
+
+    /// Tables that belong together, each with its title and what the text adds to that.
+    pub(super) fn tables(&mut self, tables: &[(String, Table)], more: &str) {
+        for (title, table) in tables {
+            self.page.title(title);
+            self.table(&format!("{title}{more}"), table);
+        }
+    }
+
+    /// An animation in the page; its picture stands in for it in print and without JavaScript.
+    pub(super) fn film(&mut self, title: &str, film: &Film) {
+        self.page.film(title, &film.data);
+        if let Some(still) = &film.still {
+            let title = escaped(title);
+            self.page.html(&format!(
+                "<figure class=\"still\"><img src=\"{still}\" alt=\"{title}\"><figcaption>{title}</figcaption></figure>\n"
+            ));
+        }
+    }
 }

@@ -3,7 +3,8 @@
 use super::arms::{ArmFigures, ArmMeasure, ConditionFigures, MeasureSummary};
 use super::curves::Curve;
 use super::pairs::{Compares, Comparison};
-use super::text::Table;
+use super::restricted::RestrictedMean;
+use super::text::{Table, TableColumn};
 use super::unit::{Scale, Unit};
 use crate::campaign::stats::{Difference, Interval, LEAST_VALUES};
 use output::files::{csv_number, csv_text};
@@ -30,28 +31,18 @@ const INTERVAL: &str = "95 % interval";
 
 pub(super) fn success(arms: &[ArmFigures]) -> Table {
     let share = Unit::Share.scale([]);
-    let interval = share.head(INTERVAL);
-    let one = |a: &ArmFigures| {
-        [
-            a.arm.clone(),
-            a.success.n.to_string(),
-            a.failed.to_string(),
-            shown(&share, a.success.value()),
-            share.numbers(a.success.interval()),
-            shown(&share, a.declared.value()),
-            share.numbers(a.declared.interval()),
-        ]
-    };
-    let head = [
-        "arm".to_string(),
-        "runs".to_string(),
-        "failed".to_string(),
-        share.head("success"),
-        interval.clone(),
-        share.head("declared"),
-        interval,
-    ];
-    Table::new(head, arms.iter().map(one))
+    Table::of(
+        arms,
+        &[
+            ("arm", &|a| a.arm.clone()),
+            ("runs", &|a| a.success.n.to_string()),
+            ("failed", &|a| a.failed.to_string()),
+            (&share.head("success"), &|a| shown(&share, a.success.value())),
+            (&share.head(INTERVAL), &|a| share.numbers(a.success.interval())),
+            (&share.head("declared"), &|a| shown(&share, a.declared.value())),
+            (&share.head(INTERVAL), &|a| share.numbers(a.declared.interval())),
+        ],
+    )
 }
 
 /// A table for each measure, with what it is of.
@@ -61,26 +52,16 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
         let rows = || all().filter(|(_, m)| m.measure == measure);
         let both = |m: &MeasureSummary| [(m.median, m.median_interval), (m.q90, m.q90_interval)];
         let scale = measure.unit().scale(values(rows().flat_map(|(_, m)| both(m))));
-        let one = |(a, m): (&ArmFigures, &MeasureSummary)| {
-            let interval = |i| range(m.n, i, |i| scale.numbers(i));
-            [
-                a.arm.clone(),
-                m.n.to_string(),
-                shown(&scale, m.median),
-                interval(m.median_interval),
-                shown(&scale, m.q90),
-                interval(m.q90_interval),
-            ]
-        };
-        let head = [
-            "arm".to_string(),
-            "n".to_string(),
-            scale.head("median"),
-            scale.head(INTERVAL),
-            scale.head("90 % quantile"),
-            scale.head(INTERVAL),
+        let interval = |n, i| range(n, i, |i| scale.numbers(i));
+        let columns: [TableColumn<'_, (&ArmFigures, &MeasureSummary)>; 6] = [
+            ("arm", &|(a, _)| a.arm.clone()),
+            ("n", &|(_, m)| m.n.to_string()),
+            (&scale.head("median"), &|(_, m)| shown(&scale, m.median)),
+            (&scale.head(INTERVAL), &|(_, m)| interval(m.n, m.median_interval)),
+            (&scale.head("90 % quantile"), &|(_, m)| shown(&scale, m.q90)),
+            (&scale.head(INTERVAL), &|(_, m)| interval(m.n, m.q90_interval)),
         ];
-        (title(measure.label()), Table::new(head, rows().map(one)))
+        (title(measure.label()), Table::of(rows(), &columns))
     };
     ArmMeasure::ALL.into_iter().map(of).collect()
 }
@@ -92,26 +73,18 @@ fn title(words: &str) -> String {
 }
 
 pub(super) fn restricted(arms: &[ArmFigures]) -> Table {
-    let all = arms.iter().map(|a| (a.restricted.mean_s, a.restricted.interval));
-    let scale = Unit::Seconds.scale(values(all));
-    let one = |a: &ArmFigures| {
-        let r = a.restricted;
-        [
-            a.arm.clone(),
-            r.n.to_string(),
-            r.at_limit.to_string(),
-            shown(&scale, r.mean_s),
-            range(r.n, r.interval, |i| scale.numbers(i)),
-        ]
-    };
-    let head = [
-        "arm".to_string(),
-        "n".to_string(),
-        "without success".to_string(),
-        scale.head("mean time to success"),
-        scale.head(INTERVAL),
-    ];
-    Table::new(head, arms.iter().map(one))
+    let all: Vec<(&str, RestrictedMean)> = arms.iter().map(|a| (a.arm.as_str(), a.restricted)).collect();
+    let scale = Unit::Seconds.scale(values(all.iter().map(|(_, r)| (r.mean_s, r.interval))));
+    Table::of(
+        all,
+        &[
+            ("arm", &|(arm, _)| (*arm).to_string()),
+            ("n", &|(_, r)| r.n.to_string()),
+            ("without success", &|(_, r)| r.at_limit.to_string()),
+            (&scale.head("mean time to success"), &|(_, r)| shown(&scale, r.mean_s)),
+            (&scale.head(INTERVAL), &|(_, r)| range(r.n, r.interval, |i| scale.numbers(i))),
+        ],
+    )
 }
 
 /// For a share, the interval is exact however few the pairs are; for a quantity, there must be enough pairs.
@@ -126,50 +99,38 @@ pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<(String, Table)> {
         let rows = || comparisons.iter().filter(|c| c.by == by);
         let all = rows().map(|c| (c.difference.map(|d| d.estimate), sound_interval(c)));
         let scale = by.unit().scale(values(all));
-        let one = |c: &Comparison| {
-            let d = c.difference;
-            let n = d.map_or(0, |d| d.pairs as u64);
-            [
-                c.first.clone(),
-                c.second.clone(),
-                n.to_string(),
-                shown(&scale, d.map(|d| d.estimate)),
-                match (by, d) {
-                    (Compares::Success, Some(d)) => scale.numbers(d.interval),
-                    _ => range(n, sound_interval(c), |i| scale.numbers(i)),
-                },
-                d.map_or("not separable: no pairs", |d| d.verdict.label()).to_string(),
-                c.rests_on.clone(),
-            ]
+        let n = |c: &Comparison| c.difference.map_or(0, |d| d.pairs as u64);
+        let interval = |c: &Comparison| match (by, c.difference) {
+            (Compares::Success, Some(d)) => scale.numbers(d.interval),
+            _ => range(n(c), sound_interval(c), |i| scale.numbers(i)),
         };
-        let head = [
-            "first".to_string(),
-            "second".to_string(),
-            "pairs".to_string(),
-            scale.head("first - second"),
-            scale.head(INTERVAL),
-            "first is".to_string(),
-            "rests on".to_string(),
+        let verdict = |c: &Comparison| c.difference.map_or("not separable: no pairs", |d| d.verdict.label());
+        let columns: [TableColumn<'_, &Comparison>; 7] = [
+            ("first", &|c| c.first.clone()),
+            ("second", &|c| c.second.clone()),
+            ("pairs", &|c| n(c).to_string()),
+            (&scale.head("first - second"), &|c| shown(&scale, c.difference.map(|d| d.estimate))),
+            (&scale.head(INTERVAL), &|c| interval(c)),
+            ("first is", &|c| verdict(c).to_string()),
+            ("rests on", &|c| c.rests_on.clone()),
         ];
-        (title(by.label()), Table::new(head, rows().map(one)))
+        (title(by.label()), Table::of(rows(), &columns))
     };
     Compares::ALL.into_iter().map(of).collect()
 }
 
 pub(super) fn conditions(conditions: &[ConditionFigures]) -> Table {
     let share = Unit::Share.scale([]);
-    let one = |c: &ConditionFigures| {
-        [
-            c.condition.clone(),
-            c.arm.clone(),
-            c.success.n.to_string(),
-            shown(&share, c.success.value()),
-            share.numbers(c.success.interval()),
-        ]
-    };
-    let head =
-        ["condition".to_string(), "arm".to_string(), "runs".to_string(), share.head("success"), share.head(INTERVAL)];
-    Table::new(head, conditions.iter().map(one))
+    Table::of(
+        conditions,
+        &[
+            ("condition", &|c| c.condition.clone()),
+            ("arm", &|c| c.arm.clone()),
+            ("runs", &|c| c.success.n.to_string()),
+            (&share.head("success"), &|c| shown(&share, c.success.value())),
+            (&share.head(INTERVAL), &|c| share.numbers(c.success.interval())),
+        ],
+    )
 }
 
 /// Value, lower and upper end, as fields.
@@ -205,33 +166,33 @@ pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
 }
 
 pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
-    let one = |c: &Comparison| {
-        let d = c.difference;
-        let [value, low, high] = fields(d.map(|d| d.estimate), sound_interval(c));
-        [
-            c.first.clone(),
-            c.second.clone(),
-            c.by.label().to_string(),
-            d.map_or(0, |d| d.pairs).to_string(),
-            value,
-            low,
-            high,
-            d.map_or("", |d| d.verdict.label()).to_string(),
-            c.rests_on.clone(),
-            c.warning.clone().unwrap_or_default(),
-        ]
-    };
-    csv_text("first,second,by,pairs,difference,low,high,first_is,rests_on,warning", comparisons.iter().map(one))
+    let estimate = |c: &Comparison| fields(c.difference.map(|d| d.estimate), sound_interval(c));
+    let columns: [TableColumn<'_, &Comparison>; 10] = [
+        ("first", &|c| c.first.clone()),
+        ("second", &|c| c.second.clone()),
+        ("by", &|c| c.by.label().to_string()),
+        ("pairs", &|c| c.difference.map_or(0, |d| d.pairs).to_string()),
+        ("difference", &|c| estimate(c)[0].clone()),
+        ("low", &|c| estimate(c)[1].clone()),
+        ("high", &|c| estimate(c)[2].clone()),
+        ("first_is", &|c| c.difference.map_or("", |d| d.verdict.label()).to_string()),
+        ("rests_on", &|c| c.rests_on.clone()),
+        ("warning", &|c| c.warning.clone().unwrap_or_default()),
+    ];
+    Table::of(comparisons, &columns).csv()
 }
 
 pub(super) fn conditions_csv(conditions: &[ConditionFigures]) -> String {
-    let one = |c: &ConditionFigures| {
-        let s = c.success;
-        let [value, low, high] = fields(s.value(), Some(s.interval()));
-        let (n, count) = (s.n.to_string(), s.count.to_string());
-        [c.condition.clone(), c.arm.clone(), n, count, value, low, high]
-    };
-    csv_text("condition,arm,runs,successes,share,low,high", conditions.iter().map(one))
+    let columns: [TableColumn<'_, &ConditionFigures>; 7] = [
+        ("condition", &|c| c.condition.clone()),
+        ("arm", &|c| c.arm.clone()),
+        ("runs", &|c| c.success.n.to_string()),
+        ("successes", &|c| c.success.count.to_string()),
+        ("share", &|c| csv_number(c.success.value())),
+        ("low", &|c| c.success.interval().low.to_string()),
+        ("high", &|c| c.success.interval().high.to_string()),
+    ];
+    Table::of(conditions, &columns).csv()
 }
 
 pub(super) fn curves_csv(x: &str, curves: &[Curve]) -> String {

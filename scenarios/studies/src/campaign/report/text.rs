@@ -1,5 +1,6 @@
 //! Tables, and how they are shown as plain text in a terminal of some width.
 
+use output::files::csv_text;
 use std::fmt::Write as _;
 
 /// Widest column, characters; longer cells are not aligned.
@@ -14,6 +15,9 @@ pub(crate) struct Table {
     pub(crate) rows: Vec<Vec<String>>,
 }
 
+/// What a column is, and its cell of a row.
+pub(crate) type TableColumn<'a, R> = (&'a str, &'a dyn Fn(&R) -> String);
+
 impl Table {
     /// From heads and rows of the same length.
     pub(crate) fn new<const N: usize>(
@@ -21,6 +25,33 @@ impl Table {
         rows: impl IntoIterator<Item = [String; N]>,
     ) -> Self {
         Self { head: head.map(Into::into).into(), rows: rows.into_iter().map(Into::into).collect() }
+    }
+
+    /// From rows, and columns: what each is, and its cell of a row.
+    pub(crate) fn of<R>(rows: impl IntoIterator<Item = R>, columns: &[TableColumn<'_, R>]) -> Self {
+        let cells = |row: R| columns.iter().map(|(_, cell)| cell(&row)).collect();
+        Self {
+            head: columns.iter().map(|(head, _)| (*head).to_string()).collect(),
+            rows: rows.into_iter().map(cells).collect(),
+        }
+    }
+
+    /// The table as CSV.
+    pub(crate) fn csv(&self) -> String {
+        csv_text(&self.head.join(","), &self.rows)
+    }
+
+    /// The table in Markdown.
+    pub(crate) fn markdown(&self) -> String {
+        let mut out = String::new();
+        let mut line = |cells: &[String]| {
+            let safe: Vec<String> = cells.iter().map(|s| s.replace('|', "\\|")).collect();
+            writeln!(out, "| {} |", safe.join(" | ")).expect(TEXT);
+        };
+        line(&self.head);
+        line(&vec!["---".to_string(); self.head.len()]);
+        self.rows.iter().for_each(|row| line(row));
+        out
     }
 
     /// The table in at most `columns` characters: as it is, or turned, or each row as lines of its own.

@@ -5,7 +5,7 @@
 //! left out. The best is the first, the worst the last, and the median the one in the middle.
 
 use super::arms::{arm_names, of_arm};
-use super::page::Page;
+use super::screen::{Film, Shown};
 use super::text::Table;
 use crate::campaign::RunRow;
 
@@ -58,15 +58,6 @@ pub struct RemadeRun {
     pub film: Result<Film, String>,
 }
 
-/// The tracks of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Film {
-    /// The data of its [animation](output::report::film).
-    pub data: String,
-    /// A picture of them as a `data:` address, for print and for browsers without JavaScript.
-    pub still: Option<String>,
-}
-
 /// The runs to show: of each of the first arms at most three, none of them twice. `arms` gives the order of the arms;
 /// others follow in the order of their rows.
 #[must_use]
@@ -104,23 +95,35 @@ fn place(row: &RunRow) -> (u8, f64, u64) {
 }
 
 /// The section of the page; `arms` is their number in all.
-pub(super) fn section(page: &mut Page, shown: &[RemadeRun], arms: usize) {
+pub(super) fn section(report: &mut Shown, shown: &[RemadeRun], arms: usize) {
     if shown.is_empty() {
         return;
     }
-    page.heading("Best, median and worst run");
-    let head = ["arm", "", "run", "seed", "outcome", "time, s", "error, m"];
-    page.table(&Table::new(head, shown.iter().map(|s| line(&s.pick))));
-    page.paragraph(NOTES);
+    report.page.heading("Best, median and worst run");
+    let time_s = |row: &RunRow| row.declared_s.unwrap_or(row.mission_s);
+    let table = Table::of(
+        shown.iter().map(|s| (s.pick.rank, &s.pick.row)),
+        &[
+            ("arm", &|(_, row)| row.arm.clone()),
+            ("", &|(rank, _)| rank.label().to_string()),
+            ("run", &|(_, row)| row.run.to_string()),
+            ("seed", &|(_, row)| row.seed.to_string()),
+            ("outcome", &|(_, row)| row.outcome.replace('_', " ")),
+            ("time, s", &|(_, row)| format!("{:.0}", time_s(row))),
+            ("error, m", &|(_, row)| row.error_m.map_or_else(String::new, |e| format!("{e:.1}"))),
+        ],
+    );
+    report.page.table(&table.head, &table.rows, false);
+    report.page.paragraph(NOTES);
     if arms > MOST_ARMS {
-        page.paragraph(&format!("Of {arms} arms the first {MOST_ARMS} are shown."));
+        report.page.paragraph(&format!("Of {arms} arms the first {MOST_ARMS} are shown."));
     }
-    page.without_script(STILL);
+    report.page.html(&format!("<noscript><style>.still{{display:block}}</style><p>{STILL}</p></noscript>\n"));
     for RemadeRun { pick, film } in shown {
         let title = title(pick);
         match film {
-            Ok(film) => page.film(&title, film),
-            Err(why) => page.paragraph(&format!("{title}: {why}.")),
+            Ok(film) => report.film(&title, film),
+            Err(why) => report.page.paragraph(&format!("{title}: {why}.")),
         }
     }
 }
@@ -130,20 +133,6 @@ fn title(pick: &Pick) -> String {
     let under = if row.condition.is_empty() { String::new() } else { format!(", {}", row.condition) };
     let (arm, rank) = (&row.arm, pick.rank.label());
     format!("{arm}{under}: {rank} run, number {}", row.run)
-}
-
-fn line(pick: &Pick) -> [String; 7] {
-    let row = &pick.row;
-    let time_s = row.declared_s.unwrap_or(row.mission_s);
-    [
-        row.arm.clone(),
-        pick.rank.label().to_string(),
-        row.run.to_string(),
-        row.seed.to_string(),
-        row.outcome.replace('_', " "),
-        format!("{time_s:.0}"),
-        row.error_m.map_or_else(String::new, |e| format!("{e:.1}")),
-    ]
 }
 
 #[cfg(test)]

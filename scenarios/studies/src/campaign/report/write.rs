@@ -1,8 +1,7 @@
 //! Writes all parts of a campaign's report into one folder.
 
 use super::arms::{self, ConditionFigures, arm_names, of_arm};
-use super::page::Page;
-use super::screen::Content;
+use super::screen::Shown;
 use super::text::Table;
 use super::tracks::{self, RemadeRun};
 use super::walls::Walls;
@@ -103,7 +102,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<WrittenRe
     if !reliable.is_empty() {
         let csv = reliability::csv(&reliable);
         kept.write("reliability.csv", csv.as_bytes());
-        let svg = reliability::picture(&reliable, plots::colour);
+        let svg = reliability::picture(&reliable);
         kept.figure("reliability", &svg);
     }
 
@@ -140,77 +139,63 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<WrittenRe
     }
 
     let title = if about.title.is_empty() { about.name } else { about.title };
-    let content = Content {
-        title: title.to_string(),
-        about: std::iter::once(heading(about, rows.len())).chain(success_words(about, &conditions)).collect(),
-        sets: Table::new(
-            ["arm", "sets in the scenario"],
-            (about.arms.iter().zip(about.sets)).map(|(arm, set)| [arm.clone(), set.clone()]),
-        ),
-        limit_s,
-        success: tables::success(&figures),
-        measured: tables::measured(&figures),
-        restricted: tables::restricted(&figures),
-        pairs: if comparisons.is_empty() { Vec::new() } else { tables::pairs(&comparisons) },
-        warnings: (comparisons.iter()).filter_map(|c| c.warning.clone()).collect(),
-        reliable: (!reliable.is_empty()).then(|| (reliability::table(&reliable), reliability::notes(&reliable))),
-        walls: Walls::sum(rows).describe(),
-        first_error: rows.iter().filter(|r| r.error.is_some()).min_by_key(|r| r.run).map(|r| {
-            let error = r.error.as_deref().unwrap_or_default();
-            format!("First failure: run {}: {error}", r.run)
-        }),
-    };
-    let mut page = Page::new(title);
-    for words in &content.about {
-        page.paragraph(words);
+    let mut shown = Shown::new(title, about.columns);
+    for words in std::iter::once(heading(about, rows.len())).chain(success_words(about, &conditions)) {
+        shown.page.paragraph(&words);
+        shown.line(&words);
     }
-    if !content.sets.rows.is_empty() {
-        page.heading("Arms");
-        page.facts(&content.sets);
+    let sets = about.arms.iter().zip(about.sets);
+    let sets = Table::of(sets, &[("arm", &|s| s.0.clone()), ("sets in the scenario", &|s| s.1.clone())]);
+    if !sets.rows.is_empty() {
+        shown.page.heading("Arms");
+        shown.page.table(&sets.head, &sets.rows, true);
+        sets.rows.iter().for_each(|row| shown.line(&format!("  arm {}: {}", row[0], row[1])));
     }
-    page.heading("Success");
-    page.table(&content.success);
-    page.svg(&drawn[0].1);
-    page.heading("Time, path, error");
-    page.tables(&content.measured);
-    page.paragraph(NOTES);
-    page.svg(&drawn[1].1);
-    page.heading(&format!("Time to success, at most {limit_s:.0} s"));
-    page.table(&content.restricted);
-    page.paragraph(RESTRICTED_NOTES);
-    page.svg(&drawn[2].1);
+    shown.page.heading("Success");
+    shown.table("", &tables::success(&figures));
+    shown.page.html(&drawn[0].1);
+    shown.page.heading("Time, path, error");
+    shown.tables(&tables::measured(&figures), "");
+    shown.page.paragraph(NOTES);
+    shown.page.html(&drawn[1].1);
+    shown.page.heading(&format!("Time to success, at most {limit_s:.0} s"));
+    shown.table(&format!("The limit is {limit_s:.0} s"), &tables::restricted(&figures));
+    shown.page.paragraph(RESTRICTED_NOTES);
+    shown.page.html(&drawn[2].1);
     if !comparisons.is_empty() {
-        page.heading("Arm against arm");
+        shown.page.heading("Arm against arm");
         if let Some(arm) = about.against {
-            page.paragraph(&format!("Each arm is compared with {arm}."));
+            shown.page.paragraph(&format!("Each arm is compared with {arm}."));
         } else if names.len() > pairs::EACH_WITH_EACH {
-            page.paragraph("With so many arms each is compared with the first.");
+            shown.page.paragraph("With so many arms each is compared with the first.");
         }
-        page.tables(&content.pairs);
-        for warning in &content.warnings {
-            page.paragraph(&format!("Warning: {warning}"));
+        shown.tables(&tables::pairs(&comparisons), ", arm against arm");
+        for warning in comparisons.iter().filter_map(|c| c.warning.as_ref()) {
+            shown.paragraph(&format!("Warning: {warning}"));
         }
-        page.paragraph(PAIR_NOTES);
-        page.svg(&drawn[3].1);
+        shown.page.paragraph(PAIR_NOTES);
+        shown.page.html(&drawn[3].1);
     }
     if !conditions.is_empty() {
-        page.heading("Conditions");
-        page.table(&tables::conditions(&conditions));
+        let table = tables::conditions(&conditions);
+        shown.page.heading("Conditions");
+        shown.page.table(&table.head, &table.rows, false);
     }
-    if let Some((table, notes)) = &content.reliable {
-        page.heading("How sure the maps are");
-        page.table(table);
-        page.paragraph(notes);
-        page.svg(&reliability::picture(&reliable, plots::colour));
+    if !reliable.is_empty() {
+        let title = "How sure the maps are";
+        shown.page.heading(title);
+        shown.table(title, &reliability::table(&reliable));
+        shown.paragraph(&reliability::notes(&reliable));
+        shown.page.html(&reliability::picture(&reliable));
     }
-    tracks::section(&mut page, about.shown, names.len());
-    page.heading("Where the time goes");
-    page.paragraph(&content.walls);
-    if let Some(error) = &content.first_error {
-        page.paragraph(error);
+    tracks::section(&mut shown, about.shown, names.len());
+    shown.page.heading("Where the time goes");
+    shown.paragraph(&Walls::sum(rows).describe());
+    if let Some(r) = rows.iter().filter(|r| r.error.is_some()).min_by_key(|r| r.run) {
+        shown.paragraph(&format!("First failure: run {}: {}", r.run, r.error.as_deref().unwrap_or_default()));
     }
-    kept.write("report.html", page.end().as_bytes());
-    Ok(WrittenReport { text: content.text(about.columns), files: kept.done()?, removed: folder.removed().to_vec() })
+    kept.write("report.html", shown.page.end().as_bytes());
+    Ok(WrittenReport { text: shown.text, files: kept.done()?, removed: folder.removed().to_vec() })
 }
 
 /// What counts as a success, and whether figures of several conditions are pooled.

@@ -16,7 +16,7 @@ pub use ecdf::Ecdf;
 pub use interval::Interval;
 pub use mean::{mean_interval, positive_mean_interval};
 pub use paired::{Better, Difference, LEAST_PAIRS, Separation, paired_mean, paired_median, paired_share};
-pub use quantile::{finite_sorted, quantile};
+pub use quantile::{finite_sorted, middle, quantile};
 pub use survival::{Survival, SurvivalStep};
 pub use wilson::{Z95, wilson};
 

@@ -6,6 +6,8 @@
 //! *Deviations*: none; values that are not finite are left out first.
 //! *Written here*: statrs has definition 8, which gives other numbers than R and NumPy.
 
+use super::Interval;
+
 /// The finite values, sorted.
 #[must_use]
 pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
@@ -20,6 +22,12 @@ pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let (k, share) = place(last, p);
     Some(between(sorted[k], sorted[(k + 1).min(last)], share))
+}
+
+/// Where 95 % of sorted values lie, from their 2.5 % quantile to that of 97.5 %; `None` if there are none.
+#[must_use]
+pub fn middle(sorted: &[f64]) -> Option<Interval> {
+    Some(Interval { low: quantile(sorted, 0.025)?, high: quantile(sorted, 0.975)? })
 }
 
 /// The order statistic (from 0) below the `p` quantile, and the position of the quantile between it and the next.

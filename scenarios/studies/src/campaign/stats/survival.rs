@@ -74,14 +74,6 @@ impl Survival {
         }
         Self { steps, end_s: trials.last().map_or(0.0, |x| x.0), n }
     }
-
-    /// Earliest time by which half of the trials have had the event, s; `None` if never.
-    #[must_use]
-    pub fn median_s(&self) -> Option<f64> {
-        // Slightly more than a half, because the product of (1 - d/r) has rounding.
-        let half = |s: &&SurvivalStep| s.share <= 0.5 + 1e-12;
-        self.steps.iter().find(half).map(|s| s.t_s)
-    }
 }
 
 fn log_log(share: f64, greenwood: f64) -> Interval {
@@ -95,7 +87,7 @@ mod tests {
     use super::*;
 
     /// Remission times of 21 leukaemia patients on 6-MP (Freireich et al., Blood 21 (1963) 699): the
-    /// textbook example; S(6) = 18/21, S(7) = 18/21 · 16/17, ..., S(23) = 0.448; median 23 weeks.
+    /// textbook example; S(6) = 18/21, S(7) = 18/21 · 16/17, ..., S(23) = 0.448.
     #[test]
     fn gives_the_textbook_curve() {
         let events = [6, 6, 6, 7, 10, 13, 16, 22, 23];
@@ -110,7 +102,6 @@ mod tests {
             assert!((g - w).abs() < 5e-5, "{got:?}");
         }
         assert_eq!(s.steps[4].at_risk, 12);
-        assert_eq!(s.median_s(), Some(23.0));
         assert_eq!(s.end_s, 35.0);
         // Greenwood at 6: 0.8571 · sqrt(3 / (21 · 18)) = 0.0764; on the ln(-ln) scale 0.620 to 0.952.
         let first = s.steps[1].interval;
@@ -123,17 +114,16 @@ mod tests {
         let s = Survival::new([(3.0, true), (2.0, false), (1.0, true), (4.0, true)]);
         let got: Vec<(f64, u64, f64)> = s.steps.iter().map(|s| (s.t_s, s.at_risk, s.share)).collect();
         assert_eq!(got, [(0.0, 4, 1.0), (1.0, 4, 0.75), (3.0, 2, 0.375), (4.0, 1, 0.0)]);
-        assert_eq!(s.median_s(), Some(3.0));
     }
 
     #[test]
     fn of_none_of_all_at_once_and_of_no_event() {
         let none = Survival::new([(f64::NAN, true)]);
-        assert_eq!((none.n, none.steps.len(), none.median_s()), (0, 1, None));
+        assert_eq!((none.n, none.steps.len()), (0, 1));
         let all = Survival::new([(5.0, true); 3]);
         assert_eq!(all.steps[1].share, 0.0);
         let never = Survival::new([(5.0, false); 3]);
-        assert_eq!((never.steps.len(), never.end_s, never.median_s()), (1, 5.0, None));
+        assert_eq!((never.steps.len(), never.end_s), (1, 5.0));
         for s in [none, all, never] {
             for step in s.steps {
                 let i = step.interval;
