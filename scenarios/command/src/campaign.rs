@@ -19,16 +19,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use studies::campaign::{
     CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
 };
+use world::registry::Registry;
 
 /// Runs one of its subcommands.
-pub(super) fn campaign(command: &CampaignCommand) -> Exit {
+pub(super) fn campaign(registry: &Registry, command: &CampaignCommand) -> Exit {
     let done = match command {
-        CampaignCommand::Plan(args) => plan(args),
-        CampaignCommand::Run(args) => run_share(args),
-        CampaignCommand::Status(args) => status(args),
-        CampaignCommand::Merge(args) => merge_rows(args),
-        CampaignCommand::Report(args) => return campaign_report::report(args),
-        CampaignCommand::Rerun(args) => return rerun(args),
+        CampaignCommand::Plan(args) => plan(registry, args),
+        CampaignCommand::Run(args) => run_share(registry, args),
+        CampaignCommand::Status(args) => status(registry, args),
+        CampaignCommand::Merge(args) => merge_rows(registry, args),
+        CampaignCommand::Report(args) => return campaign_report::report(registry, args),
+        CampaignCommand::Rerun(args) => return rerun(registry, args),
     };
     done.unwrap_or_else(refused)
 }
@@ -53,12 +54,12 @@ pub(super) fn refused(error: CampaignError) -> Exit {
     Exit::Error
 }
 
-fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
+fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     let shard = match args.shard {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
-    let mut campaign = load(&args.file)?;
+    let mut campaign = load(registry, &args.file)?;
     campaign.key = args.key.get();
     let bar = if args.quiet { ProgressBar::hidden() } else { ProgressBar::new(0) };
     bar.set_style(
@@ -148,8 +149,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     Ok(exit)
 }
 
-fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
-    let status = Status::examine(&args.dir)?;
+fn status(registry: &Registry, args: &StatusArgs) -> Result<Exit, CampaignError> {
+    let status = Status::examine(registry, &args.dir)?;
     let manifest = &status.manifest;
     let adaptive = status.wanted.runs < manifest.runs;
     say::line(format_args!(
@@ -180,9 +181,9 @@ fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
     Ok(if status.complete() { Exit::Success } else { Exit::Unfinished })
 }
 
-fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
+fn merge_rows(registry: &Registry, args: &MergeArgs) -> Result<Exit, CampaignError> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
-    let merged = merge(&args.dir, &args.out, csv.as_deref())?;
+    let merged = merge(registry, &args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
         "{} in {}, {} in {}",
         count(merged.rows, "row"),
@@ -196,10 +197,10 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
     Ok(Exit::Success)
 }
 
-fn rerun(args: &RerunArgs) -> Exit {
+fn rerun(registry: &Registry, args: &RerunArgs) -> Exit {
     let found = Manifest::open(&args.dir).and_then(|manifest| {
         let row = read_row(&args.dir, args.run)?;
-        let mut campaign = manifest.campaign()?;
+        let mut campaign = manifest.campaign(registry)?;
         campaign.key = args.key.get();
         manifest.same_key(&campaign)?;
         let place = campaign.place(args.run);

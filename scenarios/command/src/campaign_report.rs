@@ -7,10 +7,11 @@ use super::{say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use studies::campaign::report::{About, RemadeRun, picks, write};
 use studies::campaign::{Arm, Campaign, CampaignError, Manifest, RunRow, read_rows, wanted};
+use world::registry::Registry;
 
 /// Writes the report and prints its tables.
-pub(super) fn report(args: &ReportArgs) -> Exit {
-    let read = match read(args) {
+pub(super) fn report(registry: &Registry, args: &ReportArgs) -> Exit {
+    let read = match read(registry, args) {
         Ok(read) => read,
         Err(error) => return refused(error),
     };
@@ -86,9 +87,9 @@ struct Read {
     rows: Vec<RunRow>,
 }
 
-fn read(args: &ReportArgs) -> Result<Read, CampaignError> {
+fn read(registry: &Registry, args: &ReportArgs) -> Result<Read, CampaignError> {
     let manifest = Manifest::open(&args.dir)?;
-    let campaign = manifest.campaign()?;
+    let campaign = manifest.campaign(registry)?;
     Ok(Read {
         planned: wanted(&campaign, &args.dir, &manifest).runs,
         limit_s: campaign.limit_s()?,

@@ -3,14 +3,15 @@
 use super::args::CheckArgs;
 use super::exit::Exit;
 use super::say;
-use rheotaxis::scenario::{cost, load};
+use rheotaxis::scenario::{cost, load_with};
 use world::cost::memory;
+use world::registry::Registry;
 
 /// Checks every file, also after one with mistakes.
-pub(super) fn check(args: &CheckArgs) -> Exit {
+pub(super) fn check(registry: &Registry, args: &CheckArgs) -> Exit {
     let mut exit = Exit::Success;
     for file in &args.files {
-        let checked = load(file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
+        let checked = load_with(registry, file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
         match checked {
             Ok((loaded, odd)) => {
                 say::warnings(&odd);

@@ -7,6 +7,7 @@ use output::columns::TableInfo;
 use output::report;
 use rheotaxis::explain::{self, FileKind};
 use studies::campaign;
+use world::registry::Registry;
 
 /// The files that this command knows beside those of the library.
 const MORE: &[FileKind] = &[campaign::FILE];
@@ -17,14 +18,14 @@ fn tables() -> Vec<TableInfo> {
 }
 
 /// Prints the explanation of one place, or the whole reference as Markdown or JSON Schema.
-pub(super) fn explain(args: &ExplainArgs) -> Exit {
+pub(super) fn explain(registry: &Registry, args: &ExplainArgs) -> Exit {
     let path = args.path.as_deref().unwrap_or_default();
     let table = tables().into_iter().find(|table| table.is_in(path));
     let text = match (args.markdown, args.json_schema, table) {
-        (true, ..) => Ok(explain::markdown(MORE)),
-        (_, true, _) => Ok(explain::json_schema()),
+        (true, ..) => Ok(explain::markdown(registry, MORE)),
+        (_, true, _) => Ok(explain::json_schema(registry)),
         (.., Some(table)) => Ok(table.text()),
-        _ => explain::explain(path, MORE),
+        _ => explain::explain(registry, path, MORE),
     };
     match text {
         Ok(text) => {

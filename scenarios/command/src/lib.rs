@@ -81,25 +81,25 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         Err(said) => return say::usage(&said).into(),
     };
     cost::set_limit(memory);
-    say::end(Exit::guarded(|| registry.scope(|| dispatch(command)))).into()
+    say::end(Exit::guarded(|| dispatch(registry, command))).into()
 }
 
-fn dispatch(command: Command) -> Exit {
+fn dispatch(registry: &Registry, command: Command) -> Exit {
     stop::begin();
     match command {
-        Command::Run(args) => run::run(&args),
-        Command::Rerun(args) => rerun::rerun(&args),
-        Command::Check(args) => check::check(&args),
+        Command::Run(args) => run::run(registry, &args),
+        Command::Rerun(args) => rerun::rerun(registry, &args),
+        Command::Check(args) => check::check(registry, &args),
         Command::Init(args) => init::init(&args),
-        Command::List(args) => list::list(&args),
-        Command::Explain(args) => explain::explain(&args),
-        Command::Topics(args) => topics::topics(&args),
-        Command::Listen(args) => listen::listen(&args),
-        Command::Campaign(args) => campaign::campaign(&args.command),
-        Command::Reproduce(args) => reproduce::run(&args),
+        Command::List(args) => list::list(registry, &args),
+        Command::Explain(args) => explain::explain(registry, &args),
+        Command::Topics(args) => topics::topics(registry, &args),
+        Command::Listen(args) => listen::listen(registry, &args),
+        Command::Campaign(args) => campaign::campaign(registry, &args.command),
+        Command::Reproduce(args) => reproduce::run(registry, &args),
         Command::Cache(args) => cache::cache(&args),
-        Command::Statistics(args) => statistics::statistics(&args),
-        Command::Picture(args) => picture::picture(&args),
+        Command::Statistics(args) => statistics::statistics(registry, &args),
+        Command::Picture(args) => picture::picture(registry, &args),
         Command::Segment(args) => segment::segment(&args),
         Command::ScoreVision(args) => score_vision::score_vision(&args),
         Command::Vehicle(args) => vehicle::vehicle(&args),

@@ -8,16 +8,17 @@ use nalgebra::Vector3;
 use output::charts::picture_png;
 use output::files::{ReportError, beside_no_run, write_whole};
 use rheotaxis::assemble::WaterLight;
-use rheotaxis::scenario::load;
+use rheotaxis::scenario::load_with;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, CameraSpec, RenderedPicture, Scene, looking, render};
 use std::path::{Path, PathBuf};
 use world::ranges::Positive;
+use world::registry::Registry;
 use world::seeds;
 use world::units::Heading;
 
 /// Takes the picture and prints the names of the files.
-pub(super) fn picture(args: &PictureArgs) -> Exit {
+pub(super) fn picture(registry: &Registry, args: &PictureArgs) -> Exit {
     if args.truth.as_ref() == Some(&args.out) {
         let problem = format!("--out and --truth are the same file, {}", args.out.display());
         say::error(problem, Some("name another file for one of them"));
@@ -29,7 +30,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         say::error(error, None);
         return Exit::Error;
     }
-    let checked = load(&args.file).and_then(|mut loaded| {
+    let checked = load_with(registry, &args.file).and_then(|mut loaded| {
         if let Some(metres) = args.visibility.and_then(|v| Positive::try_from(v).ok()) {
             loaded.scenario.optics.clarity.visibility_m = metres;
         }

@@ -14,11 +14,12 @@ use studies::campaign::RunRow;
 use studies::reproduce::{
     Plan, Reference, ReproduceError, RowResult, Table, TimeLeft, compare, reproduce, table, wanted, write,
 };
+use world::registry::Registry;
 
 /// Runs the rows, prints their tables and writes them.
-pub(super) fn run(args: &ReproduceArgs) -> Exit {
+pub(super) fn run(registry: &Registry, args: &ReproduceArgs) -> Exit {
     stop::listen();
-    match all(args) {
+    match all(registry, args) {
         Ok(()) => Exit::Success,
         Err(ReproduceError::Interrupted) => {
             say::error(ReproduceError::Interrupted, None);
@@ -35,8 +36,8 @@ pub(super) fn run(args: &ReproduceArgs) -> Exit {
     }
 }
 
-fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
-    let references = wanted(&args.rows, &args.arms)?;
+fn all(registry: &Registry, args: &ReproduceArgs) -> Result<(), ReproduceError> {
+    let references = wanted(registry, &args.rows, &args.arms)?;
     // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
     if !args.quiet && !args.no_runs {

@@ -11,7 +11,7 @@ use super::{cache, say, stop};
 use output::mcap::{ReadError, RecordedRun, read_recording};
 use rheotaxis::control::Replay;
 use rheotaxis::lanes::{LaneError, Lanes};
-use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
+use rheotaxis::scenario::{Loaded, ScenarioError, load_text_in, load_with, template};
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,8 +29,8 @@ enum RerunError {
 }
 
 /// Runs it.
-pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
-    match again(args) {
+pub(super) fn rerun(registry: &Registry, args: &RerunMcapArgs) -> Exit {
+    match again(registry, args) {
         Ok(exit) => exit,
         Err(RerunError::Scenario(error)) => refused(error.into()),
         Err(RerunError::Run(error)) => refused(error),
@@ -41,7 +41,7 @@ pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
     }
 }
 
-fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
+fn again(registry: &Registry, args: &RerunMcapArgs) -> Result<Exit, RerunError> {
     say::hush_lost_states();
     let stop = stop::listen();
     let path = match args.recording.is_dir() {
@@ -49,7 +49,7 @@ fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
         false => args.recording.clone(),
     };
     let recorded = read_recording(&path)?;
-    let loaded = scenario(&recorded, args.base.as_deref())?;
+    let loaded = scenario(registry, &recorded, args.base.as_deref())?;
     let ended = made(args, &recorded, &loaded, stop)?;
     let Some(ended) = ended.filter(|_| !stop.load(Ordering::Relaxed)) else {
         return Ok(Exit::Interrupted);
@@ -58,12 +58,12 @@ fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
 }
 
 /// The scenario of a recording: that of the program if it is one of its own, for the files that belong to it.
-fn scenario(recorded: &RecordedRun, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
+fn scenario(registry: &Registry, recorded: &RecordedRun, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
     let (name, text) = (&recorded.scenario_name, &recorded.scenario_text);
     if base.is_none() && template(name).is_some_and(|t| t.text == text) {
-        return load(Path::new(name));
+        return load_with(registry, Path::new(name));
     }
-    load_text_in(&Registry::now(), name, text, base.unwrap_or(Path::new("")))
+    load_text_in(registry, name, text, base.unwrap_or(Path::new("")))
 }
 
 /// Makes the run again; `None` if it did not come to its end.

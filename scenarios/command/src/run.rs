@@ -12,12 +12,13 @@ use rheotaxis::cache::SpinUps;
 use rheotaxis::error::AssembleError;
 use rheotaxis::lanes::{LaneError, Lanes, group_by_ocean};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
+use rheotaxis::scenario::{Loaded, ScenarioError, cost, load_with};
 use rheotaxis::trial::{NotControlled, consulted, controlled};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use world::cost::memory;
+use world::registry::Registry;
 
 /// Why a run could not start or finish.
 #[derive(Debug, thiserror::Error)]
@@ -58,7 +59,7 @@ impl RunError {
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 /// But none is run if two of them have one folder for their results, or if a folder is in use or holds files of others:
 /// hours may pass before the last of the folders is opened.
-pub(super) fn run(args: &RunArgs) -> Exit {
+pub(super) fn run(registry: &Registry, args: &RunArgs) -> Exit {
     if args.ros2.ros2 && args.files.len() > 1 {
         return refused(RunError::OneForRos2);
     }
@@ -68,7 +69,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     let mut exit = Exit::Success;
     let mut ready: Vec<(Loaded, PathBuf)> = Vec::new();
     for file in &args.files {
-        match prepared(file, args) {
+        match prepared(registry, file, args) {
             Ok(one) => ready.push(one),
             Err(error) => exit = exit.worse(refused(error)),
         }
@@ -121,8 +122,8 @@ fn code(outcome: RunOutcome) -> Exit {
 }
 
 /// The scenario of a file and the folder of its results.
-fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> {
-    let loaded = load(file)?;
+fn prepared(registry: &Registry, file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), RunError> {
+    let loaded = load_with(registry, file)?;
     say::warnings(&loaded.check()?);
     let asking = controlled(&loaded.scenario);
     if !asking.is_empty() && !args.control.allow_control {

@@ -6,7 +6,7 @@ use super::lane_observers::LaneObservers;
 use super::progress::Progress;
 use output::files::{ReportError, begin_run};
 use output::follow::Follower;
-use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id, topics};
 use output::report::is_result;
 use rheotaxis::control::{Exchange, Response};
 use rheotaxis::outcome::RunOutcome;
@@ -21,6 +21,7 @@ use std::time::Duration;
 
 use super::run::RunError;
 use super::say;
+use world::registry::Registry;
 
 /// All that follows one run.
 pub(super) struct RunObserver {
@@ -53,7 +54,7 @@ impl RunObserver {
             Speed::Times(times) => Some(times),
         };
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
-        let live = live(args, &mut results, &progress, company, &plane)?;
+        let live = live(args, &loaded.registry, &mut results, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let own = |name: &str| is_result(&loaded.scenario, name);
         let out = begin_run(out, (!args.overwrite).then_some(&own))?;
@@ -145,6 +146,7 @@ fn cores(args: &RunArgs) -> usize {
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
+    registry: &Registry,
     results: &mut Follower,
     progress: &Progress,
     company: &mut LaneObservers,
@@ -169,6 +171,7 @@ fn live(
         seed: run.seed.number(),
         version: run.version.clone(),
         scene: Some(scene.document(run.seed.number())),
+        topics: topics(registry),
     };
     let live = company.live(&options, meta)?;
     progress.say(&format!("live on {} under rheotaxis/{}", live.endpoint(), options.run_id));

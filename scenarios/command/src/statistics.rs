@@ -6,17 +6,18 @@ use super::{say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use output::files::make_folder;
 use output::shown::printable;
-use rheotaxis::scenario::load;
+use rheotaxis::scenario::load_with;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use studies::statistics::{self, StatisticsError, table, write};
+use world::registry::Registry;
 
 /// Steps of the progress bar.
 const PARTS: u64 = 1000;
 
 /// Measures the plume, prints the table and writes it as CSV.
-pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
-    let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
+pub(super) fn statistics(registry: &Registry, args: &StatisticsArgs) -> Exit {
+    let checked = load_with(registry, &args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
     let loaded = match checked {
         Ok((loaded, odd)) => {
             say::warnings(&odd);

@@ -62,7 +62,7 @@ impl PyScenario {
                 scenario_error(py, refused)
             })?;
         }
-        (self.loaded.with_text(text)).map_err(|error| scenario_error(py, error))
+        (self.loaded.with_text(&self.loaded.path, text)).map_err(|error| scenario_error(py, error))
     }
 }
 

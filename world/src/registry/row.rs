@@ -1,14 +1,12 @@
 //! A row: one thing of a kind, and how it is read.
 
-use super::source::Source;
-use super::source_error::SourceError;
 use super::{Kind, Listed, Takes};
 use crate::catalogue::Entry;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 /// Reads the parameters of a thing.
-type Read<K> = fn(Source<'_, '_>) -> Result<Box<<K as Kind>::Spec>, SourceError>;
+type Read<K> = for<'de> fn(&mut ron::de::Deserializer<'de>) -> ron::Result<Box<<K as Kind>::Spec>>;
 
 /// One thing of a kind.
 pub struct Row<K: Kind> {

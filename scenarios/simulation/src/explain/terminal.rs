@@ -1,7 +1,7 @@
 //! Writes places of a scenario as text for a terminal.
 
 use super::path::{At, PathTarget, below, joined};
-use super::read::{Field, NamedType, Reference, Shape, Variant};
+use crate::shape::{Field, NamedType, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
 use std::fmt::Write;
