@@ -95,7 +95,7 @@ fn numbers_that_make_infinite_loops_and_tables_are_refused() {
             "max_range_m: 30",
             "max_range_m: 1e6",
             "robots[0].sensors.ranging.max_range_m",
-            "must be from 0.01 to 5000 m, got 1000000",
+            "must be from 0.01 to 5000 m, got 1e6",
         ),
         (
             "reef_mesh",

@@ -14,7 +14,8 @@ pub(super) fn topics(registry: &Registry, args: &TopicsArgs) -> Exit {
         return ros2_topics(args.schema);
     }
     if args.schema {
-        let schemas: Map<String, Value> = live::topics(registry).iter().map(|t| (t.name.to_string(), t.schema())).collect();
+        let schemas: Map<String, Value> =
+            live::topics(registry).iter().map(|t| (t.name.to_string(), t.schema())).collect();
         say::line(format_args!("{:#}", Value::Object(schemas)));
         return Exit::Success;
     }

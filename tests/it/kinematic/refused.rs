@@ -30,9 +30,9 @@ fn numbers_without_meaning_are_refused_with_their_range() {
         ("Kinematic(max_speed_m_s: -2)", "max_speed_m_s: must be > 0 and <= 15 m/s, got -2"),
         ("Kinematic(max_speed_m_s: NaN)", "max_speed_m_s: must be > 0 and <= 15 m/s, got NaN"),
         ("Kinematic(max_speed_m_s: 99)", "max_speed_m_s: must be > 0 and <= 15 m/s, got 99"),
-        ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0, got 0"),
-        ("Kinematic(lag_s: -1)", "lag_s: must be >= 0, got -1"),
-        ("Kinematic(lag_s: inf)", "lag_s: must be >= 0, got inf"),
+        ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0 and <= 15 m/s, got 0"),
+        ("Kinematic(lag_s: -1)", "lag_s: must be from 0 to 1000 s, got -1"),
+        ("Kinematic(lag_s: inf)", "lag_s: must be from 0 to 1000 s, got inf"),
     ] {
         assert_eq!(error(vehicle), format!("robots[0].vehicle.{said}"), "{vehicle}");
     }

@@ -15,8 +15,12 @@ use zenoh::bytes::Encoding;
 use zenoh::{Config, Wait};
 
 fn at(live: &Live, key: Option<&str>) -> Listener {
-    let options =
-        ListenOptions { key: key.map(str::to_owned), connect: Some(live.endpoint().to_owned()), topics: topics(&Registry::default()), config_file: None };
+    let options = ListenOptions {
+        key: key.map(str::to_owned),
+        connect: Some(live.endpoint().to_owned()),
+        topics: topics(&Registry::default()),
+        config_file: None,
+    };
     Listener::open(&options).expect("it connects by itself")
 }
 

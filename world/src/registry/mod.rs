@@ -18,6 +18,6 @@ mod tests;
 pub use added::Registry;
 pub use choice::Choice;
 pub use kind::{Kind, Listed, Spec, Standard, Takes};
+pub use read::ReadError;
 pub use row::Row;
 pub use set::Set;
-pub use read::ReadError;

@@ -7,7 +7,7 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::de::{DeserializeOwned, DeserializeSeed, Error as _, Visitor};
+use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error as _, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::cell::Cell;
 use std::fmt;
@@ -95,6 +95,58 @@ fn part<'de, T>(text: &'de str, read: impl FnOnce(&mut Ron<'de>) -> ron::Result<
         INNERMOST.set(Some(first));
         message
     })
+}
+
+/// The parameters of a thing: a struct in parentheses. ron reads it as the fields of a variant, because what it looks for
+/// in structs (ranges such as `1..2`) makes each type four times as long to compile.
+pub(super) struct Parameters<'f, 'de>(pub(super) &'f mut Ron<'de>);
+
+impl<'de> Deserializer<'de> for Parameters<'_, 'de> {
+    type Error = ron::Error;
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> ron::Result<V::Value> {
+        self.0.deserialize_enum("", &[], Fields(visitor))
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> ron::Result<V::Value> {
+        Err(ron::Error::custom("the parameters of what is chosen by name must be a struct"))
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+struct Fields<V>(V);
+
+impl<'de, V: Visitor<'de>> Visitor<'de> for Fields<V> {
+    type Value = V::Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.0.expecting(f)
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, parentheses: A) -> Result<V::Value, A::Error> {
+        let ((), fields) = parentheses.variant_seed(Nameless)?;
+        fields.struct_variant(&[], self.0)
+    }
+}
+
+/// In the place of a variant's name: nothing is read.
+struct Nameless;
+
+impl<'de> DeserializeSeed<'de> for Nameless {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, _: D) -> Result<(), D::Error> {
+        Ok(())
+    }
 }
 
 /// Reads a word: whether it is `None`.

@@ -1,5 +1,6 @@
 //! A row: one thing of a kind, and how it is read.
 
+use super::read::Parameters;
 use super::{Kind, Listed, Takes};
 use crate::catalogue::Entry;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -25,7 +26,7 @@ impl<K: Kind> Row<K> {
     {
         Self {
             entry: S::ENTRY,
-            read: |from| S::deserialize(from).map(K::boxed),
+            read: |from| S::deserialize(Parameters(from)).map(K::boxed),
             schema: SchemaGenerator::subschema_for::<S>,
         }
     }

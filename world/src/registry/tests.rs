@@ -1,6 +1,6 @@
 //! A kind of two things, and a third of somebody else.
 
-use super::{Choice, Listed, Registry, Spec};
+use super::{Choice, Listed, Registry, Set, Spec};
 use crate::catalogue::Entry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -70,6 +70,37 @@ fn unknown_names_and_fields_are_told_with_the_legal_ones() {
     let found = Registry::default().read::<ShapeSpec>(text).expect_err("no such field");
     assert!(found.message.contains("`radius`") && found.message.contains("`side`"), "{found:?}");
     assert!(text[..found.at.end].ends_with("radius"), "{found:?}");
+}
+
+#[test]
+fn a_choice_may_stand_in_another() {
+    #[derive(Debug, PartialEq, Deserialize)]
+    enum Holder {
+        One(ShapeSpec),
+        Two(ShapeSpec, Option<ShapeSpec>),
+    }
+    let read = |text: &str| Registry::default().read::<Holder>(text).map_err(|e| e.message);
+    let plain = ShapeSpec::new(Square { side: 1.0 });
+    for text in ["One(Square())", "One(Square(side: 1))", "One( /* a */ Square ( side: 1, ) , )"] {
+        assert_eq!(read(text), Ok(Holder::One(plain.clone())), "{text}");
+    }
+    for text in ["Two(Square(), Square())", "Two(Square(), Some(Square(side: 1)))"] {
+        assert_eq!(read(text), Ok(Holder::Two(plain.clone(), Some(plain.clone()))), "{text}");
+    }
+    assert_eq!(read("Two(Square(), None)"), Ok(Holder::Two(plain, None)));
+}
+
+#[test]
+fn a_set_is_read_by_the_names_of_its_fields() {
+    let read = |text: &str| Registry::default().read::<Set<Shapes>>(text).map_err(|e| e.message);
+    let both = Set::default().with(Circle { radius: 2.0 }).with(Square { side: 1.0 });
+    let names = both.iter().map(Choice::name).collect::<Vec<_>>();
+    assert_eq!(names, ["Square", "Circle"]);
+    for text in ["(Circle: (radius: 2), Square: ())", "(Square: Some(side: 1), Circle: /* a */ (radius: 2))"] {
+        assert_eq!(read(text), Ok(both.clone()), "{text}");
+    }
+    assert_eq!(read("(Square: None, Circle: (radius: 2))"), Ok(both.without("Square")));
+    assert!(read("(Square: (), Square: ())").is_err_and(|e| e.contains("Square")));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The reference says what the reader does. That its page in `docs` is up to date is a test of the command.
 
-use crate::shape::Shape;
 use super::{Unknown, path};
 use crate::shape::Reference;
+use crate::shape::Shape;
 use world::registry::Registry;
 
 fn explain(path: &str) -> Result<String, Unknown> {

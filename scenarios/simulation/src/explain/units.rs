@@ -140,8 +140,8 @@ fn numbers(field: &mut Value, seen: &mut dyn FnMut(&mut Object)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shape::VEHICLE;
     use crate::explain::schema::schema;
+    use crate::shape::VEHICLE;
     use std::collections::BTreeSet;
     use world::registry::Registry;
 

@@ -111,7 +111,12 @@ pub fn merge(registry: &Registry, dir: &Path, to: &Path, csv: Option<&Path>) -> 
     let (rows, declarations) = (runs.lines, declared.lines);
     // If one file cannot be given its name, the others are not affected.
     runs.close().and(declared.close())?;
-    Ok(MergeResult { rows, of: wanted(&manifest.campaign(registry)?, dir, &manifest).runs, declarations, declarations_path })
+    Ok(MergeResult {
+        rows,
+        of: wanted(&manifest.campaign(registry)?, dir, &manifest).runs,
+        declarations,
+        declarations_path,
+    })
 }
 
 /// A table that grows block by block.

@@ -78,7 +78,8 @@ impl Listener {
         let wanted = expression(options.key.as_deref().unwrap_or("**"))?;
         let from_env = std::env::var_os("ZENOH_CONFIG").map(PathBuf::from);
         let (config, place) = reached(options, from_env)?;
-        let notice = (options.key.as_deref().filter(|_| !options.topics.is_empty())).and_then(|key| unknown(key, &wanted, &options.topics));
+        let notice = (options.key.as_deref().filter(|_| !options.topics.is_empty()))
+            .and_then(|key| unknown(key, &wanted, &options.topics));
         let (sender, events) = sync_channel(WAITING);
         let session = zenoh::open(config).wait();
         let session = session.map_err(|e| LiveError::NoSession { why: plain(&e) })?;

@@ -75,7 +75,9 @@ impl<'a> Checker<'a> {
             (Shape::Text(t), Kind::Word) => self.words(node, t),
             (Shape::Truth, Kind::Word) if matches!(self.written(node), "true" | "false") => {}
             (Shape::List(of), Kind::Group(group)) if group.name.is_none() => self.list(node, group, of),
-            (Shape::Tuple(parts), Kind::Group(group)) if group.name.is_none() => self.tuple(node, group.bracket, &group.items, parts),
+            (Shape::Tuple(parts), Kind::Group(group)) if group.name.is_none() => {
+                self.tuple(node, group.bracket, &group.items, parts)
+            }
             (Shape::Fields(fields), Kind::Group(group)) if group.bracket == '(' => {
                 let of = |of: &Shape| matches!(of, Shape::Named(of) if group.name.as_ref() == Some(of));
                 if let Some(name) = group.name.as_ref().filter(|_| !of(shape)) {
@@ -93,7 +95,7 @@ impl<'a> Checker<'a> {
         let refused = match n.whole {
             Some((least, most)) => match (scalar::whole(word), scalar::number(word)) {
                 (Some(v), _) if (least..=most).contains(&v) => None,
-                (Some(_), _) => Some((format!("must be a whole number from {least} to {most}"), None)),
+                (Some(_), _) => Some((format!("must be {}", hint::whole(least, most)), None)),
                 (None, Some(_)) => Some(("must be a whole number".to_string(), hint::range(n, 0.0))),
                 (None, None) => Some(("expected a whole number".to_string(), hint::range(n, 0.0))),
             },
@@ -101,8 +103,9 @@ impl<'a> Checker<'a> {
                 None => Some(("expected a number".to_string(), hint::range(n, 0.0))),
                 Some(v) if fits(n, v) => None,
                 Some(v) if v.is_finite() => hint::range(n, v).map(|range| (range, None)),
-                Some(_) => {
-                    let range = hint::range(n, 0.0).unwrap_or_else(|| "must be a finite number".to_string());
+                Some(v) => {
+                    let range = hint::range(n, if v.is_nan() { 0.0 } else { v })
+                        .unwrap_or_else(|| "must be a finite number".to_string());
                     Some((range, Some("give a finite number".to_string())))
                 }
             },
@@ -126,7 +129,8 @@ impl<'a> Checker<'a> {
 
     fn list(&mut self, node: &Node, group: &Group, of: &Shape) {
         if group.bracket != '[' {
-            let alone = group.items.iter().any(|i| i.key.is_some()) || matches!(self.legal.resolved(of), Shape::Tuple(_));
+            let alone =
+                group.items.iter().any(|i| i.key.is_some()) || matches!(self.legal.resolved(of), Shape::Tuple(_));
             let hint = if alone { "write `[ ]` around it" } else { "write `[ ]` in place of `( )`" };
             self.refuse(node, "expected a list in square brackets", Some(hint.to_string()));
             if let (true, Shape::Fields(fields)) = (alone, self.legal.resolved(of)) {

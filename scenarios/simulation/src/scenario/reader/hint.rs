@@ -54,14 +54,18 @@ pub(super) fn form(legal: &Reference, shape: &Shape) -> String {
     }
 }
 
+/// The whole numbers of a range.
+pub(super) fn whole(least: i128, most: i128) -> String {
+    if most == i128::from(u64::MAX) {
+        return format!("a whole number, {least} or greater");
+    }
+    format!("a whole number from {least} to {most}")
+}
+
 /// The range of a number that must contain `v`; `None` if every number is legal.
 pub(super) fn range(n: &Number, v: f64) -> Option<String> {
-    match n.whole {
-        Some((0, most)) if most == i128::from(u64::MAX) && v >= 0.0 => {
-            return Some("a whole number, 0 or greater".to_string());
-        }
-        Some((least, most)) => return Some(format!("a whole number from {least} to {most}")),
-        None => {}
+    if let Some((least, most)) = n.whole {
+        return Some(whole(least, most));
     }
     // The ends of all numbers are said only to those who are beyond them.
     let near = v.abs() <= LARGEST;
