@@ -45,7 +45,7 @@ fn numbers_that_make_infinite_loops_and_tables_are_refused() {
             "omega_rad_s: 0.02",
             "omega_rad_s: 1e6",
             "water.currents[1].omega_rad_s",
-            "must be from 1e-7 to 6 rad/s, got 1000000",
+            "must be from 1e-7 to 6 rad/s, got 1e6",
         ),
         (
             "moth_eyes",
@@ -95,7 +95,7 @@ fn numbers_that_make_infinite_loops_and_tables_are_refused() {
             "max_range_m: 30",
             "max_range_m: 1e6",
             "robots[0].sensors.ranging.max_range_m",
-            "must be from 0.01 to 5000 m, got 1000000",
+            "must be from 0.01 to 5000 m, got 1e6",
         ),
         (
             "reef_mesh",
@@ -192,7 +192,7 @@ fn numbers_beyond_physics_are_refused_where_they_stand() {
             "density_kg_m3: 998.2",
             "density_kg_m3: 1e6",
             "water.density_kg_m3",
-            "must be from 900 to 1400 kg/m3, got 1000000",
+            "must be from 900 to 1400 kg/m3, got 1e6",
         ),
     ] {
         refuses(name, from, to, path, legal);

@@ -26,6 +26,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::net::TcpListener;
 use std::sync::Arc;
+use world::registry::Registry;
 use zenoh::bytes::Encoding;
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Config, Wait};
@@ -33,7 +34,7 @@ use zenoh_ext::{AdvancedSubscriberBuilderExt, HistoryConfig};
 
 /// What every client must have seen in the end, whenever it came.
 fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
-    for topic in topics() {
+    for topic in topics(&Registry::default()) {
         let schema = json(&seen[&format!("meta/schema/{}", topic.name)]);
         assert_eq!(schema, topic.schema());
     }
@@ -179,7 +180,7 @@ fn every_message_keeps_its_published_schema() {
     live.end("d1");
     let session = client(live.endpoint());
     let seen = kept_at_the_end(&session, "schema_1");
-    for topic in topics() {
+    for topic in topics(&Registry::default()) {
         let schema = json(&seen[&format!("meta/schema/{}", topic.name)]);
         let key = key_of(topic.key).replace("<name>", "clock");
         let sample = seen.get(&key).unwrap_or_else(|| panic!("{key} is not published"));
@@ -197,7 +198,7 @@ fn every_message_keeps_its_published_schema() {
         broken(&schema, &json!({}), &key, &mut wrong);
         assert!(!wrong.is_empty(), "{key}: the schema asks for nothing");
     }
-    let known: Vec<String> = topics().iter().map(|t| key_of(t.key)).collect();
+    let known: Vec<String> = topics(&Registry::default()).iter().map(|t| key_of(t.key)).collect();
     for key in seen.keys().filter(|k| !k.starts_with("meta/schema/")) {
         assert!(known.contains(key), "{key} is published but in no table");
     }

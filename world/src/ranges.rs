@@ -100,7 +100,7 @@ ranged! {
         |v| v >= 0.0 && v <= 1.0, |v| v <= 1.0;
     /// A compass direction in degrees.
     HeadingDeg: "must be a heading from 0 to 360 degrees", "must be a heading from 0 to 360 degrees",
-        { "type": "number", "minimum": 0.0, "maximum": 360.0 },
+        { "type": "number", "minimum": 0.0, "maximum": 360.0, "x-unit": "degrees" },
         |v| v >= 0.0 && v <= 360.0, |v| v <= 360.0;
 }
 

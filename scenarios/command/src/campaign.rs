@@ -18,25 +18,26 @@ use rheotaxis::trial::Trial;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use studies::campaign::{Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run};
+use world::registry::Registry;
 
 /// Runs one of its subcommands.
-pub(super) fn campaign(command: &CampaignCommand) -> Result<Exit, Failure> {
+pub(super) fn campaign(registry: &Registry, command: &CampaignCommand) -> Result<Exit, Failure> {
     match command {
-        CampaignCommand::Plan(args) => plan(args),
-        CampaignCommand::Run(args) => run_share(args),
-        CampaignCommand::Status(args) => status(args),
-        CampaignCommand::Merge(args) => merge_rows(args),
-        CampaignCommand::Report(args) => report(args),
-        CampaignCommand::Rerun(args) => rerun(args),
+        CampaignCommand::Plan(args) => plan(registry, args),
+        CampaignCommand::Run(args) => run_share(registry, args),
+        CampaignCommand::Status(args) => status(registry, args),
+        CampaignCommand::Merge(args) => merge_rows(registry, args),
+        CampaignCommand::Report(args) => report(registry, args),
+        CampaignCommand::Rerun(args) => rerun(registry, args),
     }
 }
 
-fn run_share(args: &CampaignRunArgs) -> Result<Exit, Failure> {
+fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failure> {
     let shard = match args.shard {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
-    let mut campaign = load(&args.file)?;
+    let mut campaign = load(registry, &args.file)?;
     campaign.key = args.key.get();
     let bar = bar(args.quiet, 0, "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}");
     bar.set_prefix(printable(&campaign.name).into_owned());
@@ -121,8 +122,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, Failure> {
     Ok(exit)
 }
 
-fn status(args: &StatusArgs) -> Result<Exit, Failure> {
-    let status = Status::examine(&args.dir)?;
+fn status(registry: &Registry, args: &StatusArgs) -> Result<Exit, Failure> {
+    let status = Status::examine(registry, &args.dir)?;
     let manifest = &status.manifest;
     let adaptive = status.wanted.runs < manifest.runs;
     say::line(format_args!(
@@ -153,9 +154,9 @@ fn status(args: &StatusArgs) -> Result<Exit, Failure> {
     Ok(if status.complete() { Exit::Success } else { Exit::Unfinished })
 }
 
-fn merge_rows(args: &MergeArgs) -> Result<Exit, Failure> {
+fn merge_rows(registry: &Registry, args: &MergeArgs) -> Result<Exit, Failure> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
-    let merged = merge(&args.dir, &args.out, csv.as_deref())?;
+    let merged = merge(registry, &args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
         "{} in {}, {} in {}",
         count(merged.rows, "row"),
@@ -169,10 +170,10 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, Failure> {
     Ok(Exit::Success)
 }
 
-fn rerun(args: &RerunArgs) -> Result<Exit, Failure> {
+fn rerun(registry: &Registry, args: &RerunArgs) -> Result<Exit, Failure> {
     let manifest = Manifest::open(&args.dir)?;
     let row = read_row(&args.dir, args.run)?;
-    let mut campaign = manifest.campaign()?;
+    let mut campaign = manifest.campaign(registry)?;
     campaign.key = args.key.get();
     manifest.same_key(&campaign)?;
     let place = campaign.place(args.run);

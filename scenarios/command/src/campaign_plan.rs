@@ -5,10 +5,11 @@ use super::exit::Exit;
 use super::failure::Failure;
 use super::say::{self, count};
 use studies::campaign::{Campaign, LONGEST, RunName, block_of, load, one_run};
+use world::registry::Registry;
 
 /// Checks a campaign and counts its runs. Unless `--no-probe` is given, makes the first run to estimate the cost.
-pub(super) fn plan(args: &PlanArgs) -> Result<Exit, Failure> {
-    let campaign = load(&args.file)?;
+pub(super) fn plan(registry: &Registry, args: &PlanArgs) -> Result<Exit, Failure> {
+    let campaign = load(registry, &args.file)?;
     campaign.check()?;
     let (runs, conditions) = (campaign.n_runs(), campaign.spec.n_conditions());
     let seeds = campaign.spec.seeds;

@@ -7,11 +7,12 @@ use super::progress::bar;
 use super::{say, stop};
 use studies::campaign::report::{About, RemadeRun, picks, write};
 use studies::campaign::{Arm, Campaign, Manifest, RunRow, read_rows, wanted};
+use world::registry::Registry;
 
 /// Writes the report and prints its tables.
-pub(super) fn report(args: &ReportArgs) -> Result<Exit, Failure> {
+pub(super) fn report(registry: &Registry, args: &ReportArgs) -> Result<Exit, Failure> {
     let manifest = Manifest::open(&args.dir)?;
-    let campaign = manifest.campaign()?;
+    let campaign = manifest.campaign(registry)?;
     let (limit_s, success) = (campaign.limit_s()?, campaign.success_rules()?);
     let rows = read_rows(&args.dir)?;
     let spec = &campaign.spec;

@@ -5,12 +5,13 @@ use super::exit::Exit;
 use super::say;
 use rheotaxis::scenario::cost;
 use world::cost::memory;
+use world::registry::Registry;
 
 /// Checks every file, also after one with mistakes.
-pub(super) fn check(args: &CheckArgs) -> Exit {
+pub(super) fn check(registry: &Registry, args: &CheckArgs) -> Exit {
     let mut exit = Exit::Success;
     for file in &args.files {
-        match say::checked(file) {
+        match say::checked(registry, file) {
             Ok(loaded) => {
                 let s = &loaded.scenario;
                 say::line(format_args!(

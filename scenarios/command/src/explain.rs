@@ -8,6 +8,7 @@ use output::columns::TableInfo;
 use output::report;
 use rheotaxis::explain::{self, FileKind};
 use studies::campaign;
+use world::registry::Registry;
 
 /// The files that this command knows beside those of the library.
 const MORE: &[FileKind] = &[campaign::FILE];
@@ -18,14 +19,14 @@ fn tables() -> Vec<TableInfo> {
 }
 
 /// Prints the explanation of one place, or the whole reference as Markdown or JSON Schema.
-pub(super) fn explain(args: &ExplainArgs) -> Result<Exit, Failure> {
+pub(super) fn explain(registry: &Registry, args: &ExplainArgs) -> Result<Exit, Failure> {
     let path = args.path.as_deref().unwrap_or_default();
     let table = tables().into_iter().find(|table| table.is_in(path));
     let text = match (args.markdown, args.json_schema, table) {
-        (true, ..) => explain::markdown(MORE),
-        (_, true, _) => explain::json_schema(),
+        (true, ..) => explain::markdown(registry, MORE),
+        (_, true, _) => explain::json_schema(registry),
         (.., Some(table)) => table.text(),
-        _ => explain::explain(path, MORE).map_err(|unknown| hinted(&unknown, help(&unknown.near)))?,
+        _ => explain::explain(registry, path, MORE).map_err(|unknown| hinted(&unknown, help(&unknown.near)))?,
     };
     say::line(text.trim_end());
     Ok(Exit::Success)

@@ -85,26 +85,26 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         Err(said) => return say::usage(&said).into(),
     };
     cost::set_limit(memory);
-    let work = || registry.scope(|| dispatch(command).unwrap_or_else(|error| refused(&error)));
+    let work = || dispatch(registry, command).unwrap_or_else(|error| refused(&error));
     say::end(Exit::guarded(work)).into()
 }
 
-fn dispatch(command: Command) -> Result<Exit, Failure> {
+fn dispatch(registry: &Registry, command: Command) -> Result<Exit, Failure> {
     stop::begin();
     match command {
-        Command::Run(args) => run::run(&args),
-        Command::Rerun(args) => rerun::rerun(&args),
-        Command::Check(args) => Ok(check::check(&args)),
+        Command::Run(args) => run::run(registry, &args),
+        Command::Rerun(args) => rerun::rerun(registry, &args),
+        Command::Check(args) => Ok(check::check(registry, &args)),
         Command::Init(args) => init::init(&args),
-        Command::List(args) => Ok(list::list(&args)),
-        Command::Explain(args) => explain::explain(&args),
-        Command::Topics(args) => Ok(topics::topics(&args)),
-        Command::Listen(args) => listen::listen(&args),
-        Command::Campaign(args) => campaign::campaign(&args.command),
-        Command::Reproduce(args) => reproduce::run(&args),
+        Command::List(args) => Ok(list::list(registry, &args)),
+        Command::Explain(args) => explain::explain(registry, &args),
+        Command::Topics(args) => Ok(topics::topics(registry, &args)),
+        Command::Listen(args) => listen::listen(registry, &args),
+        Command::Campaign(args) => campaign::campaign(registry, &args.command),
+        Command::Reproduce(args) => reproduce::run(registry, &args),
         Command::Cache(args) => cache::cache(&args),
-        Command::Statistics(args) => statistics::statistics(&args),
-        Command::Picture(args) => picture::picture(&args),
+        Command::Statistics(args) => statistics::statistics(registry, &args),
+        Command::Picture(args) => picture::picture(registry, &args),
         Command::Segment(args) => segment::segment(&args),
         Command::ScoreVision(args) => score_vision::score_vision(&args),
         Command::Vehicle(args) => vehicle::vehicle(&args),

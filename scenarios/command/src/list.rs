@@ -10,13 +10,13 @@ use robots::vehicles::{Files, SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 
 /// Prints the sections asked for, or all of them.
-pub(super) fn list(args: &ListArgs) -> Exit {
+pub(super) fn list(registry: &Registry, args: &ListArgs) -> Exit {
     let wanted = |kind: ListKind| args.what.is_none_or(|w| w == kind);
     if wanted(ListKind::Scenarios) {
         say::line(format_args!("Scenarios"));
         scenarios();
     }
-    for section in sections(&Registry::now()) {
+    for section in sections(registry) {
         if !wanted(kind(section.group)) {
             continue;
         }

@@ -5,7 +5,7 @@ use super::args_live::ListenArgs;
 use super::exit::Exit;
 use super::failure::Failure;
 use super::{say, stop};
-use output::live::{ListenOptions, Listener, LiveError, News};
+use output::live::{ListenOptions, Listener, LiveError, News, topics};
 use output::shown::turns;
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
@@ -13,6 +13,7 @@ use std::num::NonZeroU64;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::Duration;
+use world::registry::Registry;
 
 /// How often it looks whether Ctrl-C was pressed.
 const STEP: Duration = Duration::from_millis(100);
@@ -21,9 +22,9 @@ const STEP: Duration = Duration::from_millis(100);
 const PATIENCE: u32 = 10;
 
 /// Prints messages until all runs have ended, there are enough, or nobody reads them.
-pub(super) fn listen(args: &ListenArgs) -> Result<Exit, Failure> {
+pub(super) fn listen(registry: &Registry, args: &ListenArgs) -> Result<Exit, Failure> {
     let stop = stop::listen();
-    let Some(mut listener) = opened(args, stop)? else {
+    let Some(mut listener) = opened(registry, args, stop)? else {
         return Ok(Exit::Interrupted);
     };
     if let Some(notice) = listener.notice() {
@@ -78,9 +79,13 @@ pub(super) fn listen(args: &ListenArgs) -> Result<Exit, Failure> {
 }
 
 /// A listener as soon as there is a session, which a client's configuration gives only with a run. `None` at Ctrl-C.
-fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, LiveError> {
-    let options =
-        ListenOptions { key: args.key.clone(), connect: args.connect.clone(), config_file: args.zenoh_config.clone() };
+fn opened(registry: &Registry, args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, LiveError> {
+    let options = ListenOptions {
+        key: args.key.clone(),
+        connect: args.connect.clone(),
+        config_file: args.zenoh_config.clone(),
+        topics: topics(registry),
+    };
     let mut told = false;
     while !stop.load(Ordering::Relaxed) {
         match Listener::open(&options) {

@@ -10,16 +10,17 @@ use output::charts::picture_png;
 use output::files::{ReportError, beside_no_run, write_whole};
 use rheotaxis::assemble::WaterLight;
 use rheotaxis::ocean::Ocean;
-use rheotaxis::scenario::load;
+use rheotaxis::scenario::load_with;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, CameraSpec, RenderedPicture, Scene, looking, render};
 use std::path::Path;
 use world::ranges::Positive;
+use world::registry::Registry;
 use world::seeds;
 use world::units::Heading;
 
 /// Takes the picture and prints the names of the files.
-pub(super) fn picture(args: &PictureArgs) -> Result<Exit, Failure> {
+pub(super) fn picture(registry: &Registry, args: &PictureArgs) -> Result<Exit, Failure> {
     if args.truth.as_ref() == Some(&args.out) {
         let problem = format!("--out and --truth are the same file, {}", args.out.display());
         return Err(hinted(problem, "name another file for one of them"));
@@ -27,7 +28,7 @@ pub(super) fn picture(args: &PictureArgs) -> Result<Exit, Failure> {
     for file in [Some(&args.out), args.truth.as_ref()].into_iter().flatten() {
         beside_no_run(file)?;
     }
-    let mut loaded = load(&args.file)?;
+    let mut loaded = load_with(registry, &args.file)?;
     let visibility_m = args.visibility.map(Positive::try_from);
     if let Some(Ok(metres)) = visibility_m {
         loaded.scenario.optics.clarity.visibility_m = metres;

@@ -16,11 +16,12 @@ use studies::campaign::RunRow;
 use studies::reproduce::{
     Plan, Reference, ReproduceError, RowResult, Table, TimeLeft, compare, reproduce, table, wanted, write,
 };
+use world::registry::Registry;
 
 /// Runs the rows, prints their tables and writes them.
-pub(super) fn run(args: &ReproduceArgs) -> Result<Exit, Failure> {
+pub(super) fn run(registry: &Registry, args: &ReproduceArgs) -> Result<Exit, Failure> {
     stop::listen();
-    let references = wanted(&args.rows, &args.arms)?;
+    let references = wanted(registry, &args.rows, &args.arms)?;
     // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
     if !args.quiet && !args.no_runs {

@@ -10,14 +10,14 @@ use super::{cache, say, stop};
 use output::mcap::{RecordedRun, read_recording};
 use rheotaxis::control::Replay;
 use rheotaxis::lanes::Lanes;
-use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
+use rheotaxis::scenario::{Loaded, ScenarioError, load_text_in, load_with, template};
 use rheotaxis::trial::RunEnd;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::registry::Registry;
 
 /// Runs it.
-pub(super) fn rerun(args: &RerunMcapArgs) -> Result<Exit, Failure> {
+pub(super) fn rerun(registry: &Registry, args: &RerunMcapArgs) -> Result<Exit, Failure> {
     say::hush_lost_states();
     let stop = stop::listen();
     let path = match args.recording.is_dir() {
@@ -25,7 +25,7 @@ pub(super) fn rerun(args: &RerunMcapArgs) -> Result<Exit, Failure> {
         false => args.recording.clone(),
     };
     let recorded = read_recording(&path)?;
-    let loaded = scenario(&recorded, args.base.as_deref())?;
+    let loaded = scenario(registry, &recorded, args.base.as_deref())?;
     let ended = made(args, &recorded, &loaded, stop).map_err(of_run)?;
     let Some(ended) = ended.filter(|_| !stop.load(Ordering::Relaxed)) else {
         return Ok(Exit::Interrupted);
@@ -34,12 +34,12 @@ pub(super) fn rerun(args: &RerunMcapArgs) -> Result<Exit, Failure> {
 }
 
 /// The scenario of a recording: that of the program if it is one of its own, for the files that belong to it.
-fn scenario(recorded: &RecordedRun, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
+fn scenario(registry: &Registry, recorded: &RecordedRun, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
     let (name, text) = (&recorded.scenario_name, &recorded.scenario_text);
     if base.is_none() && template(name).is_some_and(|t| t.text == text) {
-        return load(Path::new(name));
+        return load_with(registry, Path::new(name));
     }
-    load_text_in(&Registry::now(), name, text, base.unwrap_or(Path::new("")))
+    load_text_in(registry, name, text, base.unwrap_or(Path::new("")))
 }
 
 /// Makes the run again; `None` if it did not come to its end.

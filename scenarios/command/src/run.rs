@@ -17,11 +17,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use world::cost::memory;
+use world::registry::Registry;
 
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 /// But none is run if two of them have one folder for their results, or if a folder is in use or holds files of others:
 /// hours may pass before the last of the folders is opened.
-pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
+pub(super) fn run(registry: &Registry, args: &RunArgs) -> Result<Exit, Failure> {
     if args.ros2.ros2 && args.files.len() > 1 {
         return Err("--ros2 shows one run, because topics of ROS 2 do not name a run: give one scenario".into());
     }
@@ -31,7 +32,7 @@ pub(super) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let mut exit = Exit::Success;
     let mut ready: Vec<(Loaded, PathBuf)> = Vec::new();
     for file in &args.files {
-        match prepared(file, args) {
+        match prepared(registry, file, args) {
             Ok(one) => ready.push(one),
             Err(error) => exit = exit.worse(refused(&error)),
         }
@@ -78,8 +79,8 @@ fn code(outcome: RunOutcome) -> Exit {
 }
 
 /// The scenario of a file and the folder of its results.
-fn prepared(file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), Failure> {
-    let loaded = say::checked(file)?;
+fn prepared(registry: &Registry, file: &Path, args: &RunArgs) -> Result<(Loaded, PathBuf), Failure> {
+    let loaded = say::checked(registry, file)?;
     let asking = controlled(&loaded.scenario);
     if !asking.is_empty() && !args.control.allow_control {
         return Err(format!(

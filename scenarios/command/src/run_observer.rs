@@ -9,7 +9,7 @@ use super::progress::Progress;
 use super::say;
 use output::files::{ReportError, begin_run};
 use output::follow::Follower;
-use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id, topics};
 use output::report::is_result;
 use rheotaxis::control::{Exchange, Response};
 use rheotaxis::outcome::RunOutcome;
@@ -22,6 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use std::time::Duration;
 use world::files::Folder;
+use world::registry::Registry;
 
 /// All that follows one run.
 pub(super) struct RunObserver {
@@ -55,7 +56,7 @@ impl RunObserver {
             Speed::Times(times) => Some(times),
         };
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
-        let live = live(args, &mut results, &progress, company, &plane)?;
+        let live = live(args, &loaded.registry, &mut results, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         if let Some(out) = out {
             let own = |name: &str| is_result(&loaded.scenario, name);
@@ -147,6 +148,7 @@ fn cores(args: &RunArgs) -> usize {
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
+    registry: &Registry,
     results: &mut Follower,
     progress: &Progress,
     company: &mut LaneObservers,
@@ -171,6 +173,7 @@ fn live(
         seed: run.seed.number(),
         version: run.version.clone(),
         scene: Some(scene.document(run.seed.number())),
+        topics: topics(registry),
     };
     let live = company.live(&options, meta)?;
     progress.say(&format!("live on {} under rheotaxis/{}", live.endpoint(), options.run_id));

@@ -4,12 +4,13 @@
 use super::exit::Exit;
 use console::{Term, colors_enabled_stderr};
 use output::shown::{self, Look, PLAIN, printable};
-use rheotaxis::scenario::{Loaded, ScenarioError, load};
+use rheotaxis::scenario::{Loaded, ScenarioError, load_with};
 use std::io::{self, ErrorKind, Write};
 use std::panic::{set_hook, take_hook};
 use std::path::Path;
 use std::sync::{Once, OnceLock};
 use world::frames::NOT_FINITE;
+use world::registry::Registry;
 
 /// Why a line could not be printed to standard output, the first time.
 static UNPRINTED: OnceLock<String> = OnceLock::new();
@@ -115,8 +116,8 @@ pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
 ///
 /// # Errors
 /// Its mistakes.
-pub(super) fn checked(file: &Path) -> Result<Loaded, ScenarioError> {
-    let loaded = load(file)?;
+pub(super) fn checked(registry: &Registry, file: &Path) -> Result<Loaded, ScenarioError> {
+    let loaded = load_with(registry, file)?;
     warnings(&loaded)?;
     Ok(loaded)
 }

@@ -10,10 +10,11 @@ use output::shown::printable;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use studies::statistics::{self, table, write};
+use world::registry::Registry;
 
 /// Measures the plume, prints the table and writes it as CSV.
-pub(super) fn statistics(args: &StatisticsArgs) -> Result<Exit, Failure> {
-    let loaded = say::checked(&args.file)?;
+pub(super) fn statistics(registry: &Registry, args: &StatisticsArgs) -> Result<Exit, Failure> {
+    let loaded = say::checked(registry, &args.file)?;
     // First, so that an error does not come after minutes of work.
     let folder = args
         .out

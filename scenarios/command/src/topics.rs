@@ -6,19 +6,21 @@ use super::say;
 use output::live;
 use output::ros::MessageKind;
 use serde_json::{Map, Value, json};
+use world::registry::Registry;
 
 /// Prints every key; with `--schema`, one JSON object with all schemas; with `--ros2`, those of ROS 2.
-pub(super) fn topics(args: &TopicsArgs) -> Exit {
+pub(super) fn topics(registry: &Registry, args: &TopicsArgs) -> Exit {
     if args.ros2 {
         return ros2_topics(args.schema);
     }
     if args.schema {
-        let schemas: Map<String, Value> = live::topics().iter().map(|t| (t.name.to_string(), t.schema())).collect();
+        let schemas: Map<String, Value> =
+            live::topics(registry).iter().map(|t| (t.name.to_string(), t.schema())).collect();
         say::line(format_args!("{:#}", Value::Object(schemas)));
         return Exit::Success;
     }
     say::line(format_args!("Keys below rheotaxis/<run>/, where <run> is <scenario>_<seed>. SI units, ENU axes.\n"));
-    for topic in live::topics() {
+    for topic in live::topics(registry) {
         say::line(format_args!("{}  ({})", topic.key, topic.rate));
         say::line(format_args!("    {}", topic.what()));
         let schema = topic.schema();

@@ -42,6 +42,7 @@ fn question_and_answer(bencher: Bencher<'_, '_>) {
         seed: 1,
         version: String::new(),
         scene: None,
+        topics: Vec::new(),
     };
     let live = Live::start(&options, meta).expect("it starts");
     let config = format!(

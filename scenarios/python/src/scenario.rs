@@ -62,7 +62,7 @@ impl PyScenario {
                 scenario_error(py, refused)
             })?;
         }
-        (self.loaded.with_text(text)).map_err(|error| scenario_error(py, error))
+        (self.loaded.with_text(&self.loaded.path, text)).map_err(|error| scenario_error(py, error))
     }
 }
 
@@ -205,7 +205,7 @@ pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 #[pyfunction]
 #[pyo3(signature = (path = ""))]
 pub(crate) fn explain(path: &str) -> PyResult<String> {
-    explained::explain(&bracketed(parts(path)), &[]).map_err(|unknown| {
+    explained::explain(&Registry::default(), &bracketed(parts(path)), &[]).map_err(|unknown| {
         let near = match unknown.near.as_slice() {
             [] => String::new(),
             near => format!("; the nearest are {}", near.join(", ")),

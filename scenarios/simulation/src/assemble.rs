@@ -36,13 +36,13 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Assembles a scenario for a seed, with what the registry of this thread carries. Mission time is zero, and
+    /// Assembles a scenario for a seed, with what comes with the program. Mission time is zero, and
     /// nothing is released yet.
     ///
     /// # Errors
     /// If a part of the scenario cannot be built. A scenario without errors in [`crate::scenario::check`] can be.
     pub fn assemble(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
-        Self::assemble_with(&Registry::now(), scenario, base_dir, seed)
+        Self::assemble_with(&Registry::default(), scenario, base_dir, seed)
     }
 
     /// The same with what a registry carries: systems, resources and topics of other crates.

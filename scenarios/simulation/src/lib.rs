@@ -106,6 +106,7 @@ pub mod registry;
 pub mod scenario;
 pub mod score;
 pub mod searchers;
+mod shape;
 pub mod tick;
 pub mod topic;
 pub mod trial;

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use studies::campaign::{Event, RunEnded, RunOptions, block_path, load, run};
+use world::registry::Registry;
 
 const RUN: [&str; 7] = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
 
@@ -79,7 +80,7 @@ fn pipes_and_devices_in_the_place_of_a_block_are_said_and_stay() {
 fn a_block_that_is_removed_meanwhile_is_made_again() {
     let folder = folder(4, "10", "2");
     let dir = folder.path();
-    let campaign = load(&dir.join("c.ron")).unwrap();
+    let campaign = load(&Registry::default(), &dir.join("c.ron")).unwrap();
     let (out, removed) = (dir.join("out"), AtomicBool::new(false));
     let options = RunOptions { block: Some(4), jobs: 1, ..RunOptions::default() };
     let tell = |event: Event<'_>| {

@@ -4,6 +4,7 @@ use super::{ends, folder, rows};
 use std::fs;
 use std::path::Path;
 use studies::campaign::{Manifest, RunRow};
+use world::registry::Registry;
 
 const RUN: [&str; 5] = ["run", "c.ron", "--out", "out", "--quiet"];
 const FILM: &str = "<section class=\"film\"";
@@ -37,7 +38,7 @@ fn best_median_and_worst_run_of_each_arm_are_made_anew() {
     assert!(!none.contains(FILM) && !none.contains("<script"));
 
     // A row of another version of the program is told, and its run is not shown for it.
-    let campaign = Manifest::open(&dir.join("out")).unwrap().campaign().unwrap();
+    let campaign = Manifest::open(&dir.join("out")).unwrap().campaign(&Registry::default()).unwrap();
     let row = rows(&dir.join("out")).swap_remove(3);
     assert!(campaign.film(&row).is_ok());
     let other = |row: RunRow| campaign.film(&row).expect_err("not that run");

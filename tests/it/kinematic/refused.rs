@@ -21,18 +21,18 @@ fn error(vehicle: &str) -> String {
 #[test]
 fn numbers_without_meaning_are_refused_with_their_range() {
     for (vehicle, said) in [
-        ("Kinematic(turn: Radius(radius_m: 0))", "turn.radius_m: must be > 0, got 0"),
-        ("Kinematic(turn: Radius(radius_m: -3))", "turn.radius_m: must be > 0, got -3"),
-        ("Kinematic(turn: Radius(radius_m: NaN))", "turn.radius_m: must be > 0, got NaN"),
+        ("Kinematic(turn: Radius(radius_m: 0))", "turn.radius_m: must be from 0.01 to 10000 m, got 0"),
+        ("Kinematic(turn: Radius(radius_m: -3))", "turn.radius_m: must be from 0.01 to 10000 m, got -3"),
+        ("Kinematic(turn: Radius(radius_m: NaN))", "turn.radius_m: must be from 0.01 to 10000 m, got NaN"),
         ("Kinematic(turn: Radius(radius_m: 0.001))", "turn.radius_m: must be from 0.01 to 10000 m, got 0.001"),
-        ("Kinematic(turn: Rate(deg_s: 1e6))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 1000000"),
-        ("Kinematic(turn: Rate(deg_s: 0))", "turn.deg_s: must be > 0, got 0"),
-        ("Kinematic(max_speed_m_s: -2)", "max_speed_m_s: must be > 0, got -2"),
-        ("Kinematic(max_speed_m_s: NaN)", "max_speed_m_s: must be > 0, got NaN"),
-        ("Kinematic(max_speed_m_s: 99)", "max_speed_m_s: must be from 0 to 15 m/s, got 99"),
-        ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0, got 0"),
-        ("Kinematic(lag_s: -1)", "lag_s: must be >= 0, got -1"),
-        ("Kinematic(lag_s: inf)", "lag_s: must be >= 0, got inf"),
+        ("Kinematic(turn: Rate(deg_s: 1e6))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 1e6"),
+        ("Kinematic(turn: Rate(deg_s: 0))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 0"),
+        ("Kinematic(max_speed_m_s: -2)", "max_speed_m_s: must be > 0 and <= 15 m/s, got -2"),
+        ("Kinematic(max_speed_m_s: NaN)", "max_speed_m_s: must be > 0 and <= 15 m/s, got NaN"),
+        ("Kinematic(max_speed_m_s: 99)", "max_speed_m_s: must be > 0 and <= 15 m/s, got 99"),
+        ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0 and <= 15 m/s, got 0"),
+        ("Kinematic(lag_s: -1)", "lag_s: must be from 0 to 1000 s, got -1"),
+        ("Kinematic(lag_s: inf)", "lag_s: must be from 0 to 1000 s, got inf"),
     ] {
         assert_eq!(error(vehicle), format!("robots[0].vehicle.{said}"), "{vehicle}");
     }

@@ -36,7 +36,7 @@ fn row_alone(loaded: &Loaded, name: &RunName, first: bool) -> RunRow {
 
 /// One seed under each condition, with a short spin-up and mission.
 fn cut_campaign(name: &str) -> Campaign {
-    let whole = load(Path::new(name)).unwrap();
+    let whole = load(&Registry::default(), Path::new(name)).unwrap();
     let base = with_fields(&whole.base.text(), &[("spin_up_s", "15"), ("limit_s", "8")]);
     let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
     let seeds = format!("seeds: {},", whole.spec.seeds.count());
@@ -88,7 +88,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
     let mut shared = Vec::new();
     // A row that draws values makes a scenario anew for each seed and arm: what is cut here would not hold, and no two
     // of its arms share an ocean.
-    let rows = wanted(&[], &[]).unwrap();
+    let rows = wanted(&Registry::default(), &[], &[]).unwrap();
     for mut reference in rows.into_iter().filter(|r| r.row.draw.is_empty()) {
         for (k, (_, loaded)) in reference.arms.iter_mut().enumerate() {
             // Each arm ends at another time.

@@ -7,6 +7,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Stdio;
 use studies::campaign::{load, read_rows};
+use world::registry::Registry;
 use world::seeds::Stream;
 
 /// Arms that end one after the other; those of other water have an ocean of their own.
@@ -75,7 +76,7 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
     assert!(kills >= 12 && grew >= 3, "{kills} kills, {grew} with blocks");
     let done = rows(&out);
     assert_eq!(done.len(), 144);
-    let campaign = load(&dir.join("c.ron")).unwrap();
+    let campaign = load(&Registry::default(), &dir.join("c.ron")).unwrap();
     for row in done.iter().take(24) {
         let place = campaign.place(row.run);
         let loaded = campaign.loaded(place.condition, place.arm).unwrap();

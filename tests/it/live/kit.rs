@@ -4,7 +4,7 @@ use crate::common::root;
 use crate::waits::{PATIENCE, until};
 
 use nalgebra::{Vector2, Vector3};
-use output::live::{Live, LiveMeta, LiveOptions, Scene};
+use output::live::{Live, LiveMeta, LiveOptions, Scene, topics};
 use rheotaxis::frame::{Frame, NewestReadings, PlumeFrame, RobotFrame, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
@@ -20,6 +20,7 @@ use std::time::Duration;
 use world::area::Area;
 use world::frames::{Pose, Truth};
 use world::physics::JointState;
+use world::registry::Registry;
 use world::units::Heading;
 use zenoh::handlers::FifoChannelHandler;
 use zenoh::pubsub::Subscriber;
@@ -35,6 +36,7 @@ pub(super) fn meta() -> LiveMeta {
         seed: 7,
         version: "0.1.0".to_owned(),
         scene: Some(scene_document()),
+        topics: topics(&Registry::default()),
     }
 }
 

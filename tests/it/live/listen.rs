@@ -3,19 +3,24 @@
 use super::kit::{client, frame, kept, meta, options, plume, sent, start};
 use super::readings::picture;
 use crate::waits::until;
-use output::live::{ListenOptions, Listener, Live, LiveOptions, News, Plane};
+use output::live::{ListenOptions, Listener, Live, LiveOptions, News, Plane, topics};
 use rheotaxis::trial::Event;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::net::TcpListener;
 use std::sync::Arc;
 use std::time::Duration;
+use world::registry::Registry;
 use zenoh::bytes::Encoding;
 use zenoh::{Config, Wait};
 
 fn at(live: &Live, key: Option<&str>) -> Listener {
-    let options =
-        ListenOptions { key: key.map(str::to_owned), connect: Some(live.endpoint().to_owned()), config_file: None };
+    let options = ListenOptions {
+        key: key.map(str::to_owned),
+        connect: Some(live.endpoint().to_owned()),
+        topics: topics(&Registry::default()),
+        config_file: None,
+    };
     Listener::open(&options).expect("it connects by itself")
 }
 

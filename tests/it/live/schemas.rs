@@ -23,7 +23,7 @@ struct Checking {
 
 impl Checking {
     fn new() -> Self {
-        let topics = topics().into_iter();
+        let topics = topics(&Registry::default()).into_iter();
         Self {
             topics: topics.map(|t| (t.name, t.key, t.schema())).collect(),
             said: BTreeSet::new(),

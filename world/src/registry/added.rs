@@ -87,8 +87,9 @@ impl Registry {
         self.rows::<K>().iter().map(|r| r.entry).collect()
     }
 
-    /// Does something on this thread, such as reading a file, with these rows known.
-    pub fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
+    /// Does something on this thread with these rows known. The traits that read a value and make the schema of a type take
+    /// no argument, so they look here.
+    pub(super) fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
         /// Puts back what was known before, also if the work panics.
         struct RestoreOnDrop(Registry);
         impl Drop for RestoreOnDrop {
@@ -101,8 +102,7 @@ impl Registry {
     }
 
     /// The rows known on this thread now.
-    #[must_use]
-    pub fn now() -> Self {
+    pub(super) fn now() -> Self {
         NOW.with_borrow(Clone::clone)
     }
 }

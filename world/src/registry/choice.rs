@@ -1,10 +1,8 @@
 //! What stands in a scenario where something is chosen by name.
 
-use super::names::{NamePlace, NamedRows};
-use super::source::Source;
-use super::source_error::SourceError;
-use super::{Kind, Row, Spec, Standard, Takes};
-use serde::de::{DeserializeSeed, EnumAccess, VariantAccess, Visitor};
+use super::read::{IsNone, Name, from_text};
+use super::{Kind, Registry, Row, Spec, Standard, Takes};
+use serde::de::DeserializeSeed;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -107,32 +105,22 @@ impl<K: Kind> Serialize for Choice<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Choice<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = NamedRows::now();
-        from.deserialize_enum(K::NAME, known.legal, OneOf(known))
+        from_text(from, |from| {
+            let row = Name(&Registry::now().rows::<K>()).deserialize(&mut *from)?;
+            (row.read)(from).map(Choice)
+        })
     }
 }
 
-/// Reads one of a kind's things.
-struct OneOf<K: Kind>(NamedRows<K>);
-
-impl<'de, K: Kind> Visitor<'de> for OneOf<K> {
-    type Value = Choice<K>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "one of {}", self.0.legal.join(", "))
-    }
-
-    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Choice<K>, A::Error> {
-        let (row, parameters) = data.variant_seed(self.0.name(NamePlace::Variant))?;
-        parameters.newtype_variant_seed(row)
-    }
-}
-
+/// Reads a field of a struct whose fields are the things of a kind.
 impl<'de, K: Kind> DeserializeSeed<'de> for Row<K> {
-    type Value = Choice<K>;
+    type Value = Option<Choice<K>>;
 
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Choice<K>, D::Error> {
-        let mut from = <dyn erased_serde::Deserializer>::erase(from);
-        (self.read)(Source(&mut from)).map(Choice).map_err(SourceError::into_other)
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
+        from_text(from, |from| match from.deserialize_identifier(IsNone) {
+            Ok(true) => Ok(None),
+            // `Some` before the parentheses, or nothing.
+            _ => (self.read)(from).map(|spec| Some(Choice(spec))),
+        })
     }
 }

@@ -1,14 +1,13 @@
 //! A row: one thing of a kind, and how it is read.
 
-use super::source::Source;
-use super::source_error::SourceError;
+use super::read::Parameters;
 use super::{Kind, Listed, Takes};
 use crate::catalogue::Entry;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 /// Reads the parameters of a thing.
-type Read<K> = fn(Source<'_, '_>) -> Result<Box<<K as Kind>::Spec>, SourceError>;
+type Read<K> = for<'de> fn(&mut ron::de::Deserializer<'de>) -> ron::Result<Box<<K as Kind>::Spec>>;
 
 /// One thing of a kind.
 pub struct Row<K: Kind> {
@@ -27,7 +26,7 @@ impl<K: Kind> Row<K> {
     {
         Self {
             entry: S::ENTRY,
-            read: |from| S::deserialize(from).map(K::boxed),
+            read: |from| S::deserialize(Parameters(from)).map(K::boxed),
             schema: SchemaGenerator::subschema_for::<S>,
         }
     }

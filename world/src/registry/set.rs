@@ -1,8 +1,8 @@
 //! What stands in a scenario where several things of a kind are named, each once: a struct with a field for each.
 
-use super::names::{NamePlace, NamedRows};
+use super::read::Name;
 use super::{Choice, Kind, Registry, Row, Takes};
-use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
+use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -12,7 +12,7 @@ use std::fmt;
 pub struct Set<K: Kind>(Vec<Choice<K>>);
 
 impl<K: Kind> Set<K> {
-    /// This thing among the others, in the place of one of its name.
+    /// This thing among the others, in the place of one of its name. What another crate adds comes last.
     #[must_use]
     pub fn with<S>(mut self, spec: S) -> Self
     where
@@ -21,7 +21,7 @@ impl<K: Kind> Set<K> {
         let new = Choice::<K>::new(spec);
         self = self.without(new.name());
         self.0.push(new);
-        self.sorted(&Registry::now().rows())
+        self.sorted(&K::built_in())
     }
 
     /// The others without the one of that name.
@@ -91,13 +91,12 @@ impl<K: Kind> Serialize for Set<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Set<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let known = NamedRows::now();
-        from.deserialize_struct(K::NAME, known.legal, Fields(known))
+        from.deserialize_struct(K::NAME, &[], Fields(Registry::now().rows()))
     }
 }
 
 /// Reads the fields.
-struct Fields<K: Kind>(NamedRows<K>);
+struct Fields<K: Kind>(Vec<Row<K>>);
 
 impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     type Value = Set<K>;
@@ -109,45 +108,14 @@ impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Set<K>, A::Error> {
         let mut seen: Vec<&'static str> = Vec::new();
         let mut set = Set::default();
-        while let Some(row) = map.next_key_seed(self.0.name(NamePlace::Field))? {
+        while let Some(row) = map.next_key_seed(Name(&self.0))? {
             let name = row.entry.name;
             if seen.contains(&name) {
                 return Err(Error::duplicate_field(name));
             }
             seen.push(name);
-            set.0.extend(map.next_value_seed(OptionalField(row))?);
+            set.0.extend(map.next_value_seed(row)?);
         }
-        Ok(set.sorted(&self.0.rows))
-    }
-}
-
-/// Reads a thing that may be left out.
-struct OptionalField<K: Kind>(Row<K>);
-
-impl<'de, K: Kind> DeserializeSeed<'de> for OptionalField<K> {
-    type Value = Option<Choice<K>>;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
-        from.deserialize_option(self)
-    }
-}
-
-impl<'de, K: Kind> Visitor<'de> for OptionalField<K> {
-    type Value = Option<Choice<K>>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("option")
-    }
-
-    fn visit_none<E: Error>(self) -> Result<Self::Value, E> {
-        Ok(None)
-    }
-
-    fn visit_unit<E: Error>(self) -> Result<Self::Value, E> {
-        Ok(None)
-    }
-
-    fn visit_some<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
-        self.0.deserialize(from).map(Some)
+        Ok(set.sorted(&self.0))
     }
 }

@@ -1,6 +1,6 @@
 //! A kind of two things, and a third of somebody else.
 
-use super::{Choice, Listed, Registry, Spec};
+use super::{Choice, Listed, Registry, Set, Spec};
 use crate::catalogue::Entry;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,15 +42,14 @@ crate::kind! {
 }
 
 fn read(text: &str) -> Result<ShapeSpec, String> {
-    serde_json::from_str(text).map_err(|e| e.to_string())
+    Registry::default().read(text).map_err(|e| e.message)
 }
 
 #[test]
 fn a_choice_is_read_and_written_by_its_name() {
-    let text = r#"{"Square":{"side":2.0}}"#;
-    let square = read(text).expect("legal");
+    let square = read("Square(side: 2)").expect("legal");
     assert_eq!((square.name(), square.area()), ("Square", 4.0));
-    assert_eq!(serde_json::to_string(&square).expect("plain"), text);
+    assert_eq!(ron::to_string(&square), Ok("Square((side:2.0))".to_string()));
     assert_eq!(square, Choice::new(Square { side: 2.0 }));
     assert_ne!(square, square_of(3.0));
     assert_ne!(square, ShapeSpec::default());
@@ -65,20 +64,52 @@ fn square_of(side: f64) -> ShapeSpec {
 
 #[test]
 fn unknown_names_and_fields_are_told_with_the_legal_ones() {
-    let unknown = read(r#"{"Hexagon":{}}"#).expect_err("not there");
-    assert!(unknown.starts_with("unknown variant `Hexagon`, expected `Square` or `Circle`"));
-    let field = read(r#"{"Square":{"radius":2.0}}"#).expect_err("no such field");
-    assert!(field.starts_with("unknown field `radius`, expected `side`"));
+    let unknown = read("Hexagon()").expect_err("not there");
+    assert_eq!(unknown, "there is no `Hexagon`; there are: Square, Circle");
+    let text = "/* é */ Square( // (\n radius: 2)";
+    let found = Registry::default().read::<ShapeSpec>(text).expect_err("no such field");
+    assert!(found.message.contains("`radius`") && found.message.contains("`side`"), "{found:?}");
+    assert!(text[..found.at.end].ends_with("radius"), "{found:?}");
 }
 
 #[test]
-fn another_crates_row_is_known_within_its_scope_only() {
-    let text = r#"{"Hexagon":{"edge":2.0}}"#;
+fn a_choice_may_stand_in_another() {
+    #[derive(Debug, PartialEq, Deserialize)]
+    enum Holder {
+        One(ShapeSpec),
+        Two(ShapeSpec, Option<ShapeSpec>),
+    }
+    let read = |text: &str| Registry::default().read::<Holder>(text).map_err(|e| e.message);
+    let plain = ShapeSpec::new(Square { side: 1.0 });
+    for text in ["One(Square())", "One(Square(side: 1))", "One( /* a */ Square ( side: 1, ) , )"] {
+        assert_eq!(read(text), Ok(Holder::One(plain.clone())), "{text}");
+    }
+    for text in ["Two(Square(), Square())", "Two(Square(), Some(Square(side: 1)))"] {
+        assert_eq!(read(text), Ok(Holder::Two(plain.clone(), Some(plain.clone()))), "{text}");
+    }
+    assert_eq!(read("Two(Square(), None)"), Ok(Holder::Two(plain, None)));
+}
+
+#[test]
+fn a_set_is_read_by_the_names_of_its_fields() {
+    let read = |text: &str| Registry::default().read::<Set<Shapes>>(text).map_err(|e| e.message);
+    let both = Set::default().with(Circle { radius: 2.0 }).with(Square { side: 1.0 });
+    let names = both.iter().map(Choice::name).collect::<Vec<_>>();
+    assert_eq!(names, ["Square", "Circle"]);
+    for text in ["(Circle: (radius: 2), Square: ())", "(Square: Some(side: 1), Circle: /* a */ (radius: 2))"] {
+        assert_eq!(read(text), Ok(both.clone()), "{text}");
+    }
+    assert_eq!(read("(Square: None, Circle: (radius: 2))"), Ok(both.without("Square")));
+    assert!(read("(Square: (), Square: ())").is_err_and(|e| e.contains("Square")));
+}
+
+#[test]
+fn another_crates_row_is_known_to_its_registry_only() {
+    let text = "Hexagon(edge: 2)";
     let registry = (Registry::default().with::<Shapes, Hexagon>()).expect("a new name");
-    let hexagon = registry.scope(|| read(text)).expect("known");
+    let hexagon = registry.read::<ShapeSpec>(text).expect("known");
     assert_eq!((hexagon.name(), hexagon.area()), ("Hexagon", 10.4));
     assert!(read(text).is_err());
-    assert!(registry.scope(|| Registry::default().scope(|| read(text)).is_err()));
     let names = registry.entries::<Shapes>().into_iter().map(|e| e.name);
     assert_eq!(names.collect::<Vec<_>>(), ["Square", "Circle", "Hexagon"]);
     let twice = registry.with::<Shapes, Hexagon>();

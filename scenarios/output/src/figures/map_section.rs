@@ -268,13 +268,14 @@ fn short_m(m: f64) -> String {
 mod tests {
     use super::*;
     use std::path::Path;
+    use world::registry::Registry;
     use world::terrain::Terrain;
 
     /// The reef of the catalogue's mesh in 15 m of water, cut from west to east through its middle.
     #[test]
     fn a_section_shows_a_reef_as_it_is_not_as_a_block() {
         let text = r#"(id: "reef", shape: Mesh(file: "meshes/reef.obj"), east_m: 0, north_m: 0, base: Z(-16))"#;
-        let spec = rheotaxis::scenario::read("reef", text, &|_| Vec::new());
+        let spec = rheotaxis::scenario::read(&Registry::default(), "reef", text, |_| Vec::new());
         let catalog = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog");
         let terrain = Terrain::Level { depth_m: 15.0 };
         let shape = Obstacle::build(&spec.unwrap(), &terrain, &catalog).unwrap();

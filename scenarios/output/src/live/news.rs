@@ -1,5 +1,6 @@
 //! What a listener is asked for, and what it hears of runs.
 
+use rheotaxis::topic::Topic;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -13,6 +14,8 @@ pub struct ListenOptions {
     /// A zenoh configuration (JSON5), all of which is used. `None` means the file that the environment variable
     /// `ZENOH_CONFIG` names, if any. With a configuration, only `connect` from here overrides something in it.
     pub config_file: Option<PathBuf>,
+    /// Everything that runs may publish: a key that asks for none of it is noticed, unless this is empty.
+    pub topics: Vec<Topic>,
 }
 
 /// What a listener hears.

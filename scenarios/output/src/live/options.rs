@@ -1,7 +1,7 @@
 //! Options of live state.
 
 use super::{LiveError, Plane, Ros2};
-use rheotaxis::topic::chunk;
+use rheotaxis::topic::{Topic, chunk};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -76,6 +76,8 @@ pub struct LiveMeta {
     pub version: String,
     /// The scene as a JSON text; `None` to publish none.
     pub scene: Option<String>,
+    /// Everything that the run may publish.
+    pub topics: Vec<Topic>,
 }
 
 /// What happened to the states that were passed in.

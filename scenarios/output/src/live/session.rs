@@ -8,7 +8,7 @@ use super::map_message::MapGate;
 use super::message::Message;
 use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
-use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
+use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message};
 use crate::scene::ros_name;
 use rheotaxis::frame::Frame;
 use rheotaxis::topic::chunk;
@@ -89,8 +89,7 @@ impl Live {
         let (going, gone) = sync_channel::<()>(1);
         let thread = {
             let (mailbox, options) = (Arc::clone(&mailbox), options.clone());
-            // Here, because the registry is that of this thread.
-            let meta = message::meta(&meta, &topics());
+            let meta = message::meta(&meta, &meta.topics);
             move || {
                 publish(open, &options, meta, &mailbox, &up);
                 // There may be nobody waiting any more.

@@ -1,9 +1,9 @@
 //! Writes the whole reference as Markdown: a table for each type, in the order in which the files use them.
 
 use super::path::walk_all;
-use super::read::{Field, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
+use crate::shape::{Field, Reference, Shape, Variant};
 use std::fmt::Write;
 
 const HEAD: &str = "\

@@ -3,7 +3,7 @@
 //! Names of variants may be left out, as in the paths of error messages; then every variant that has the field is
 //! found. Numbers of elements may be left out, too.
 
-use super::read::{Field, Reference, Shape, Variant};
+use crate::shape::{Field, Reference, Shape, Variant};
 use world::spelling::distance;
 
 /// What a path leads to.

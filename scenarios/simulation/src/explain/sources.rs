@@ -1,6 +1,6 @@
 //! Puts the sources of algorithms, from the rows of the catalogues, beside the fields and variants that name them.
 
-use super::schema::{Object, SOURCE, WHAT};
+use crate::shape::{Object, SOURCE, WHAT, variant_name};
 use serde_json::Value;
 use world::catalogue::Entry;
 
@@ -21,7 +21,7 @@ const FIELDS: &[(&str, &[Entry])] = &[
 pub(super) fn add_sources(name: &str, schema: &mut Object) {
     if let Some(Value::Array(variants)) = schema.get_mut("oneOf") {
         for variant in variants.iter_mut().filter_map(Value::as_object_mut) {
-            let Some(name) = super::read::variant_name(variant) else {
+            let Some(name) = variant_name(variant) else {
                 continue;
             };
             if let Some(row) = row(VARIANTS, &name) {

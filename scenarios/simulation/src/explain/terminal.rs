@@ -1,9 +1,9 @@
 //! Writes places of a scenario as text for a terminal.
 
 use super::path::{At, PathTarget, below, joined};
-use super::read::{Field, NamedType, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
+use crate::shape::{Field, NamedType, Reference, Shape, Variant};
 use std::fmt::Write;
 
 /// Longest line, characters.

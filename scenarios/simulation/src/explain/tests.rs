@@ -1,14 +1,20 @@
 //! The reference says what the reader does. That its page in `docs` is up to date is a test of the command.
 
-use super::read::Shape;
-use super::{Unknown, path, reference};
+use super::{Unknown, path};
+use crate::shape::Reference;
+use crate::shape::Shape;
+use world::registry::Registry;
 
 fn explain(path: &str) -> Result<String, Unknown> {
-    super::explain(path, &[])
+    super::explain(&Registry::default(), path, &[])
 }
 
 fn markdown() -> String {
-    super::markdown(&[])
+    super::markdown(&Registry::default(), &[])
+}
+
+fn reference() -> Reference {
+    super::reference(&Registry::default(), &[])
 }
 
 #[test]
@@ -76,7 +82,7 @@ fn a_vehicle_is_explained_as_a_scenario_is() {
     let said = explain("vehicle.hydrodynamics.volum_m3").unwrap_err();
     assert_eq!(said.near, ["vehicle.hydrodynamics.volume_m3"]);
     // The first word leads to the file, never to a block of a scenario.
-    let r = reference(&[]);
+    let r = reference();
     let Shape::Fields(blocks) = &r.root else {
         panic!("a scenario has fields");
     };
@@ -97,7 +103,7 @@ fn an_unknown_path_says_the_nearest_ones() {
 
 #[test]
 fn every_path_it_names_leads_somewhere() {
-    let r = reference(&[]);
+    let r = reference();
     let all = path::all(&r);
     assert!(all.len() > 500, "{}", all.len());
     for (path, _) in all {
@@ -107,7 +113,7 @@ fn every_path_it_names_leads_somewhere() {
 
 #[test]
 fn everything_is_said_what_it_is() {
-    let r = reference(&[]);
+    let r = reference();
     for (of, named) in &r.types {
         assert!(!named.what.is_empty(), "{of}");
         match &named.shape {
@@ -129,7 +135,7 @@ fn everything_is_said_what_it_is() {
 
 #[test]
 fn algorithms_have_their_sources() {
-    let r = reference(&[]);
+    let r = reference();
     for choice in ["strategy", "strategy.Amp.reacquire", "strategy.Amp.declare", "map", "estimator", "vehicle"] {
         let places = path::find(&r, &format!("robots.{choice}")).unwrap();
         let Some(Shape::Choice(variants)) = places[0].shape().map(|s| r.resolved(s)) else {

@@ -1,6 +1,6 @@
 //! Units of fields: from the end of their names, or from the tables here if the name has none.
 
-use super::schema::Object;
+use crate::shape::Object;
 use serde_json::Value;
 use world::limits::UNIT;
 
@@ -140,9 +140,10 @@ fn numbers(field: &mut Value, seen: &mut dyn FnMut(&mut Object)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::explain::kind::VEHICLE;
     use crate::explain::schema::schema;
+    use crate::shape::VEHICLE;
     use std::collections::BTreeSet;
+    use world::registry::Registry;
 
     /// Shares, factors, weights, coefficients.
     const PURE: &[&str] = &[
@@ -217,7 +218,7 @@ mod tests {
 
     #[test]
     fn every_number_has_a_unit_or_is_known_to_have_none() {
-        let mut whole = schema(&[VEHICLE]);
+        let mut whole = schema(&Registry::default(), &[VEHICLE]);
         let types = whole["$defs"].as_object_mut().unwrap();
         let mut pure = BTreeSet::new();
         for (of, schema) in types {

@@ -1,6 +1,6 @@
 //! Words for kinds of values, ranges and defaults.
 
-use super::read::{Field, Number, Reference, Shape};
+use crate::shape::{Field, Number, Reference, Shape, Text};
 use serde_json::Value;
 use world::limits::shown;
 use world::ranges::LARGEST;
@@ -34,15 +34,15 @@ pub(super) fn kind(r: &Reference, shape: &Shape, link: &dyn Fn(&str) -> String) 
             other => kind(r, other, link),
         },
         Shape::Number(n) => {
-            let unit = match (n.unit.as_str(), n.whole) {
+            let unit = match (n.unit.as_str(), n.whole.is_some()) {
                 ("", true) => "whole number",
                 ("", false) => "number",
                 (unit, _) => unit,
             };
             joined(&[unit, &range(n)])
         }
-        Shape::Text(None) => "text".to_string(),
-        Shape::Text(Some(pattern)) => format!("text like {pattern}"),
+        Shape::Text(Text { pattern: None, .. }) => "text".to_string(),
+        Shape::Text(Text { pattern: Some(pattern), .. }) => format!("text like {pattern}"),
         Shape::Truth => "true or false".to_string(),
         Shape::List(of) => format!("list of {}", kind(r, of, link)),
         Shape::Tuple(parts) => {

@@ -1,12 +1,13 @@
 //! What counts as another ocean, and what does not: every field of a scenario, found in what is written of it.
 
 use super::origin::Origin;
-use crate::scenario::Scenario;
-use crate::scenario::load;
+use crate::scenario::{Node, Outline, Scenario, load};
+use ron::extensions::Extensions;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
 use std::path::Path;
 use world::obstacles::ObstacleSpec;
+use world::registry::Registry;
 
 /// Blocks and fields that water and plume follow from.
 const COUNT: [&str; 9] = [
@@ -36,82 +37,73 @@ const DO_NOT: [&str; 11] = [
 ];
 
 /// What may stand in a place in which nothing does, or a word.
-fn others() -> Vec<Value> {
-    vec![
-        json!(0.25),
-        json!(3),
-        json!(true),
-        json!("other"),
-        json!({}),
-        json!([[0.0, 1.0]]),
-        json!("Depth"),
-        json!({"cell_m": 3.0}),
-        json!({"roughness_m": 0.002, "thickness_m": 1.5}),
-    ]
-}
+const OTHERS: [&str; 9] = [
+    "0.25",
+    "3",
+    "true",
+    "\"other\"",
+    "()",
+    "[(0.0, 1.0)]",
+    "Depth",
+    "(cell_m: 3.0)",
+    "(roughness_m: 0.002, thickness_m: 1.5)",
+];
 
-/// Every place in `value` with what may stand there instead.
-fn variations(value: &Value, path: &str, out: &mut Vec<(String, Vec<Value>)>) {
-    let more = match value {
-        Value::Null => others(),
-        Value::Bool(b) => vec![json!(!b)],
-        Value::Number(n) => {
-            let x = n.as_f64().expect("a number");
-            let whole = n.as_u64().map(|n| json!(n + 1));
-            let moved = [x * 1.01 + 0.01, x * 0.99, x - 0.01].map(|x| json!(x));
-            whole.into_iter().chain(moved).collect()
-        }
-        Value::String(s) => {
-            let longer = std::iter::once(json!(format!("{s}x")));
-            longer.chain(others()).collect()
-        }
-        Value::Array(items) => {
-            for (n, item) in items.iter().enumerate() {
-                variations(item, &format!("{path}/{n}"), out);
-            }
-            let twice = items.last().map(|last| {
-                let mut items = items.clone();
-                items.push(last.clone());
-                Value::Array(items)
-            });
-            let one = others().into_iter().map(|other| json!([other]));
-            twice.into_iter().chain(one).collect()
-        }
-        Value::Object(fields) => {
-            for (name, field) in fields {
-                let name = name.replace('~', "~0").replace('/', "~1");
-                variations(field, &format!("{path}/{name}"), out);
-            }
-            return;
-        }
-    };
-    out.push((path.to_string(), more));
-}
-
-/// Each place with the varied wholes that can be read, and whether one could.
-fn varied<T: DeserializeOwned>(whole: &Value) -> Vec<(String, Vec<T>)> {
-    let mut places = Vec::new();
-    variations(whole, "", &mut places);
-    let read = |(path, others): (String, Vec<Value>)| {
-        let one = |other: Value| {
-            let mut whole = whole.clone();
-            *whole.pointer_mut(&path).expect("a place of it") = other;
-            serde_json::from_value(whole).ok()
-        };
-        let all = others.into_iter().filter_map(one).collect();
-        (path, all)
-    };
-    places.into_iter().map(read).collect()
-}
-
-/// `robots/0/start` → `robots`; `time/step_s` → `time.step_s`.
-fn block(path: &str) -> String {
-    let mut names = path[1..].split('/');
-    let first = names.next().expect("a path has a first part");
-    match (first, names.next()) {
-        ("time", Some(field)) => format!("time.{field}"),
-        _ => first.to_string(),
+/// What may stand in the place of a value; nothing for one that holds others, except a list.
+fn variations(value: &str, last: Option<&str>) -> Vec<String> {
+    let others = || OTHERS.iter().map(|other| (*other).to_string());
+    if let Ok(x) = value.parse::<f64>() {
+        let whole = value.parse::<u64>().ok().map(|n| (n + 1).to_string());
+        let moved = [x * 1.01 + 0.01, x * 0.99, x - 0.01].map(|x| format!("{x:?}"));
+        return whole.into_iter().chain(moved).collect();
     }
+    match value {
+        "true" => vec!["false".to_string()],
+        "false" => vec!["true".to_string()],
+        list if list.starts_with('[') => {
+            let twice = last.map(|last| format!("{},{last}]", list.trim_end_matches([']', ','])));
+            let twice = twice.map(|twice| twice.replacen(",,", ",", 1));
+            twice.into_iter().chain(others().map(|other| format!("[{other}]"))).collect()
+        }
+        text if text.starts_with('"') => {
+            let longer = format!("{}x\"", &text[..text.len() - 1]);
+            std::iter::once(longer).chain(others()).collect()
+        }
+        word if word.contains('(') || word.starts_with('{') => Vec::new(),
+        _ => others().collect(),
+    }
+}
+
+/// A value as it is written in RON.
+fn written(value: &impl Serialize) -> String {
+    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
+    let options = ron::Options::default().with_default_extension(extensions);
+    options.to_string(value).expect("plain data")
+}
+
+/// Each place with the varied wholes that can be read.
+fn varied<T: DeserializeOwned>(whole: &str) -> Vec<(String, Vec<T>)> {
+    // A name with a point is written with `r#`.
+    let outline = Outline::scan(&whole.replace("r#time.", "time___"));
+    let read = |node: &Node| {
+        let value = &whole[node.value.clone()];
+        let inner = |n: &&Node| node.value.start < n.whole.start && n.whole.end < node.value.end;
+        let last = outline.nodes.iter().filter(inner).filter(|n| n.path.ends_with(']')).max_by_key(|n| n.whole.end);
+        let last = last.map(|n| &whole[n.whole.clone()]);
+        let one = |other: String| {
+            let mut whole = whole.to_string();
+            whole.replace_range(node.value.clone(), &other);
+            Registry::default().read(&whole).ok()
+        };
+        (node.path.clone(), variations(value, last).into_iter().filter_map(one).collect())
+    };
+    outline.nodes.iter().map(read).collect()
+}
+
+/// `robots[0].start` → `robots`; `time.step_s` as it is.
+fn block(path: &str) -> String {
+    let first = path.split(['.', '[']).next().expect("a path has a first part");
+    if first == "time" { path.to_string() } else { first.to_string() }
 }
 
 #[test]
@@ -120,12 +112,15 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
     for name in ["reef_mesh", "harbour_3d", "duck_mt", "dalian_bay", "flume_crab", "wp_turbulent"] {
         let loaded = load(Path::new(name)).unwrap();
         let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 7);
-        let whole = serde_json::to_value(&loaded.scenario).unwrap();
-        let as_it_is: Scenario = serde_json::from_value(whole.clone()).unwrap();
+        let whole = written(&loaded.scenario);
+        let as_it_is: Scenario = Registry::default().read(&whole).unwrap();
         let same = Origin::from_scenario(&as_it_is, &loaded.base_dir, 7);
         assert_eq!(origin.unlike(&same), None, "{name}");
         for (path, others) in varied::<Scenario>(&whole) {
             let block = block(&path);
+            if others.is_empty() {
+                continue;
+            }
             let counts = COUNT.contains(&block.as_str());
             assert!(
                 counts != DO_NOT.contains(&block.as_str()),
@@ -150,19 +145,20 @@ fn every_field_of_a_scenario_counts_or_is_said_not_to() {
 fn every_field_of_an_origin_counts() {
     let loaded = load(Path::new("reef_mesh")).unwrap();
     let origin = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 7);
-    let whole = serde_json::to_value(&origin).unwrap();
+    let whole = written(&origin);
     let mut varied_blocks = std::collections::BTreeSet::new();
     for (path, others) in varied::<Origin>(&whole) {
         for other in others {
-            if serde_json::to_value(&other).unwrap() == whole {
+            if written(&other) == whole {
                 continue;
             }
             let differs = origin.unlike(&other).is_some() || origin.seed() != other.seed();
             assert!(differs, "{path}");
-            varied_blocks.insert(path[1..].split('/').next().unwrap().to_string());
+            varied_blocks.insert(block(&path).replace("time___", "time."));
         }
     }
-    let fields: Vec<_> = whole.as_object().unwrap().keys().cloned().collect();
+    let fields = serde_json::to_value(&origin).unwrap();
+    let fields: Vec<_> = fields.as_object().unwrap().keys().cloned().collect();
     assert_eq!(varied_blocks.into_iter().collect::<Vec<_>>(), fields);
 }
 

@@ -6,6 +6,7 @@ use robots::error::RobotError;
 use robots::vehicles::{Files, VehicleFile};
 use std::path::{Path, PathBuf};
 use world::files;
+use world::registry::Registry;
 
 /// The files in a folder, usually that of the scenario file.
 pub struct FolderFiles<'a>(pub &'a Path);
@@ -20,7 +21,7 @@ impl Files for FolderFiles<'_> {
     }
 
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
-        reader::read::<VehicleFile>(path, text, &|_| Vec::new()).map_err(|e| {
+        reader::read::<VehicleFile>(&Registry::default(), path, text, |_| Vec::new()).map_err(|e| {
             let lines = match &e {
                 ScenarioError::File { problem, .. } => vec![problem.clone()],
                 _ => (e.lines().iter())

@@ -2,8 +2,7 @@
 
 use super::catalog;
 use super::check::check;
-use super::fault::Severity;
-use super::fault::{Fault, ScenarioError, UnplacedFault};
+use super::fault::{Fault, ScenarioError, Severity};
 use super::reader;
 use super::reader::outline::Outline;
 use super::schema::Scenario;
@@ -39,17 +38,16 @@ pub struct Loaded {
 }
 
 impl Loaded {
-    /// A scenario of a text, under the present registry, with the mistakes of form only. Errors call it by its path.
-    ///
-    /// # Errors
-    /// If it is not a scenario: all mistakes of form.
-    pub fn of_text(path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Result<Self, ScenarioError> {
-        let scenario = parse(&path.display().to_string(), &text)?;
-        Ok(Self::from_parts(scenario, path, name, base_dir, text))
-    }
-
-    fn from_parts(scenario: Scenario, path: PathBuf, name: String, base_dir: PathBuf, text: String) -> Self {
-        Self { read: scenario.clone(), scenario, text, path, name, base_dir, registry: Registry::now() }
+    fn of_text(
+        registry: &Registry,
+        path: &Path,
+        name: String,
+        base_dir: PathBuf,
+        text: String,
+    ) -> Result<Self, ScenarioError> {
+        let scenario = parse_with(registry, &path.display().to_string(), &text)?;
+        let (path, registry) = (path.to_path_buf(), registry.clone());
+        Ok(Self { read: scenario.clone(), scenario, text, path, name, base_dir, registry })
     }
 
     /// The text of the file; if the scenario was changed since, its own text, without the comments of the file.
@@ -74,13 +72,12 @@ impl Loaded {
         hash(&self.text())
     }
 
-    /// The same scenario with another text. Paths in it are relative to the same folder.
+    /// The same scenario with another text, which errors call by `path`. Paths in it are relative to the same folder.
     ///
     /// # Errors
     /// As [`load`].
-    pub fn with_text(&self, text: String) -> Result<Self, ScenarioError> {
-        let (path, name) = (&self.path, self.name.clone());
-        (self.registry).scope(|| loaded(path, name, self.base_dir.clone(), text))
+    pub fn with_text(&self, path: &Path, text: String) -> Result<Self, ScenarioError> {
+        Self::of_text(&self.registry, path, self.name.clone(), self.base_dir.clone(), text)
     }
 
     /// Checks what the scenario means: see [`check`].
@@ -103,12 +100,21 @@ impl Loaded {
     }
 }
 
-/// Reads a scenario file. If there is no such file, reads the scenario of that name that comes with the program.
+/// Reads a scenario file that uses what comes with the program. If there is no such file, reads the scenario of that
+/// name that comes with the program.
 ///
 /// # Errors
-/// If the file cannot be read or is not a scenario: all its mistakes, of form and of meaning. The meaning of a scenario
-/// without mistakes of form is checked by [`Loaded::check`].
+/// If the file cannot be read or is not a scenario: all its mistakes of form. What it means is checked by
+/// [`Loaded::check`].
 pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
+    load_with(&Registry::default(), path)
+}
+
+/// The same for a scenario that may use what a registry adds.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(registry: &Registry, path: &Path) -> Result<Loaded, ScenarioError> {
     let shown = path.display().to_string();
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let mut base_dir = path.parent().unwrap_or(Path::new("")).to_path_buf();
@@ -137,7 +143,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
         }
         (Ok(text), _) => text,
     };
-    loaded(path, name, base_dir, text)
+    Loaded::of_text(registry, path, name, base_dir, text)
 }
 
 /// Reads a scenario from its text, with what a registry adds. Errors call it `name`. Paths in it are relative to the
@@ -154,15 +160,7 @@ pub fn load_text(registry: &Registry, name: &str, text: &str) -> Result<Loaded, 
 /// # Errors
 /// As [`load`].
 pub fn load_text_in(registry: &Registry, name: &str, text: &str, base_dir: &Path) -> Result<Loaded, ScenarioError> {
-    let (name, text, base_dir) = (name.to_string(), text.to_string(), base_dir.to_path_buf());
-    registry.scope(|| loaded(Path::new(&name), name.clone(), base_dir, text))
-}
-
-fn loaded(path: &Path, name: String, base_dir: PathBuf, text: String) -> Result<Loaded, ScenarioError> {
-    let shown = path.display().to_string();
-    let scenario = read_whole(&shown, &text, &|s| check(s, &base_dir))?;
-    let path = path.to_path_buf();
-    Ok(Loaded::from_parts(scenario, path, name, base_dir, text))
+    Loaded::of_text(registry, Path::new(name), name.to_string(), base_dir.to_path_buf(), text.to_string())
 }
 
 /// Hash of a scenario's text, 32 hexadecimal digits.
@@ -173,36 +171,19 @@ pub fn hash(text: &str) -> String {
     digest.hex()
 }
 
-/// The same for a scenario that uses what a registry adds.
-///
-/// # Errors
-/// As [`load`].
-pub fn load_with(registry: &Registry, path: &Path) -> Result<Loaded, ScenarioError> {
-    registry.scope(|| load(path))
-}
-
-/// The same as [`parse`] for a scenario that uses what a registry adds.
-///
-/// # Errors
-/// As [`parse`].
-pub fn parse_with(registry: &Registry, name: &str, text: &str) -> Result<Scenario, ScenarioError> {
-    registry.scope(|| parse(name, text))
-}
-
-/// Reads a scenario from its text; errors call it `name`.
+/// Reads a scenario from its text, without the files that belong to it; errors call it `name`.
 ///
 /// # Errors
 /// If it is not a scenario: all mistakes of form.
 pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
-    read_whole(name, text, &|_| Vec::new())
+    parse_with(&Registry::default(), name, text)
 }
 
-/// Reads a scenario. If it has mistakes of form, `meaning` adds those of meaning that do not follow from them.
-fn read_whole(
-    name: &str,
-    text: &str,
-    meaning: &dyn Fn(&Scenario) -> Vec<UnplacedFault>,
-) -> Result<Scenario, ScenarioError> {
+/// The same as [`parse`] for a scenario that may use what a registry adds.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with(registry: &Registry, name: &str, text: &str) -> Result<Scenario, ScenarioError> {
     let outline = Outline::scan(text);
     if outline.nodes.is_empty() {
         return Err(ScenarioError::File {
@@ -212,7 +193,7 @@ fn read_whole(
         });
     }
     version_first(name, text, &outline)?;
-    reader::read(name, text, meaning)
+    reader::read(registry, name, text, |_| Vec::new())
 }
 
 enum Unread {
@@ -260,7 +241,7 @@ mod tests {
             let mut changed = unpacked.clone();
             changed.scenario.time.limit_s = Positive::new(17.25);
             assert_ne!(changed.hash(), unpacked.hash());
-            let back = unpacked.with_text(changed.text().into_owned()).unwrap();
+            let back = unpacked.with_text(&unpacked.path, changed.text().into_owned()).unwrap();
             assert_eq!(back.scenario, changed.scenario, "{}", template.name);
             assert_eq!(back.hash(), changed.hash());
         }

@@ -26,7 +26,6 @@ mod schema;
 mod success;
 #[cfg(test)]
 mod told;
-mod unread;
 mod version;
 
 pub use catalog::{CATALOG, Template, template};

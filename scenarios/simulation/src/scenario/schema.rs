@@ -75,10 +75,13 @@ pub struct Scenario {
 /// Longest name: a file's name of 255 bytes has room for it and for what it is of.
 const LONGEST_ID: usize = 64;
 
+/// What a name may be.
+const LEGAL_ID: &str = "made of a-z, 0-9 and _, and not empty";
+
 /// A name that can be part of keys and file names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
-#[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
+#[schemars(extend("pattern" = "^[a-z0-9_]+$", "x-legal" = LEGAL_ID, "maxLength" = LONGEST_ID))]
 pub struct Id(String);
 
 impl Id {
@@ -99,7 +102,7 @@ impl TryFrom<String> for Id {
         } else if !s.is_empty() && s.chars().all(fits) {
             Ok(Self(s))
         } else {
-            Err(format!("must be made of a-z, 0-9 and _, and not empty, got {s:?}"))
+            Err(format!("must be {LEGAL_ID}, got {s:?}"))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A campaign over arms of your own: a strategy of the program with two parameters, compared over the same seeds.
 //!
-//! Strategies of other crates take part in the same way, within `registry.scope(|| ...)` of the registry that knows them
-//! (`own_strategy.rs` of the library).
+//! Strategies of other crates take part in the same way, if `load_with` reads the scenario with the registry that knows
+//! them (`own_strategy.rs` of the library).
 //!
 //! `cargo run --release -p rheotaxis-studies --example studies own_campaign`
 

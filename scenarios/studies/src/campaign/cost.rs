@@ -30,11 +30,12 @@ mod tests {
     use super::super::load;
     use super::*;
     use std::path::Path;
+    use world::registry::Registry;
 
     #[test]
     fn blocks_take_half_a_minute_hold_whole_seeds_and_leave_something_to_deal_out() {
         // Six arms, two conditions, 50 seeds: 600 runs.
-        let campaign = load(Path::new("crab_units")).unwrap();
+        let campaign = load(&Registry::default(), Path::new("crab_units")).unwrap();
         let of = |spin_up_s, mission_s, shares| block_of(&campaign, spin_up_s, mission_s, shares);
         assert_eq!(of(4.0, 1.0, 1), 18);
         assert_eq!(of(3600.0, 60.0, 1), 6);

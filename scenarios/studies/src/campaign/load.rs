@@ -3,10 +3,11 @@
 use super::error::CampaignError;
 use super::plan::Campaign;
 use super::spec::CampaignSpec;
-use rheotaxis::scenario::{ScenarioError, Template, load as load_scenario};
+use rheotaxis::scenario::{ScenarioError, Template, load_with};
 use std::io::ErrorKind;
 use std::path::Path;
 use world::files;
+use world::registry::Registry;
 
 /// Longest file read, bytes: a campaign is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
@@ -25,11 +26,12 @@ macro_rules! catalog {
 pub const CAMPAIGNS: &[Template] =
     catalog!["duck_beta", "uniform_beta", "crab_units", "wp_maps", "moth_plus", "kinematic_steps"];
 
-/// Reads a campaign from a file or, if there is none, the one of that name that comes with the program.
+/// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario may
+/// use what a registry adds.
 ///
 /// # Errors
 /// If it or its base scenario cannot be read. [`Campaign::check`] checks the scenarios of the arms.
-pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
+pub fn load(registry: &Registry, path: &Path) -> Result<Campaign, CampaignError> {
     let shown = path.display().to_string();
     let refused = |problem: String, help: Option<String>| {
         let path = shown.clone();
@@ -50,7 +52,8 @@ pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
     let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let spec = CampaignSpec::parse(&shown, &text)?;
     let beside = path.parent().unwrap_or(Path::new("")).join(&spec.base);
-    let base = if beside.is_file() { load_scenario(&beside)? } else { load_scenario(Path::new(&spec.base))? };
+    let base = if beside.is_file() { &beside } else { Path::new(&spec.base) };
+    let base = load_with(registry, base)?;
     Campaign::new(&shown, &name, &text, base)
 }
 
@@ -63,7 +66,7 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog/campaigns");
         assert_eq!(std::fs::read_dir(folder).unwrap().count(), CAMPAIGNS.len());
         for template in CAMPAIGNS {
-            let campaign = load(Path::new(template.name)).unwrap();
+            let campaign = load(&Registry::default(), Path::new(template.name)).unwrap();
             campaign.check().unwrap();
             assert!(campaign.n_arms() > 1);
         }
@@ -71,7 +74,7 @@ mod tests {
 
     #[test]
     fn an_arm_that_asks_a_searcher_outside_is_refused() {
-        let base = load_scenario(Path::new("duck_external")).unwrap();
+        let base = load_with(&Registry::default(), Path::new("duck_external")).unwrap();
         let text =
             "(version: 2, title: \"t\", base: \"duck_external\", seeds: 2, arms: [(name: \"a\"), (name: \"b\")])";
         let refused = Campaign::new("own.ron", "own", text, base).unwrap().check();
@@ -81,7 +84,7 @@ mod tests {
 
     #[test]
     fn a_missing_file_is_said_with_what_there_is() {
-        let said = load(Path::new("nowhere.ron")).unwrap_err().to_string();
+        let said = load(&Registry::default(), Path::new("nowhere.ron")).unwrap_err().to_string();
         assert_eq!(said, "nowhere.ron: there is no such file");
     }
 }

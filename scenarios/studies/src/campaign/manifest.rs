@@ -3,12 +3,14 @@
 use super::error::CampaignError;
 use super::plan::{Campaign, hash};
 use super::seeds::MOST;
+use super::spec::CampaignSpec;
 use rheotaxis::cache::program_mark;
-use rheotaxis::scenario::Loaded;
+use rheotaxis::scenario::load_text_in;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_new, write_on_disk};
+use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
@@ -141,11 +143,21 @@ impl Manifest {
         })
     }
 
-    /// The campaign that it describes.
+    /// The campaign that it describes; its scenario may use what a registry adds.
     ///
     /// # Errors
     /// If this program cannot read its texts, or if its hashes and numbers do not belong to them.
-    pub fn campaign(&self) -> Result<Campaign, CampaignError> {
+    pub fn campaign(&self, registry: &Registry) -> Result<Campaign, CampaignError> {
+        self.check()?;
+        let base = load_text_in(registry, &self.scenario_name, &self.scenario_text, &self.base_dir)?;
+        Campaign::new(&self.name, &self.name, &self.campaign_text, base)
+    }
+
+    /// Checks that its hashes and numbers belong to its texts.
+    ///
+    /// # Errors
+    /// What does not.
+    pub(super) fn check(&self) -> Result<(), CampaignError> {
         let unlike = |problem: String| CampaignError::Read { path: PathBuf::from(FILE), problem };
         for (what, text, said) in [
             ("campaign", &self.campaign_text, &self.campaign_hash),
@@ -157,10 +169,7 @@ impl Manifest {
                 return Err(unlike(problem));
             }
         }
-        let (path, name) = (PathBuf::from(&self.scenario_name), self.scenario_name.clone());
-        let text = self.scenario_text.clone();
-        let base = Loaded::of_text(path, name, self.base_dir.clone(), text)?;
-        let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
+        let campaign = CampaignSpec::parse(&self.name, &self.campaign_text)?;
         let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
         if self.runs != runs {
             let problem = format!("runs: must be the campaign's {runs}, got {}", self.runs);
@@ -170,7 +179,7 @@ impl Manifest {
             let problem = format!("block: must be a multiple of the campaign's {arms} arms, got {}", self.block);
             return Err(unlike(problem));
         }
-        Ok(campaign)
+        Ok(())
     }
 
     /// Refuses to make a run again under another key than that of the folder.
@@ -250,7 +259,7 @@ mod tests {
 
     #[test]
     fn the_first_of_several_processes_says_how_long_blocks_are() {
-        let campaign = load(Path::new("uniform_beta")).unwrap();
+        let campaign = load(&Registry::default(), Path::new("uniform_beta")).unwrap();
         let dir = tempfile::tempdir().unwrap();
         let write = |block, asked| Manifest::new(&campaign, block).write_first(dir.path(), asked);
         let (first, second) = (write(4, false).unwrap(), write(8, false).unwrap());
@@ -265,19 +274,19 @@ mod tests {
         assert_eq!((first.block, second.block), (4, 4));
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
         assert_eq!(first.seeds, "seeds 1 to 10");
-        assert_eq!(Manifest::open(dir.path()).unwrap().campaign().unwrap().n_runs(), 40);
+        assert_eq!(Manifest::open(dir.path()).unwrap().campaign(&Registry::default()).unwrap().n_runs(), 40);
     }
 
     #[test]
     fn absurd_numbers_are_errors_with_field_and_legal_range() {
-        let campaign = load(Path::new("uniform_beta")).unwrap();
+        let campaign = load(&Registry::default(), Path::new("uniform_beta")).unwrap();
         let dir = tempfile::tempdir().unwrap();
         let good = serde_json::to_value(Manifest::new(&campaign, 4)).unwrap();
         let said = |field: &str, value: serde_json::Value| -> String {
             let mut odd = good.clone();
             odd[field] = value;
             fs::write(dir.path().join(FILE), odd.to_string()).unwrap();
-            let read = Manifest::open(dir.path()).and_then(|m| m.campaign().map(drop));
+            let read = Manifest::open(dir.path()).and_then(|m| m.campaign(&Registry::default()).map(drop));
             read.unwrap_err().to_string()
         };
         for (field, value, says) in [

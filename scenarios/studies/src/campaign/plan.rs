@@ -8,6 +8,7 @@ pub(super) use rheotaxis::scenario::hash;
 use rheotaxis::scenario::{Loaded, set_value};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
+use std::path::Path;
 use world::math;
 use world::seeds::{Key, Seed, Stream};
 
@@ -65,13 +66,13 @@ impl Campaign {
     /// Number of runs.
     #[must_use]
     pub fn n_runs(&self) -> u64 {
-        self.spec.n_conditions() * self.spec.seeds.count() * self.n_arms()
+        self.spec.n_runs()
     }
 
     /// Number of arms.
     #[must_use]
     pub fn n_arms(&self) -> u64 {
-        self.spec.arms.len() as u64
+        self.spec.n_arms()
     }
 
     /// Number of arms under each condition, times conditions.
@@ -144,9 +145,7 @@ impl Campaign {
     /// If a path leads nowhere, or the scenario does not allow a value; both name the arm.
     pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
         let (shown, text) = self.text_of(condition, arm)?;
-        let (name, base_dir) = (self.base.name.clone(), self.base.base_dir.clone());
-        let read = || Loaded::of_text(shown.into(), name, base_dir, text);
-        Ok(self.base.registry.scope(read)?)
+        Ok(self.base.with_text(Path::new(&shown), text)?)
     }
 
     /// What errors call the scenario of an arm under a condition, and its text.
@@ -225,10 +224,14 @@ fn drawn(draw: &Draw, u: f64) -> String {
 mod tests {
     use super::*;
     use rheotaxis::scenario;
-    use std::path::Path;
+    use world::registry::Registry;
 
     fn campaign(rest: &str) -> Campaign {
-        let base = scenario::load(Path::new("uniform_channel")).unwrap();
+        campaign_with(&Registry::default(), rest)
+    }
+
+    fn campaign_with(registry: &Registry, rest: &str) -> Campaign {
+        let base = scenario::load_with(registry, Path::new("uniform_channel")).unwrap();
         let text = format!("(version: 2, title: \"t\", base: \"uniform_channel\", {rest})");
         Campaign::new("c.ron", "c", &text, base).unwrap()
     }
@@ -236,8 +239,8 @@ mod tests {
     /// Systems and topics of other crates are in every run, on whatever thread it is made.
     #[test]
     fn every_arm_keeps_the_registry_of_the_base() {
-        let registry = world::registry::Registry::default().carrying(7_u8);
-        let arm = registry.scope(|| campaign(ARMS)).loaded(0, 1).unwrap();
+        let registry = Registry::default().carrying(7_u8);
+        let arm = campaign_with(&registry, ARMS).loaded(0, 1).unwrap();
         assert_eq!(arm.registry.carried::<u8>().collect::<Vec<_>>(), [&7]);
     }
 

@@ -12,6 +12,7 @@ use std::error::Error;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use world::files::{Output, OutputError, clear_abandoned, folder_of};
+use world::registry::Registry;
 
 /// All existing rows, in the order of runs; runs that are not done yet are left out.
 ///
@@ -31,7 +32,7 @@ fn each_block(
     mut take: impl FnMut(Vec<RunRow>) -> Result<(), CampaignError>,
 ) -> Result<Manifest, CampaignError> {
     let manifest = Manifest::open(dir)?;
-    manifest.campaign()?;
+    manifest.check()?;
     for block in present(dir, &manifest)? {
         match read_block(dir, &manifest, block) {
             BlockState::Done(rows) | BlockState::Part(rows) => take(rows)?,
@@ -48,7 +49,7 @@ fn each_block(
 /// If there is no such run, or its block is not whole.
 pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
     let manifest = Manifest::open(dir)?;
-    manifest.campaign()?;
+    manifest.check()?;
     let runs = manifest.runs;
     if run >= runs {
         return Err(CampaignError::NoRun { run, runs });
@@ -89,7 +90,7 @@ fn beside(path: &Path) -> PathBuf {
 ///
 /// # Errors
 /// If a block is not whole, or if a file cannot be written; what was there before then stays.
-pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<MergeResult, CampaignError> {
+pub fn merge(registry: &Registry, dir: &Path, to: &Path, csv: Option<&Path>) -> Result<MergeResult, CampaignError> {
     if csv == Some(to) {
         return Err(unwritten(to)("the Parquet file and the CSV file would be the same"));
     }
@@ -109,7 +110,12 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<MergeResult, C
     let (rows, declarations) = (runs.lines, declared.lines);
     // If one file cannot be given its name, the others are not affected.
     runs.close().and(declared.close())?;
-    Ok(MergeResult { rows, of: wanted(&manifest.campaign()?, dir, &manifest).runs, declarations, declarations_path })
+    Ok(MergeResult {
+        rows,
+        of: wanted(&manifest.campaign(registry)?, dir, &manifest).runs,
+        declarations,
+        declarations_path,
+    })
 }
 
 /// A table that grows block by block.

@@ -173,7 +173,7 @@ fn settle(campaign: &Campaign, dir: &Path, options: &RunOptions) -> Result<Optio
     if let Some(there) = &found {
         let what = there.differences(&ours);
         if what.is_empty() {
-            there.campaign()?;
+            there.check()?;
             return Ok(Some(there.clone()));
         }
         if !options.force {

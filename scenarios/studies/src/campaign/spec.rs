@@ -2,9 +2,10 @@
 
 use super::seeds::{MOST, Seeds, number_or_form};
 use rheotaxis::explain::FileKind;
-use rheotaxis::scenario::{Fault, Outline, ScenarioError, UnplacedFault, Version, read, version_first};
+use rheotaxis::scenario::{Outline, ScenarioError, UnplacedFault, Version, read, version_first};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::registry::Registry;
 
 /// The half width that an interval of a share must be narrower than to say anything.
 const WIDEST: f64 = 0.5;
@@ -108,12 +109,20 @@ impl CampaignSpec {
     /// # Errors
     /// If it is not a campaign, with the place.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
-        let outline = Outline::scan(text);
-        version_first(name, text, &outline)?;
-        let spec: Self = read(name, text, &Self::check)?;
-        let located = |found| outline.located(name, text, found);
-        let faults: Vec<Fault> = spec.check().into_iter().map(located).collect();
-        if faults.is_empty() { Ok(spec) } else { Err(ScenarioError::from_faults(name, faults)) }
+        version_first(name, text, &Outline::scan(text))?;
+        read(&Registry::default(), name, text, Self::check)
+    }
+
+    /// Number of runs.
+    #[must_use]
+    pub fn n_runs(&self) -> u64 {
+        self.n_conditions() * self.seeds.count() * self.n_arms()
+    }
+
+    /// Number of arms.
+    #[must_use]
+    pub fn n_arms(&self) -> u64 {
+        self.arms.len() as u64
     }
 
     /// Number of conditions; at most 2^64 - 1.

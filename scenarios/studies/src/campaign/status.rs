@@ -7,6 +7,7 @@ use super::manifest::Manifest;
 use super::row::RunRow;
 use super::seeds::Seeds;
 use std::path::Path;
+use world::registry::Registry;
 
 /// Progress of an arm, over all conditions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -49,9 +50,9 @@ impl Status {
     ///
     /// # Errors
     /// If there is no campaign in it.
-    pub fn examine(dir: &Path) -> Result<Self, CampaignError> {
+    pub fn examine(registry: &Registry, dir: &Path) -> Result<Self, CampaignError> {
         let manifest = Manifest::open(dir)?;
-        let campaign = manifest.campaign()?;
+        let campaign = manifest.campaign(registry)?;
         let named = |name: &String| ArmStatus { name: name.clone(), ..ArmStatus::default() };
         let wanted = wanted(&campaign, dir, &manifest);
         let mut status = Self {

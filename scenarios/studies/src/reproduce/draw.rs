@@ -1,13 +1,14 @@
 //! Values of a row's scenario that are drawn anew for every seed.
 
 use rheotaxis::scenario::{Loaded, set_value};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use world::math;
 use world::seeds::{Seed, Stream};
 
 /// A value of the scenario that differs from seed to seed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Draw {
     /// Arms in which it is drawn; all if none is named.
@@ -20,7 +21,7 @@ pub struct Draw {
 }
 
 /// From what a value is drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Law {
     /// Evenly between two numbers.
     Even(f64, f64),
@@ -122,7 +123,7 @@ fn changed<'a>(
     let Cow::Owned(text) = text else {
         return Ok(Cow::Borrowed(loaded));
     };
-    loaded.with_text(text).map(Cow::Owned).map_err(|e| e.to_string())
+    loaded.with_text(&loaded.path, text).map(Cow::Owned).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

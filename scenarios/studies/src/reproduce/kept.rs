@@ -203,10 +203,11 @@ mod tests {
     use super::*;
     use crate::reproduce::{Plan, compare, reproduce};
     use std::sync::atomic::AtomicBool;
+    use world::registry::Registry;
     use world::seeds::Key;
 
     fn reference() -> Reference {
-        wanted(&["wp_laminar".into()], &[]).unwrap().remove(0)
+        wanted(&Registry::default(), &["wp_laminar".into()], &[]).unwrap().remove(0)
     }
 
     fn reproduced(reference: &Reference, seeds: std::ops::Range<u64>) -> RowResult {

@@ -3,10 +3,11 @@
 use crate::campaign::report::Unit;
 use crate::campaign::{DeclarationRow, RunRow};
 use robots::handoff::Verdict;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Something that did or did not happen in a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RunEvent {
     /// It succeeded as the scenario defines it.
@@ -82,7 +83,7 @@ impl RunEvent {
 }
 
 /// A number of a run. Errors are those of declarations, relative to the nearest true source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Error, m.

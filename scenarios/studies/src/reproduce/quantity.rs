@@ -7,10 +7,11 @@ use crate::campaign::stats::{
     Interval, LEAST_VALUES, finite_sorted, mean_interval, middle, positive_mean_interval, quantile, quantile_interval,
     wilson,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A quantity of many runs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Quantity {
     /// Share of runs in which something happened.
     Share(RunEvent),

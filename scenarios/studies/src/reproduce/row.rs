@@ -7,19 +7,20 @@ use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, ThreadsError};
 use output::files::ReportError;
-use rheotaxis::scenario::{Loaded, ScenarioError, load, set_value, template};
-use ron::extensions::Extensions;
+use rheotaxis::scenario::{Loaded, ScenarioError, UnplacedFault, load_text, load_with, set_value, template};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use shipped::ROWS;
 use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 use world::files;
+use world::registry::Registry;
 
 /// Longest file read, bytes: a row is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
 
 /// A row of the reproduction table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
     /// Its name.
@@ -52,7 +53,7 @@ fn quick() -> NonZeroU64 {
 }
 
 /// One figure of a row.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
     /// Its name for people.
@@ -74,7 +75,7 @@ pub struct Figure {
 }
 
 /// A paper's figure.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Paper {
     /// A figure over many runs, in the quantity's unit (shares from 0 to 1).
     Value(f64),
@@ -172,25 +173,25 @@ pub struct Reference {
     pub arms: Vec<(String, Loaded)>,
 }
 
-/// All rows that come with the program.
+/// All rows that come with the program. Their scenarios may use what a registry adds.
 ///
 /// # Errors
 /// If one is wrong (tests prevent this).
-pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
-    ROWS.iter().map(|(name, text)| embedded(name, text)).collect()
+pub fn rows(registry: &Registry) -> Result<Vec<Reference>, ReproduceError> {
+    ROWS.iter().map(|(name, text)| embedded(registry, name, text)).collect()
 }
 
 /// The rows asked for by name or by file, each once; all rows if none is named. Only the named arms are kept, if any.
 ///
 /// # Errors
 /// If a name is unknown, if its file or scenario is wrong, or if no row has such an arm.
-pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, ReproduceError> {
+pub fn wanted(registry: &Registry, names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, ReproduceError> {
     let mut found: Vec<Reference> = Vec::new();
     if names.is_empty() {
-        found = rows()?;
+        found = rows(registry)?;
     }
     for name in names {
-        for reference in some(name)? {
+        for reference in some(registry, name)? {
             if found.iter().all(|f| f.row != reference.row) {
                 found.push(reference);
             }
@@ -221,11 +222,11 @@ fn named(name: &str) -> Vec<&'static (&'static str, &'static str)> {
 }
 
 /// Rows by their name or that of their group, or a row file.
-fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
+fn some(registry: &Registry, path: &Path) -> Result<Vec<Reference>, ReproduceError> {
     let name = path.display().to_string();
     let rows = named(&name);
     if !rows.is_empty() {
-        return rows.iter().map(|(id, text)| embedded(id, text)).collect();
+        return rows.iter().map(|(id, text)| embedded(registry, id, text)).collect();
     }
     if !path.is_file() {
         let known: Vec<&str> = ROWS.iter().map(|(id, _)| *id).collect();
@@ -235,7 +236,7 @@ fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
         .map_err(|e| ReproduceError::Row { name: name.clone(), problem: format!("cannot be read: {e}") })?;
     let row = read(&name, &text)?;
     let beside = path.parent().unwrap_or(Path::new("")).join(&row.scenario);
-    let loaded = if beside.is_file() { load(&beside)? } else { scenario(&name, &row)? };
+    let loaded = if beside.is_file() { load_with(registry, &beside)? } else { scenario(registry, &name, &row)? };
     loaded.check()?;
     Ok(vec![Reference::new(&name, row, loaded)?])
 }
@@ -253,9 +254,7 @@ impl Reference {
                 text = set_value(&text, path, value).map_err(|problem| wrong(path, problem))?;
             }
             let shown = format!("{} (arm {})", loaded.name, arm.name);
-            let (name, base_dir) = (loaded.name.clone(), loaded.base_dir.clone());
-            let read = || Loaded::of_text(shown.into(), name, base_dir, text);
-            let changed = loaded.registry.scope(read)?;
+            let changed = loaded.with_text(Path::new(&shown), text)?;
             changed.check()?;
             arms.push((arm.name.clone(), changed));
         }
@@ -279,51 +278,54 @@ impl Reference {
     }
 }
 
-fn embedded(name: &str, text: &str) -> Result<Reference, ReproduceError> {
+fn embedded(registry: &Registry, name: &str, text: &str) -> Result<Reference, ReproduceError> {
     let row = read(name, text)?;
-    let loaded = scenario(name, &row)?;
+    let loaded = scenario(registry, name, &row)?;
     Reference::new(name, row, loaded)
 }
 
 /// The scenario that comes with the program, whatever files the current folder has.
-fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
+fn scenario(registry: &Registry, name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
     let template = template(&row.scenario).ok_or_else(|| ReproduceError::Row {
         name: name.to_string(),
         problem: format!("there is no scenario `{}`", row.scenario),
     })?;
-    let (path, name) = (PathBuf::from(template.name), template.name.to_string());
-    Ok(Loaded::of_text(path, name, PathBuf::new(), template.text.to_string())?)
+    Ok(load_text(registry, template.name, template.text)?)
 }
 
-fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
-    let wrong = |problem: String| ReproduceError::Row { name: name.to_string(), problem };
-    let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
-    let row: Row = reader.from_str(text).map_err(|e| wrong(e.to_string()))?;
+fn read(name: &str, text: &str) -> Result<Row, ScenarioError> {
+    rheotaxis::scenario::read(&Registry::default(), name, text, faults)
+}
+
+/// What is wrong with a row that could be read.
+fn faults(row: &Row) -> Vec<UnplacedFault> {
+    let mut found = Vec::new();
+    let mut wrong = |path: &str, problem: String| found.push(UnplacedFault::error(path, problem));
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
     if row.id.is_empty() || !row.id.chars().all(plain) {
-        return Err(wrong(format!("id: must be of a-z, 0-9 and _, got `{}`", row.id)));
+        wrong("id", format!("must be of a-z, 0-9 and _, got `{}`", row.id));
     }
     if row.figures.is_empty() {
-        return Err(wrong("figures: must name at least one".to_string()));
+        wrong("figures", "must name at least one".to_string());
     }
-    for f in &row.figures {
+    for (i, f) in row.figures.iter().enumerate() {
         let known = |arm: &String| row.arms.iter().any(|a| a.name == *arm);
-        let problem = match &f.arm {
-            None if !row.arms.is_empty() => Some("arm: must name one of the row's arms".to_string()),
-            Some(arm) if !known(arm) => Some(format!("arm: the row has no arm `{arm}`")),
-            _ => f.quantity.fault(),
-        };
-        if let Some(problem) = problem {
-            return Err(wrong(format!("{}: {problem}", f.name)));
+        match &f.arm {
+            None if !row.arms.is_empty() => {
+                wrong(&format!("figures[{i}].arm"), "must name one of the row's arms".to_string());
+            }
+            Some(arm) if !known(arm) => wrong(&format!("figures[{i}].arm"), format!("the row has no arm `{arm}`")),
+            _ => {}
+        }
+        if let Some(problem) = f.quantity.fault() {
+            wrong(&format!("figures[{i}].quantity"), problem);
+        }
+        if let Some(paper) = f.paper.filter(|paper| !paper.is_sound()) {
+            let problem = format!("must be finite, a count at most its total, and the total > 0, got {paper:?}");
+            wrong(&format!("figures[{i}].paper"), problem);
         }
     }
-    match (row.figures.iter()).find(|f| f.paper.is_some_and(|p| !p.is_sound())) {
-        Some(f) => Err(wrong(format!(
-            "{}: paper: must be finite, a count at most its total, and the total > 0, got {:?}",
-            f.name, f.paper
-        ))),
-        None => Ok(row),
-    }
+    found
 }
 
 #[cfg(test)]

@@ -48,6 +48,7 @@ fn starred(key: &str) -> String {
 mod tests {
     use super::super::super::topics;
     use super::*;
+    use world::registry::Registry;
 
     #[test]
     fn a_key_is_that_of_any_run_or_a_whole_one() {
@@ -62,7 +63,7 @@ mod tests {
         ] {
             let key = OwnedKeyExpr::new(key).unwrap();
             assert_eq!(expression(given), Ok(key.clone()), "{given}");
-            assert_eq!(unknown(given, &key, &topics()), None, "{given}");
+            assert_eq!(unknown(given, &key, &topics(&Registry::default())), None, "{given}");
         }
     }
 
@@ -77,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_key_that_no_topic_has_is_told_with_the_nearest() {
-        let told = |given| unknown(given, &expression(given).unwrap(), &topics());
+        let told = |given| unknown(given, &expression(given).unwrap(), &topics(&Registry::default()));
         for given in ["chemical", "auv/auv0/chemicl"] {
             let told = told(given).unwrap();
             assert!(told.ends_with("did you mean `auv/*/chemical`?"), "{told}");

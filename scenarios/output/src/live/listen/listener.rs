@@ -4,7 +4,7 @@
 //! where a message of its key came before it. The last message of a run is a clock that says `ended`.
 
 use super::super::config::plain;
-use super::super::{ListenOptions, LiveError, News, topics};
+use super::super::{ListenOptions, LiveError, News};
 use super::key::{expression, unknown};
 use super::reach::reached;
 use super::readable::readable;
@@ -78,7 +78,8 @@ impl Listener {
         let wanted = expression(options.key.as_deref().unwrap_or("**"))?;
         let from_env = std::env::var_os("ZENOH_CONFIG").map(PathBuf::from);
         let (config, place) = reached(options, from_env)?;
-        let notice = (options.key.as_deref()).and_then(|key| unknown(key, &wanted, &topics()));
+        let notice = (options.key.as_deref().filter(|_| !options.topics.is_empty()))
+            .and_then(|key| unknown(key, &wanted, &options.topics));
         let (sender, events) = sync_channel(WAITING);
         let session = zenoh::open(config).wait();
         let session = session.map_err(|e| LiveError::NoSession { why: plain(&e) })?;

@@ -1,7 +1,7 @@
 //! Parses a text into a tree and continues after mistakes of syntax.
 
 use super::token::{Token, Tokens};
-use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name, joined};
+use super::tree::{Group, Item, Kind, Node, Tree, is_name, joined};
 use crate::scenario::fault::UnplacedFault;
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ impl<'a> Parser<'a> {
             // The last token of a text that was cut off may be incomplete.
             for node in &mut self.tree.nodes {
                 if node.value.end == last.at.end && matches!(node.kind, Kind::Word) {
-                    node.kind = Kind::Hole(Hole::default());
+                    node.kind = Kind::Missing;
                     node.silent = true;
                 }
             }
@@ -100,9 +100,9 @@ impl<'a> Parser<'a> {
         self.tree.nodes.len() - 1
     }
 
-    fn hole(&mut self, path: &str, key: &Range<usize>) -> usize {
+    fn missing(&mut self, path: &str, key: &Range<usize>) -> usize {
         let end = key.end;
-        let id = self.push(path, key, end..end, Kind::Hole(Hole::default()));
+        let id = self.push(path, key, end..end, Kind::Missing);
         self.tree.nodes[id].silent = true;
         id
     }
@@ -114,7 +114,7 @@ impl<'a> Parser<'a> {
         }
         let Some(token) = self.peek() else {
             self.tree.cut = true;
-            return Some(self.hole(path, &key));
+            return Some(self.missing(path, &key));
         };
         let start = token.at.start;
         let name = self.word();
@@ -127,7 +127,7 @@ impl<'a> Parser<'a> {
         if name.is_none() && !"([{".contains(bracket) {
             let problem = format!("expected a value, got `{}`", self.slice(token));
             self.fault(token.at.clone(), path, &problem, "");
-            return Some(self.hole(path, &key));
+            return Some(self.missing(path, &key));
         }
         if name.is_some() {
             self.at += 1;
@@ -285,7 +285,7 @@ impl<'a> Parser<'a> {
         } else {
             let problem = format!("expected a value after `{word}:`");
             self.fault(name.at.clone(), path, &problem, "");
-            self.hole(path, &name.at)
+            self.missing(path, &name.at)
         };
         Some(Item { key: Some(word.to_string()), key_at: name.at.clone(), node })
     }

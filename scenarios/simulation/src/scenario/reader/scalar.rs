@@ -1,38 +1,4 @@
-//! Numbers and texts of RON, and the numbers that stand in for values that could not be read.
-
-/// Numbers that are tried in place of one that could not be read, in two sets. A mistake of meaning that appears with
-/// only one set comes from the number, not from the file. The first is NaN, so that the type names its legal range.
-const STAND_INS: [[f64; 7]; 2] =
-    [[f64::NAN, 1.0, 0.5, 0.0, 10.0, 100.0, -1.0], [f64::NAN, 30.0, 0.9, 2.0, 0.1, 300.0, -30.0]];
-
-/// The stand-in of a set after `refused` others. It lies within the bounds, if they are known.
-pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)>) -> f64 {
-    let set = STAND_INS[filling % STAND_INS.len()];
-    let tried = set[refused % set.len()];
-    match bounds {
-        Some((low, high)) if !(low..=high).contains(&tried) => {
-            let middle = if low > 0.0 { (low * high).sqrt() } else { 0.5 * (low + high) };
-            // The second set takes a higher value.
-            if filling.is_multiple_of(STAND_INS.len()) { middle } else { 0.5 * (middle + middle.midpoint(high)) }
-        }
-        _ => tried,
-    }
-}
-
-/// The bounds in a type's words about a number that it refuses: `must be from 900 to 1400 kg/m3`.
-pub(super) fn bounds(said: &str) -> Option<(f64, f64)> {
-    let (_, range) = said.split_once("from ")?;
-    let mut words = range.split(' ');
-    let low = words.next()?.parse().ok()?;
-    let high = words.nth(1)?.parse().ok()?;
-    (low < high).then_some((low, high))
-}
-
-/// The same for whole numbers. The first is 0, so that the type names its legal range.
-pub(super) fn stand_in_whole(filling: usize, refused: usize) -> i128 {
-    let set = [[0, 1, 10, 100], [0, 3, 30, 300]][filling % 2];
-    set[refused % set.len()]
-}
+//! Numbers and texts of RON.
 
 /// A number.
 pub(super) fn number(word: &str) -> Option<f64> {
@@ -102,7 +68,7 @@ pub(super) fn text(word: &str) -> Option<Result<String, char>> {
             'r' => text.push('\r'),
             '0' => text.push('\0'),
             same @ ('\\' | '"' | '\'') => text.push(same),
-            // A character by its number. Which one does not matter: a text with a mistake elsewhere is only checked.
+            // A character by its number. Which one does not matter: the text is only checked.
             'u' | 'x' => text.push('?'),
             other => return Some(Err(other)),
         }

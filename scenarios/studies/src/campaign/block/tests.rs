@@ -4,10 +4,11 @@ use super::*;
 use crate::campaign::report::sample::row;
 use crate::campaign::{Campaign, load, merge, read_rows};
 use std::ops::Range;
+use world::registry::Registry;
 use world::seeds::Stream;
 
 fn campaign() -> Campaign {
-    load(Path::new("uniform_beta")).unwrap()
+    load(&Registry::default(), Path::new("uniform_beta")).unwrap()
 }
 
 fn declared(run: u64, number: u64) -> DeclarationRow {
@@ -66,7 +67,7 @@ fn a_block_grows_row_by_row_and_never_shrinks() {
     write_block(dir, 0, &rows(&campaign, 2..4)).unwrap();
     let all = [rows(&campaign, 2..4), rows(&campaign, 8..16)].concat();
     assert_eq!(read_rows(dir).unwrap(), all);
-    assert_eq!(merge(dir, &dir.join("all.parquet"), None).unwrap().rows, 10);
+    assert_eq!(merge(&Registry::default(), dir, &dir.join("all.parquet"), None).unwrap().rows, 10);
     // Rows of another block, or no rows at all, are no part of this one.
     for odd in [rows(&campaign, 0..2), rows(&campaign, 14..18), Vec::new()] {
         write_block(dir, 1, &odd).unwrap();
@@ -248,7 +249,7 @@ fn a_merge_has_a_line_for_every_declaration() {
     write_block(dir, 0, &all[..8]).unwrap();
     write_block(dir, 1, &all[8..]).unwrap();
     let csv = dir.join("all.csv");
-    let merged = merge(dir, &dir.join("all.parquet"), Some(&csv)).unwrap();
+    let merged = merge(&Registry::default(), dir, &dir.join("all.parquet"), Some(&csv)).unwrap();
     let declarations: Vec<_> = all.iter().flat_map(|r| r.declarations.clone()).collect();
     assert_eq!((merged.rows, merged.declarations), (16, declarations.len() as u64));
     assert_eq!(merged.declarations_path, dir.join("all-declarations.parquet"));

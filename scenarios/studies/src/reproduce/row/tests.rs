@@ -9,7 +9,7 @@ fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
         std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().file_name().into_string().unwrap()).collect();
     files.sort();
     // No name stands for all rows.
-    let rows = wanted(&[], &[]).unwrap();
+    let rows = wanted(&Registry::default(), &[], &[]).unwrap();
     let mut ids: Vec<String> = rows.iter().map(|r| format!("{}.ron", r.row.id)).collect();
     ids.sort();
     assert_eq!(files, ids);
@@ -33,7 +33,7 @@ fn a_row_is_chosen_by_its_name_alone_and_a_group_by_what_no_row_is_called() {
     assert_eq!(of_name("wp"), group);
     let ids = |names: &[&str]| -> Vec<String> {
         let names: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
-        let rows = wanted(&names, &[]).unwrap();
+        let rows = wanted(&Registry::default(), &names, &[]).unwrap();
         rows.into_iter().map(|r| r.row.id).collect()
     };
     // Each once, in the order of the names.
@@ -42,7 +42,7 @@ fn a_row_is_chosen_by_its_name_alone_and_a_group_by_what_no_row_is_called() {
 
 #[test]
 fn arms_are_chosen_alone_with_their_figures() {
-    let of = |arm: &str| wanted(&["crab".into()], &[arm.to_string()]);
+    let of = |arm: &str| wanted(&Registry::default(), &["crab".into()], &[arm.to_string()]);
     let rows = of("adaptive").unwrap();
     assert_eq!(rows.len(), 1);
     let names: Vec<&str> = rows[0].arms.iter().map(|(n, _)| n.as_str()).collect();
@@ -69,14 +69,20 @@ fn broken_rows_are_named_with_what_is_wrong() {
         (row("a", "Count(0, 0)"), "the total > 0"),
         (row("a", "Value(NaN)"), "must be finite"),
         (row("a", "Median(3)"), "Median"),
-        (row("a", "Run(3)").replace("figures:", "quick: 0, figures:"), "nonzero"),
+        (
+            row("a", "Run(3)").replace("figures:", "quick: 0, figures:"),
+            "quick: must be a whole number, 1 or greater, got 0",
+        ),
         (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
         (row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"), "below 1"),
         ("(".to_string(), "r: "),
     ] {
-        let said = read("r", &text).unwrap_err().to_string();
+        let said = read("r", &text).unwrap_err().lines().join("; ");
         assert!(said.contains(says), "{said}");
     }
-    let said = wanted(&["nobody".into()], &[]).unwrap_err().to_string();
+    let several = row("A b", "Count(9, 8)").replace("what: \"w\"", "what: w, whit: 3");
+    let said = read("r", &several).unwrap_err().lines();
+    assert_eq!(said, ["r:1:19: what: expected a text in quotes, got w", "r:1:22: there is no field `whit`"]);
+    let said = wanted(&Registry::default(), &["nobody".into()], &[]).unwrap_err().to_string();
     assert!(said.contains("`nobody`") && said.contains("duck_st"), "{said}");
 }

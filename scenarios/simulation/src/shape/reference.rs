@@ -1,44 +1,44 @@
-//! Turns the JSON Schema into a reference of fields, choices and numbers.
+//! The parsed form of a JSON Schema: fields, choices and numbers.
 //!
 //! It knows only the forms of JSON Schema, not how the types are written. A choice is a `oneOf` of names (`const`,
 //! `enum`) and of objects with one property, which is the variant's name.
 
-use super::schema::{FILES, ORDER, Object, SOURCE, WHAT};
+use super::schema::{FILES, LEGAL, ORDER, Object, SOURCE, WHAT};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use world::limits::UNIT;
 
 /// The whole reference.
 #[derive(Clone, Debug)]
-pub(super) struct Reference {
+pub(crate) struct Reference {
     /// The scenario itself.
-    pub(super) root: Shape,
+    pub(crate) root: Shape,
     /// What the scenario itself is.
-    pub(super) what: String,
+    pub(crate) what: String,
     /// The other kinds of files, as fields with their names.
-    pub(super) files: Vec<Field>,
+    pub(crate) files: Vec<Field>,
     /// The types they are made of, by name.
-    pub(super) types: BTreeMap<String, NamedType>,
+    pub(crate) types: BTreeMap<String, NamedType>,
 }
 
 /// A type that fields refer to.
 #[derive(Clone, Debug)]
-pub(super) struct NamedType {
+pub(crate) struct NamedType {
     /// What it is.
-    pub(super) what: String,
+    pub(crate) what: String,
     /// What it is made of.
-    pub(super) shape: Shape,
+    pub(crate) shape: Shape,
 }
 
 /// What may stand in a place.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// A type of that name.
     Named(String),
     /// A number.
     Number(Number),
-    /// Words in quotes, of this pattern.
-    Text(Option<String>),
+    /// Words in quotes.
+    Text(Text),
     /// `true` or `false`.
     Truth,
     /// Any number of them.
@@ -53,54 +53,67 @@ pub(super) enum Shape {
 
 /// A number and its legal range.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Number {
-    /// Without a fraction.
-    pub(super) whole: bool,
+pub(crate) struct Number {
+    /// Without a fraction: the least and the greatest.
+    pub(crate) whole: Option<(i128, i128)>,
     /// Least.
-    pub(super) low: Option<f64>,
+    pub(crate) low: Option<f64>,
     /// The number that it must exceed.
-    pub(super) above: Option<f64>,
+    pub(crate) above: Option<f64>,
     /// Greatest.
-    pub(super) high: Option<f64>,
+    pub(crate) high: Option<f64>,
     /// The number that it must not reach.
-    pub(super) below: Option<f64>,
+    pub(crate) below: Option<f64>,
     /// Unit; empty for a pure number.
-    pub(super) unit: String,
+    pub(crate) unit: String,
+}
+
+/// A text.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Text {
+    /// The pattern that it must match.
+    pub(crate) pattern: Option<String>,
+    /// What it may be, in words.
+    pub(crate) legal: Option<String>,
+    /// Most characters.
+    pub(crate) longest: Option<u64>,
 }
 
 /// A field.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Field {
+pub(crate) struct Field {
     /// Its name as written in RON.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// What it means.
-    pub(super) what: String,
+    pub(crate) what: String,
     /// The publication that it follows.
-    pub(super) source: Option<String>,
+    pub(crate) source: Option<String>,
     /// What may stand there.
-    pub(super) shape: Shape,
+    pub(crate) shape: Shape,
     /// The value if it is left out; `null` for none.
-    pub(super) default: Option<Value>,
+    pub(crate) default: Option<Value>,
     /// It cannot be left out.
-    pub(super) required: bool,
+    pub(crate) required: bool,
+    /// It may be `None`.
+    pub(crate) optional: bool,
 }
 
 /// One of a choice.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Variant {
+pub(crate) struct Variant {
     /// As written in RON.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// What it means.
-    pub(super) what: String,
+    pub(crate) what: String,
     /// Where it comes from.
-    pub(super) source: Option<String>,
+    pub(crate) source: Option<String>,
     /// What stands in its parentheses.
-    pub(super) holds: Option<Shape>,
+    pub(crate) holds: Option<Shape>,
 }
 
 impl Reference {
     /// From a schema.
-    pub(super) fn from_schema(schema: &Value) -> Self {
+    pub(crate) fn from_schema(schema: &Value) -> Self {
         let named = |schema: &Value| NamedType { what: what(schema), shape: shape(schema) };
         let types = schema["$defs"].as_object().into_iter().flatten();
         let NamedType { what, shape: root } = named(schema);
@@ -113,7 +126,7 @@ impl Reference {
     }
 
     /// The shape itself, if it is the name of one.
-    pub(super) fn resolved<'a>(&'a self, shape: &'a Shape) -> &'a Shape {
+    pub(crate) fn resolved<'a>(&'a self, shape: &'a Shape) -> &'a Shape {
         match shape {
             Shape::Named(name) => self.resolved(&self.types[name].shape),
             other => other,
@@ -122,7 +135,7 @@ impl Reference {
 }
 
 /// Name of a variant, if the schema is that of one with a single name.
-pub(super) fn variant_name(variant: &Object) -> Option<String> {
+pub(crate) fn variant_name(variant: &Object) -> Option<String> {
     if let Some(Value::String(name)) = variant.get("const") {
         return Some(name.clone());
     }
@@ -153,7 +166,11 @@ fn shape(schema: &Value) -> Shape {
     match kind.and_then(Value::as_str) {
         Some("object") => Shape::Fields(fields(schema)),
         Some("array") => array(schema),
-        Some("string") => Shape::Text(schema["pattern"].as_str().map(str::to_string)),
+        Some("string") => Shape::Text(Text {
+            pattern: text(schema, "pattern"),
+            legal: text(schema, LEGAL),
+            longest: schema["maxLength"].as_u64(),
+        }),
         Some("boolean") => Shape::Truth,
         kind => Shape::Number(number(schema, kind == Some("integer"))),
     }
@@ -206,9 +223,16 @@ fn fields(schema: &Value) -> Vec<Field> {
             shape: shape(own),
             default: own.get("default").cloned(),
             required: required.contains(&name),
+            optional: is_optional(own),
         })
     };
     order.into_iter().filter_map(field).collect()
+}
+
+fn is_optional(schema: &Value) -> bool {
+    let kinds = schema["type"].as_array().into_iter().flatten();
+    let some = schema["anyOf"].as_array().into_iter().flatten().map(|s| &s["type"]);
+    kinds.chain(some).any(|kind| kind == "null")
 }
 
 fn names<'a>(schema: &'a Value, key: &str) -> Vec<&'a str> {
@@ -230,13 +254,29 @@ fn array(schema: &Value) -> Shape {
 fn number(schema: &Value, whole: bool) -> Number {
     let only = schema["const"].as_f64();
     Number {
-        whole,
+        whole: whole.then(|| whole_range(schema)),
         low: only.or(schema["minimum"].as_f64()),
         above: schema["exclusiveMinimum"].as_f64(),
         high: only.or(schema["maximum"].as_f64()),
         below: schema["exclusiveMaximum"].as_f64(),
         unit: text(schema, UNIT).unwrap_or_default(),
     }
+}
+
+/// The range that the type of a whole number can hold, within the bounds that the schema states.
+fn whole_range(schema: &Value) -> (i128, i128) {
+    let (least, most) = match schema["format"].as_str() {
+        Some("uint8") => (0, u8::MAX.into()),
+        Some("uint16") => (0, u16::MAX.into()),
+        Some("uint32") => (0, u32::MAX.into()),
+        Some("int8") => (i8::MIN.into(), i8::MAX.into()),
+        Some("int16") => (i16::MIN.into(), i16::MAX.into()),
+        Some("int32") => (i32::MIN.into(), i32::MAX.into()),
+        Some("int64" | "int") => (i64::MIN.into(), i64::MAX.into()),
+        _ => (0, u64::MAX.into()),
+    };
+    let stated = |key: &str| schema[key].as_i64().map(i128::from);
+    (stated("minimum").map_or(least, |v| v.max(least)), stated("maximum").map_or(most, |v| v.min(most)))
 }
 
 fn text(schema: &Value, key: &str) -> Option<String> {

@@ -23,5 +23,5 @@ impl FileKind {
 }
 
 /// The file of a vehicle's folder.
-pub(super) const VEHICLE: FileKind =
+pub(crate) const VEHICLE: FileKind =
     FileKind::new::<VehicleFile>("vehicle", "The `vehicle.ron` in the folder of a vehicle of your own.");

@@ -1,0 +1,202 @@
+//! Reads files, and makes the schemas of files, with the rows of a registry known.
+
+use super::{Kind, Registry, Row};
+use ron::de::Deserializer as Ron;
+use ron::error::{Position, SpannedError};
+use ron::extensions::Extensions;
+use ron::value::RawValue;
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error as _, VariantAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::cell::Cell;
+use std::fmt;
+use std::ops::Range;
+
+/// Why a text cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    /// Its place, in bytes.
+    pub at: Range<usize>,
+    /// What is wrong.
+    pub message: String,
+}
+
+thread_local! {
+    /// The first failure in a value that is read from its own text; its place is one in memory. The format knows only
+    /// the place of the whole value.
+    static INNERMOST: Cell<Option<ReadError>> = const { Cell::new(None) };
+}
+
+impl Registry {
+    /// Reads a RON text.
+    ///
+    /// # Errors
+    /// The first mistake.
+    pub fn read<T: DeserializeOwned>(&self, text: &str) -> Result<T, ReadError> {
+        INNERMOST.take();
+        let read = self.scope(|| options().from_str(text));
+        read.map_err(|error| {
+            let whole = text.as_ptr() as usize;
+            let inner = INNERMOST.take().filter(|e| whole <= e.at.start && e.at.end <= whole + text.len());
+            let inner = inner.map(|e| ReadError { at: e.at.start - whole..e.at.end - whole, ..e });
+            inner.unwrap_or_else(|| placed(text, &error))
+        })
+    }
+
+    /// The JSON Schema of a file that is read as a `T`. The schemas of `more` types refer to the same definitions.
+    #[must_use]
+    pub fn schema<T: JsonSchema>(
+        &self,
+        settings: SchemaSettings,
+        more: &[fn(&mut SchemaGenerator) -> Schema],
+    ) -> (Schema, Vec<Schema>) {
+        self.scope(|| {
+            let mut types = settings.into_generator();
+            let more = more.iter().map(|schema| schema(&mut types)).collect();
+            (types.into_root_schema_for::<T>(), more)
+        })
+    }
+}
+
+fn options() -> ron::Options {
+    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES)
+}
+
+fn placed(text: &str, error: &SpannedError) -> ReadError {
+    let at = offset(text, error.span.start)..offset(text, error.span.end);
+    ReadError { at, message: error.code.to_string() }
+}
+
+/// Byte offset of a line and column (in characters).
+fn offset(text: &str, at: Position) -> usize {
+    let start: usize = text.split_inclusive('\n').take(at.line - 1).map(str::len).sum();
+    text[start..].char_indices().nth(at.col - 1).map_or(text.len(), |(i, _)| start + i)
+}
+
+/// Reads a value from its text, by a function that is compiled for RON alone: a type that is chosen by name is compiled
+/// once, in its own crate.
+pub(super) fn from_text<'de, D: Deserializer<'de>, T>(
+    from: D,
+    read: impl FnOnce(&mut Ron<'de>) -> ron::Result<T>,
+) -> Result<T, D::Error> {
+    let text = <&RawValue>::deserialize(from)?.get_ron();
+    part(text, read).map_err(D::Error::custom)
+}
+
+fn part<'de, T>(text: &'de str, read: impl FnOnce(&mut Ron<'de>) -> ron::Result<T>) -> Result<T, String> {
+    let mut from = Ron::from_str_with_options(text, &options()).map_err(|e| e.code.to_string())?;
+    read(&mut from).map_err(|code| {
+        let mut found = placed(text, &from.span_error(code));
+        let start = text.as_ptr() as usize;
+        found.at = start + found.at.start..start + found.at.end;
+        let first = INNERMOST.take().unwrap_or(found);
+        let message = first.message.clone();
+        INNERMOST.set(Some(first));
+        message
+    })
+}
+
+/// The parameters of a thing: a struct in parentheses. ron reads it as the fields of a variant, because what it looks for
+/// in structs (ranges such as `1..2`) makes each type four times as long to compile.
+pub(super) struct Parameters<'f, 'de>(pub(super) &'f mut Ron<'de>);
+
+impl<'de> Deserializer<'de> for Parameters<'_, 'de> {
+    type Error = ron::Error;
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        _: &'static [&'static str],
+        visitor: V,
+    ) -> ron::Result<V::Value> {
+        self.0.deserialize_enum("", &[], Fields(visitor))
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> ron::Result<V::Value> {
+        Err(ron::Error::custom("the parameters of what is chosen by name must be a struct"))
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map enum identifier ignored_any
+    }
+}
+
+struct Fields<V>(V);
+
+impl<'de, V: Visitor<'de>> Visitor<'de> for Fields<V> {
+    type Value = V::Value;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.0.expecting(f)
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, parentheses: A) -> Result<V::Value, A::Error> {
+        let ((), fields) = parentheses.variant_seed(Nameless)?;
+        fields.struct_variant(&[], self.0)
+    }
+}
+
+/// In the place of a variant's name: nothing is read.
+struct Nameless;
+
+impl<'de> DeserializeSeed<'de> for Nameless {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, _: D) -> Result<(), D::Error> {
+        Ok(())
+    }
+}
+
+/// Reads a word: whether it is `None`.
+pub(super) struct IsNone;
+
+impl Visitor<'_> for IsNone {
+    type Value = bool;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a name")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<bool, E> {
+        Ok(name == "None")
+    }
+}
+
+/// Reads a name, and finds its row.
+pub(super) struct Name<'r, K: Kind>(pub(super) &'r [Row<K>]);
+
+impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
+        from.deserialize_identifier(self)
+    }
+}
+
+impl<K: Kind> Visitor<'_> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a name")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Row<K>, E> {
+        let known = || self.0.iter().map(|row| row.entry.name).collect::<Vec<_>>().join(", ");
+        let row = self.0.iter().find(|row| row.entry.name == name);
+        row.copied().ok_or_else(|| E::custom(format!("there is no `{name}`; there are: {}", known())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters() {
+        let text = "ab\né€x";
+        assert_eq!(&text[offset(text, Position { line: 2, col: 3 })..], "x");
+        assert_eq!(offset(text, Position { line: 2, col: 9 }), text.len());
+    }
+}
