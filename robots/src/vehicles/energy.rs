@@ -16,7 +16,8 @@ use world::ranges::{NonNegative, Positive};
 /// Share of the electric power that reaches the shaft of a REMUS.
 pub(super) const REMUS_SHARE: f64 = 0.7;
 
-/// A battery and what always runs. Both defaults are ours: about what a vehicle of the REMUS's size carries and takes.
+/// A battery and what always runs.
+// Both defaults are ours: about what a vehicle of the REMUS's size carries and takes.
 #[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnergySpec {
