@@ -106,7 +106,10 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
             return None;
         }
         after *= 1.3;
-        assert_eq!(end.status.code(), Some(75), "{end:?}");
+        // Before it has a folder it has nothing to put in order.
+        let begun = out.join("campaign.json").exists();
+        let code = end.status.code();
+        assert!(code == Some(75) || (code == Some(130) && !begun), "{end:?}");
         let written = out.join("part-000000.parquet").exists();
         written.then(|| String::from_utf8(end.stderr).unwrap())
     });
