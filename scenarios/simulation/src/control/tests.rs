@@ -4,12 +4,13 @@ use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, load_text, template};
 use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use nalgebra::Vector2;
-use robots::handoff::{Declaration, GantryLayout, MotionOrder, MoveOrder};
+use robots::handoff::{Declaration, GantryLayout, Manoeuvre, MotionOrder, MoveOrder};
 use robots::strategy::Strategy;
 use robots::track::GantryStrategy;
 use robots::vehicles::Gantry;
 use world::registry::Registry;
 use world::seeds::{Seed, Stream};
+use world::units::Heading;
 
 const SEED: u64 = 3;
 
@@ -179,6 +180,31 @@ fn what_cannot_be_carried_out_is_nonsense_and_told() {
 }
 
 #[test]
+fn a_goal_is_read_as_its_manoeuvre() {
+    let read = |manoeuvre: &str| {
+        let text = format!("{{\"goal\": {{\"manoeuvre\": {manoeuvre}}}}}");
+        read_answer(text.as_bytes(), 0, 0.0).map(|answer| match answer.order {
+            Some(MotionOrder::Move(order)) => order.manoeuvre,
+            other => panic!("{other:?}"),
+        })
+    };
+    // Whole turns too many are taken away.
+    let course = Manoeuvre::Course { course: Heading::from_rad(7.0) };
+    assert_eq!(read("{\"course\": {\"heading_rad\": 7.0}}"), Ok(course));
+    let hold = Manoeuvre::Hold { point: Vector2::new(1.0, -2.0), heading: None };
+    assert_eq!(read("{\"hold\": {\"point_m\": [1, -2]}}"), Ok(hold));
+    // What an answer asks for in fields of its own is no manoeuvre of a goal.
+    for (wrong, why) in [
+        ("{\"steer\": {\"heading_rad\": 1.0}}", "unknown variant `steer`, expected one of `go_to_point`"),
+        ("{\"hold\": {\"point\": [1, -2]}}", "unknown field `point`, expected `point_m` or `heading_rad`"),
+        ("{\"hold\": {\"point_m\": [1]}}", "invalid length 1, expected an array of length 2"),
+    ] {
+        let said = read(wrong).expect_err(wrong);
+        assert!(said.contains(why), "{said}");
+    }
+}
+
+#[test]
 fn nothing_that_is_not_a_number_comes_in() {
     let [_, outside] = channels();
     let mut trial = Trial::assemble(&outside, SEED).expect("legal");
@@ -187,7 +213,7 @@ fn nothing_that_is_not_a_number_comes_in() {
         Response::Answer(Reply {
             order: Some(MotionOrder::Move(MoveOrder {
                 id: None,
-                manoeuvre: robots::handoff::Manoeuvre::Steer { heading: world::units::Heading::from_rad(heading) },
+                manoeuvre: Manoeuvre::Steer { heading: Heading::from_rad(heading) },
                 vertical: None,
                 speed_m_s: Some(speed_m_s),
             })),
