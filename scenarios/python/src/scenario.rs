@@ -205,7 +205,7 @@ pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
 #[pyfunction]
 #[pyo3(signature = (path = ""))]
 pub(crate) fn explain(path: &str) -> PyResult<String> {
-    explained::explain(&bracketed(parts(path)), &[]).map_err(|unknown| {
+    explained::explain(&Registry::default(), &bracketed(parts(path)), &[]).map_err(|unknown| {
         let near = match unknown.near.as_slice() {
             [] => String::new(),
             near => format!("; the nearest are {}", near.join(", ")),
