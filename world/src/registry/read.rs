@@ -4,11 +4,10 @@ use super::{Kind, Registry, Row};
 use ron::de::Deserializer as Ron;
 use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
-use ron::value::RawValue;
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserializer;
 use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error as _, VariantAccess, Visitor};
-use serde::{Deserialize, Deserializer};
 use std::cell::Cell;
 use std::fmt;
 use std::ops::Range;
@@ -80,7 +79,7 @@ pub(super) fn from_text<'de, D: Deserializer<'de>, T>(
     from: D,
     read: impl FnOnce(&mut Ron<'de>) -> ron::Result<T>,
 ) -> Result<T, D::Error> {
-    let text = <&RawValue>::deserialize(from)?.get_ron();
+    let text = from.deserialize_newtype_struct(RAW, AsWritten)?;
     part(text, read).map_err(D::Error::custom)
 }
 
@@ -95,6 +94,24 @@ fn part<'de, T>(text: &'de str, read: impl FnOnce(&mut Ron<'de>) -> ron::Result<
         INNERMOST.set(Some(first));
         message
     })
+}
+
+/// The name by which ron is asked for the text of a value. Its own `RawValue` refuses what extensions allow.
+const RAW: &str = "$ron::private::RawValue";
+
+/// Takes the text of a value.
+struct AsWritten;
+
+impl<'de> Visitor<'de> for AsWritten {
+    type Value = &'de str;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a value in RON")
+    }
+
+    fn visit_borrowed_str<E: serde::de::Error>(self, text: &'de str) -> Result<&'de str, E> {
+        Ok(text)
+    }
 }
 
 /// The parameters of a thing: a struct in parentheses. ron reads it as the fields of a variant, because what it looks for

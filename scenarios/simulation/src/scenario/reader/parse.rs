@@ -305,6 +305,11 @@ impl<'a> Parser<'a> {
         let (Some(token), open) = (self.peek(), &self.tokens.all[opener]) else {
             return false;
         };
+        // Most tokens are not the first of their line.
+        let gap = self.tokens.all[self.at.max(1) - 1].at.end..token.at.start;
+        if self.at == 0 || !self.text[gap].contains('\n') {
+            return false;
+        }
         let line = |at: usize| self.text[..at].rfind('\n').map_or(0, |i| i + 1);
         let (here, there) = (line(token.at.start), line(open.at.start));
         let blank = |from: usize, to: usize| self.text[from..to].trim().is_empty();

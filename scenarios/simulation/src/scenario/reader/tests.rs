@@ -304,6 +304,7 @@ fn a_rule_that_only_a_type_knows_is_told_with_its_place() {
 
 /// Nonsense of a megabyte, such as a log or a table under the wrong name.
 #[test]
+#[allow(clippy::disallowed_methods, reason = "the time of a test, not of a run")]
 fn long_texts_are_refused_quickly() {
     let megabyte = |part: &str| part.repeat((1 << 20) / part.len());
     let of_words = megabyte("the quick brown fox; ");

@@ -75,7 +75,7 @@ fn broken_rows_are_named_with_what_is_wrong() {
         ),
         (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
         (row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"), "below 1"),
-        ("(".to_string(), "r: "),
+        ("(".to_string(), "r:1:1: the file ends at line 1"),
     ] {
         let said = read("r", &text).unwrap_err().lines().join("; ");
         assert!(said.contains(says), "{said}");
