@@ -15,13 +15,13 @@ use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
 
 /// A hull in rapier's world.
-pub struct RapierAlone {
+pub(crate) struct RapierAlone {
     world: r::PhysicsWorld,
     handle: r::RigidBodyHandle,
     p_BG: Vector3<f64>,
     mass_kg: f64,
     inertia_kg_m2: Matrix3<f64>,
-    pub truth: Truth,
+    pub(crate) truth: Truth,
 }
 
 fn vector(v: Vector3<f64>) -> r::Vector {
@@ -39,7 +39,7 @@ fn pose(p: &Pose) -> r::Pose {
 
 impl RapierAlone {
     /// A body that meets nothing, in steps of `dt_s`.
-    pub fn new(spec: &BodySpec, dt_s: f64) -> Self {
+    pub(crate) fn new(spec: &BodySpec, dt_s: f64) -> Self {
         let mut world = r::PhysicsWorld::new();
         world.gravity = r::Vector::ZERO;
         world.integration_parameters.dt = dt_s;
@@ -68,7 +68,7 @@ impl RapierAlone {
     }
 
     /// One step towards where its own equation takes it.
-    pub fn step(&mut self, free: &Truth) {
+    pub(crate) fn step(&mut self, free: &Truth) {
         let dt_s = self.world.integration_parameters.dt;
         let R_WB = self.truth.pose.R_WB;
         let v_G = self.v_G(&self.truth);
