@@ -21,7 +21,7 @@ pub(crate) struct RapierAlone {
     p_BG: Vector3<f64>,
     mass_kg: f64,
     inertia_kg_m2: Matrix3<f64>,
-    pub truth: Truth,
+    pub(crate) truth: Truth,
 }
 
 fn vector(v: Vector3<f64>) -> r::Vector {

@@ -1,4 +1,7 @@
 //! Filaments: store, drift, concentration.
+//!
+//! Each folder knows only those before it: `store`, `water`, `walls`, then `drift` and `query`, which do not know each
+//! other. The files beside them are the plume itself.
 
 mod displaced;
 mod drift;

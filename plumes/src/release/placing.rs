@@ -79,53 +79,39 @@ fn position(n: usize, spec: &SourceSpec, area: &Area, terrain: &Terrain) -> Resu
     }
     let bed = terrain.bed_z(e, north);
     let depth = -bed;
+    let wrong = |field: &str, problem: String| Err(invalid(n, field, format!("source \"{}\" {problem}", spec.id)));
     match (spec.height_m.map(Finite::get), spec.depth_m.map(Finite::get)) {
-        (Some(h), None) if h < 0.0 => Err(invalid(
-            n,
+        (Some(h), None) if h < 0.0 => wrong(
             "height_m",
             format!(
-                "source \"{}\" is {} m under the bottom; must be from 0 (on the bed) to {depth:.2} (the water's depth there)",
-                spec.id, -h
+                "is {} m under the bottom; must be from 0 (on the bed) to {depth:.2} (the water's depth there)",
+                -h
             ),
-        )),
-        (Some(h), None) if h > depth => Err(invalid(
-            n,
+        ),
+        (Some(h), None) if h > depth => wrong(
             "height_m",
             format!(
-                "source \"{}\" is {:.2} m above the surface; the water is {depth:.2} m deep there, so must be from 0 to {depth:.2}",
-                spec.id,
+                "is {:.2} m above the surface; the water is {depth:.2} m deep there, so must be from 0 to {depth:.2}",
                 h - depth
             ),
-        )),
-        (None, Some(d)) if d > depth => Err(invalid(
-            n,
+        ),
+        (None, Some(d)) if d > depth => wrong(
             "depth_m",
             format!(
-                "source \"{}\" is {:.2} m under the bottom; must be from 0 (the surface) to {depth:.2} (the water's depth there)",
-                spec.id,
+                "is {:.2} m under the bottom; must be from 0 (the surface) to {depth:.2} (the water's depth there)",
                 d - depth
             ),
-        )),
-        (None, Some(d)) if d < 0.0 => Err(invalid(
-            n,
-            "depth_m",
-            format!("source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}", spec.id, -d),
-        )),
+        ),
+        (None, Some(d)) if d < 0.0 => {
+            wrong("depth_m", format!("is {} m above the surface; must be from 0 to {depth:.2}", -d))
+        }
         (Some(h), None) => Ok(Vector3::new(e, north, bed + h)),
         (None, Some(d)) => Ok(Vector3::new(e, north, -d)),
-        (Some(_), Some(_)) => Err(invalid(
-            n,
-            "depth_m",
-            format!("source \"{}\" has both height_m and depth_m; give one of them", spec.id),
-        )),
-        (None, None) => Err(invalid(
-            n,
+        (Some(_), Some(_)) => wrong("depth_m", "has both height_m and depth_m; give one of them".into()),
+        (None, None) => wrong(
             "height_m",
-            format!(
-                "source \"{}\" has neither height_m (above the bed) nor depth_m (below the surface); give one of them",
-                spec.id
-            ),
-        )),
+            "has neither height_m (above the bed) nor depth_m (below the surface); give one of them".into(),
+        ),
     }
 }
 
