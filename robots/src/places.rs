@@ -4,7 +4,6 @@ use nalgebra::Vector2;
 use world::area::Area;
 
 /// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
-#[must_use]
 pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
     area.sides().edges(p)
 }
@@ -14,7 +13,6 @@ pub const MARGIN_M: f64 = 10.0;
 
 /// The nearest place to `p` that is at least `margin_m` inside the area. Where the area is narrower than two margins,
 /// its middle line.
-#[must_use]
 pub fn inside(area: &Area, p: Vector2<f64>, margin_m: f64) -> Vector2<f64> {
     let q = area.local(p);
     let (l, w) = ((area.length_m / 2.0 - margin_m).max(0.0), (area.width_m / 2.0 - margin_m).max(0.0));

@@ -25,46 +25,39 @@ impl Area {
     }
 
     /// Coordinates of a world point in the area: (distance along the axis, distance to the right of it), m.
-    #[must_use]
     pub fn local(&self, p: Vector2<f64>) -> Vector2<f64> {
         let d = p - self.centre;
         self.axes().map(|axis| d.dot(&axis)).into()
     }
 
     /// World point (east, north) for the area's coordinates (along, across).
-    #[must_use]
     pub fn world(&self, local: Vector2<f64>) -> Vector2<f64> {
         let [a, r] = self.axes();
         self.centre + a * local.x + r * local.y
     }
 
     /// Whether a point lies inside, edges included.
-    #[must_use]
     pub fn contains(&self, p: Vector2<f64>) -> bool {
         self.edge_distance(p).0 >= 0.0
     }
 
     /// Its sides, for questions in every tick.
-    #[must_use]
     pub fn sides(&self) -> Sides {
         Sides { axes: self.axes(), area: *self }
     }
 
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
-    #[must_use]
     pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
         self.sides().edge_distance(p)
     }
 
     /// The four corners in world coordinates, in order round the rectangle.
-    #[must_use]
     pub fn corners(&self) -> [Vector2<f64>; 4] {
         let (l, w) = (self.length_m / 2.0, self.width_m / 2.0);
         [(l, w), (l, -w), (-l, -w), (-l, w)].map(|(x, y)| self.world(Vector2::new(x, y)))
     }
 
     /// Axis-aligned bounds (min, max) in world coordinates.
-    #[must_use]
     pub fn bounds(&self) -> (Vector2<f64>, Vector2<f64>) {
         let c = self.corners();
         let min = c.iter().fold(c[0], |m, p| m.inf(p));
@@ -82,13 +75,11 @@ pub struct Sides {
 
 impl Sides {
     /// The area.
-    #[must_use]
     pub fn area(&self) -> &Area {
         &self.area
     }
 
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
-    #[must_use]
     pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
         let Area { centre, length_m, width_m, .. } = self.area;
         let [x, y] = self.axes.map(|axis| (p - centre).dot(&axis));
@@ -106,7 +97,6 @@ impl Sides {
     }
 
     /// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
-    #[must_use]
     pub fn edges(&self, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
         let [along, across] = self.axes;
         let [x, y] = self.axes.map(|axis| (p - self.area.centre).dot(&axis));

@@ -13,19 +13,16 @@ pub struct Clock {
 
 impl Clock {
     /// A clock at zero.
-    #[must_use]
     pub fn new(dt_s: f64) -> Self {
         Self { step: 0, dt_s }
     }
 
     /// Simulated time, s.
-    #[must_use]
     pub fn t_s(&self) -> f64 {
         self.step as f64 * self.dt_s
     }
 
     /// Time at the end of the present step, s.
-    #[must_use]
     pub fn t_next_s(&self) -> f64 {
         (self.step + 1) as f64 * self.dt_s
     }
@@ -45,20 +42,17 @@ pub struct Every {
 
 impl Every {
     /// The number of steps that is nearest to `period_s`, for steps of `dt_s`.
-    #[must_use]
     pub fn period(period_s: f64, dt_s: f64) -> Self {
         let steps = (period_s / dt_s).round().max(1.0) as u64;
         Self { steps }
     }
 
     /// Whether it runs in this step.
-    #[must_use]
     pub fn due(self, clock: &Clock) -> bool {
         clock.step.is_multiple_of(self.steps)
     }
 
     /// The period that results, s.
-    #[must_use]
     pub fn period_s(self, dt_s: f64) -> f64 {
         self.steps as f64 * dt_s
     }

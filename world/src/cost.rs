@@ -29,13 +29,11 @@ pub struct Times {
 
 impl Times {
     /// Spin-up and mission, s.
-    #[must_use]
     pub fn whole_s(&self) -> f64 {
         self.spin_up_s + self.mission_s
     }
 
     /// Number of steps of the plume.
-    #[must_use]
     pub fn drifts(&self) -> f64 {
         // A step ends where the flow is renewed.
         let step = |period_s: f64| match self.flow_period_s > 0.0 {
@@ -46,7 +44,6 @@ impl Times {
     }
 
     /// How often the flow is evaluated for the plume.
-    #[must_use]
     pub fn sums(&self) -> f64 {
         let every = |period_s: f64| self.flow_period_s.max(period_s);
         2.0 + self.spin_up_s / every(self.spin_up_period_s) + self.mission_s / every(self.drift_period_s)
@@ -79,7 +76,6 @@ pub struct Part {
 
 impl Part {
     /// A part that depends on no single number.
-    #[must_use]
     pub fn new(path: impl Into<String>, what: impl Into<String>) -> Self {
         Self { path: path.into(), what: what.into(), bytes: 0.0, seconds: 0.0, rule: None }
     }
@@ -106,7 +102,6 @@ impl Part {
     }
 
     /// The values of the field for which the part needs at most `bytes`, in words: "must be at most 3.2".
-    #[must_use]
     pub fn legal(&self, bytes: f64) -> Option<String> {
         let rule = self.rule?;
         // One percent less, to stay on the safe side.
@@ -140,7 +135,6 @@ pub struct Cost {
 
 impl Cost {
     /// A cost with one part.
-    #[must_use]
     pub fn single(part: Part) -> Self {
         Self { parts: vec![part] }
     }
@@ -160,39 +154,33 @@ impl Cost {
     }
 
     /// Memory, bytes.
-    #[must_use]
     pub fn bytes(&self) -> f64 {
         self.parts.iter().map(|p| p.bytes).sum()
     }
 
     /// Computing time, s.
-    #[must_use]
     pub fn seconds(&self) -> f64 {
         self.parts.iter().map(|p| p.seconds).sum()
     }
 
     /// Whether `bytes` of memory suffice; false if the need is not known.
-    #[must_use]
     pub fn fits(&self, bytes: f64) -> bool {
         self.bytes() <= bytes
     }
 
     /// The part that takes most memory.
-    #[must_use]
     pub fn largest(&self) -> Option<&Part> {
         // NaN sorts last, so it counts as the greatest.
         self.parts.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes))
     }
 
     /// The part that takes most time.
-    #[must_use]
     pub fn slowest(&self) -> Option<&Part> {
         self.parts.iter().max_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 }
 
 /// A time in words.
-#[must_use]
 pub fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.5 => format!("{:.1} s", s.max(0.1)),
@@ -206,7 +194,6 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// A size of memory in words.
-#[must_use]
 pub fn memory(bytes: f64) -> String {
     match bytes {
         b if b < 1e9 => format!("{:.0} MB", (b / 1e6).max(1.0)),

@@ -63,7 +63,6 @@ impl Digest {
     }
 
     /// The digest so far, 32 hexadecimal digits.
-    #[must_use]
     pub fn hex(&self) -> String {
         let mut all = self.0.hash.clone();
         all.update(&self.0.waiting[..self.0.used]);
@@ -118,13 +117,11 @@ impl Fingerprint {
     }
 
     /// The fingerprint so far.
-    #[must_use]
     pub fn finish(&self) -> [u8; 32] {
         *self.0.finalize().as_bytes()
     }
 
     /// A fingerprint as 64 hexadecimal digits.
-    #[must_use]
     pub fn hex(finished: &[u8; 32]) -> String {
         blake3::Hash::from_bytes(*finished).to_string()
     }

@@ -1,7 +1,6 @@
 //! Text in the content of a file: UTF-8, with or without the mark with which some editors begin it.
 
 /// The content without that mark.
-#[must_use]
 pub fn unmarked(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes)
 }

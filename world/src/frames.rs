@@ -17,7 +17,6 @@ pub struct Pose {
 
 impl Pose {
     /// A level body at `p` with the given heading.
-    #[must_use]
     pub fn level(p: Vector3<f64>, heading: Heading) -> Self {
         // `from_euler_angles` with two angles of zero, whose sines and cosines are known.
         let (s, c) = math::sin_cos(heading.yaw() * 0.5);
@@ -25,20 +24,17 @@ impl Pose {
     }
 
     /// World coordinates of a point given in body axes.
-    #[must_use]
     pub fn point(&self, p_B: Vector3<f64>) -> Vector3<f64> {
         self.p_WB + self.R_WB * p_B
     }
 
     /// Compass heading of the body's x axis.
-    #[must_use]
     pub fn heading(&self) -> Heading {
         let x = self.R_WB * Vector3::x();
         Heading::from_vector(x.xy())
     }
 
     /// (roll, pitch), radians, FLU signs: roll right side down positive, pitch *nose down* positive.
-    #[must_use]
     pub fn roll_pitch(&self) -> (f64, f64) {
         // `euler_angles` without the third. Straight up and down it chooses the roll as it likes.
         let q = &self.R_WB;
@@ -71,19 +67,16 @@ pub struct Truth {
 
 impl Truth {
     /// A body at rest with a pose.
-    #[must_use]
     pub fn at_rest(pose: Pose) -> Self {
         Self { pose, v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros() }
     }
 
     /// Velocity over ground in world axes, m/s.
-    #[must_use]
     pub fn v_world(&self) -> Vector3<f64> {
         self.pose.R_WB * self.v_WB_B
     }
 
     /// Whether every number is finite.
-    #[must_use]
     pub fn is_finite(&self) -> bool {
         self.pose.p_WB.iter().all(|v| v.is_finite())
             && self.pose.R_WB.coords.iter().all(|v| v.is_finite())

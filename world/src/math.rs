@@ -45,7 +45,6 @@ via_libm! {
 
 /// Sine and cosine of an angle in radians.
 #[inline]
-#[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }

@@ -13,7 +13,6 @@ pub const SMALLEST: f64 = 1e-18;
 pub const LARGEST: f64 = 1e18;
 
 /// A number as a person would write it.
-#[must_use]
 pub fn shown(v: f64) -> String {
     let size = v.abs();
     if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{v:e}") } else { format!("{v}") }
@@ -29,7 +28,6 @@ macro_rules! ranged {
         impl $name {
             /// The number.
             #[inline]
-            #[must_use]
             pub const fn get(self) -> f64 {
                 self.0
             }
@@ -38,7 +36,6 @@ macro_rules! ranged {
             ///
             /// # Panics
             /// If the number is out of range: a mistake in the code, not in a file.
-            #[must_use]
             pub const fn new($v: f64) -> Self {
                 assert!($ok, $says);
                 let $w = $v;
@@ -106,7 +103,6 @@ ranged! {
 
 impl HeadingDeg {
     /// The same direction as a [`Heading`](crate::units::Heading).
-    #[must_use]
     pub fn heading(self) -> crate::units::Heading {
         crate::units::Heading::from_deg(self.0)
     }

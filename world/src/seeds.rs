@@ -33,27 +33,23 @@ pub struct Key {
 
 impl Key {
     /// The key of all runs without a secret.
-    #[must_use]
     pub fn public() -> Self {
         Self { bytes: blake3::derive_key(OF_A_RUN, b""), mark: None }
     }
 
     /// The key that a secret text gives. A short or common text can be guessed: take 20 random characters or more.
-    #[must_use]
     pub fn secret(text: &str) -> Self {
         let mark = blake3::derive_key(OF_A_MARK, text.as_bytes());
         Self { bytes: blake3::derive_key(OF_A_RUN, text.as_bytes()), mark: mark.first_chunk().copied() }
     }
 
     /// What may be written of a secret key, to tell runs under different keys apart; `None` of the public one.
-    #[must_use]
     pub fn mark(&self) -> Option<String> {
         let digits = |mark: [u8; 8]| format!("{:016x}", u64::from_be_bytes(mark));
         self.mark.map(digits)
     }
 
     /// The seed of a number under this key.
-    #[must_use]
     pub fn seed(self, number: u64) -> Seed {
         Seed { number, key: self }
     }
@@ -70,19 +66,16 @@ impl fmt::Debug for Key {
 
 impl Seed {
     /// The number.
-    #[must_use]
     pub fn number(self) -> u64 {
         self.number
     }
 
     /// The key.
-    #[must_use]
     pub fn key(self) -> Key {
         self.key
     }
 
     /// The number and, where there is a secret, the mark of its key, in words.
-    #[must_use]
     pub fn describe(self) -> String {
         match self.key.mark() {
             Some(mark) => format!("{} under the key {mark}", self.number),
@@ -142,7 +135,6 @@ pub struct Stream {
 
 impl Stream {
     /// The stream of `entity` for `purpose` under the run's `seed`.
-    #[must_use]
     pub fn new(seed: impl Into<Seed>, entity: &str, purpose: &str) -> Self {
         Self { rng: rand_chacha::ChaCha8Rng::from_seed(seed.into().hash(entity, purpose)), spare: None }
     }
@@ -193,7 +185,6 @@ impl Stream {
 }
 
 /// A number for a counter-based generator, or a colour: it depends on the seed and the two names, and on nothing else.
-#[must_use]
 pub fn key(seed: impl Into<Seed>, entity: &str, purpose: &str) -> u64 {
     let [a, b, c, d, e, f, g, h, ..] = seed.into().hash(entity, purpose);
     u64::from_le_bytes([a, b, c, d, e, f, g, h])

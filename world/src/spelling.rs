@@ -1,7 +1,6 @@
 //! Names that were probably meant where somebody wrote another one.
 
 /// "did you mean" with all legal names.
-#[must_use]
 pub fn choose(given: &str, legal: &[&str], what: &str) -> String {
     let all = legal.join(", ");
     let near = (legal.iter())
@@ -16,7 +15,6 @@ pub fn choose(given: &str, legal: &[&str], what: &str) -> String {
 }
 
 /// The name that is surely meant: at most two edits away, and no other name is as near.
-#[must_use]
 pub fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
     let mut near: Vec<(usize, &str)> = legal.iter().map(|l| (distance(given, l), *l)).collect();
     near.sort_unstable();
@@ -29,7 +27,6 @@ pub fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
 }
 
 /// Number of edits (insert, delete, replace) between two words, ignoring case.
-#[must_use]
 pub fn distance(a: &str, b: &str) -> usize {
     let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();

@@ -30,7 +30,6 @@ pub enum Terrain {
 
 impl Terrain {
     /// A slope across the width of the area, shallow side `shoreward`.
-    #[must_use]
     pub fn sloping_over(area: &Area, shoreward: Heading, shallow_m: f64, deep_m: f64) -> Self {
         let u = shoreward.unit();
         let reach = area.corners().iter().map(|c| (c - area.centre).dot(&u)).fold(0.0, f64::max);
@@ -38,7 +37,6 @@ impl Terrain {
     }
 
     /// Height of the bed (negative: below the still surface), m.
-    #[must_use]
     pub fn bed_z(&self, x: f64, y: f64) -> f64 {
         match *self {
             Terrain::Level { depth_m } => -depth_m,
@@ -50,7 +48,6 @@ impl Terrain {
     }
 
     /// Upward unit normal of the bed.
-    #[must_use]
     pub fn normal(&self, x: f64, y: f64) -> Vector3<f64> {
         const H: f64 = 0.5;
         let dx = (self.bed_z(x + H, y) - self.bed_z(x - H, y)) / (2.0 * H);
@@ -60,7 +57,6 @@ impl Terrain {
 
     /// Distance along a ray from `from` (ENU, m) in the unit direction `dir` to the bed within `max_m`, m; zero if it
     /// starts below the bed.
-    #[must_use]
     pub fn ray(&self, from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         let above = |way: f64| {
             let p = from + dir * way;
@@ -96,7 +92,6 @@ impl Terrain {
     }
 
     /// Least depth anywhere, m.
-    #[must_use]
     pub fn shallowest_m(&self) -> f64 {
         match *self {
             Terrain::Level { depth_m } => depth_m,
@@ -105,7 +100,6 @@ impl Terrain {
     }
 
     /// Greatest depth anywhere, m.
-    #[must_use]
     pub fn deepest_m(&self) -> f64 {
         match *self {
             Terrain::Level { depth_m } => depth_m,

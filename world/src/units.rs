@@ -31,14 +31,12 @@ fn within_a_turn(angle_rad: f64) -> f64 {
 }
 
 /// Wraps an angle to (−π, π].
-#[must_use]
 pub fn wrap_pi(angle_rad: f64) -> f64 {
     let a = within_a_turn(angle_rad);
     if a > PI { a - TAU } else { a }
 }
 
 /// Wraps an angle to [0, 2π).
-#[must_use]
 pub fn wrap_tau(angle_rad: f64) -> f64 {
     let a = within_a_turn(angle_rad);
     if a >= TAU { 0.0 } else { a }
@@ -58,43 +56,36 @@ fn any_turn<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 
 impl Heading {
     /// From radians clockwise from north.
-    #[must_use]
     pub fn from_rad(rad: f64) -> Self {
         Self(wrap_tau(rad))
     }
 
     /// From degrees clockwise from north.
-    #[must_use]
     pub fn from_deg(deg: f64) -> Self {
         Self::from_rad(deg.to_radians())
     }
 
     /// Direction of an (east, north) vector; north for the zero vector.
-    #[must_use]
     pub fn from_vector(v: Vector2<f64>) -> Self {
         Self::from_rad(math::atan2(v.x, v.y))
     }
 
     /// Radians clockwise from north, in [0, 2π).
-    #[must_use]
     pub fn rad(self) -> f64 {
         self.0
     }
 
     /// Degrees clockwise from north, in [0, 360).
-    #[must_use]
     pub fn deg(self) -> f64 {
         self.0.to_degrees()
     }
 
     /// Yaw in ENU, radians anticlockwise from east, in (−π, π].
-    #[must_use]
     pub fn yaw(self) -> f64 {
         wrap_pi(FRAC_PI_2 - self.0)
     }
 
     /// Unit vector (east, north).
-    #[must_use]
     pub fn unit(self) -> Vector2<f64> {
         let (s, c) = math::sin_cos(self.0);
         Vector2::new(s, c)
@@ -113,7 +104,6 @@ impl Heading {
     }
 
     /// Signed turn from `self` to `other`, clockwise positive, in (−π, π].
-    #[must_use]
     pub fn turn_to(self, other: Self) -> f64 {
         wrap_pi(other.0 - self.0)
     }

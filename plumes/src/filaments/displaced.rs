@@ -23,7 +23,6 @@ pub struct DisplacedConcentration<'a> {
 
 impl<'a> DisplacedConcentration<'a> {
     /// What a probe measures at time `t_s` of the flow, s.
-    #[must_use]
     pub fn new(plume: &'a Plume, flow: &'a dyn Flow, t_s: f64) -> Self {
         Self { plume, flow, t_s }
     }

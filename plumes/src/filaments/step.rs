@@ -28,7 +28,6 @@ const REACH_BY_SOLIDS_M: f64 = 2.0;
 pub(super) const WORTH_THREADS: usize = 8192;
 
 /// A pool of so many threads; `None` for one, or if they cannot be started.
-#[must_use]
 pub fn threads(n: usize) -> Option<Arc<rayon::ThreadPool>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(n);
     (n > 1).then(|| pool.build().ok().map(Arc::new)).flatten()
@@ -41,7 +40,6 @@ impl Plume {
     }
 
     /// The threads that it uses.
-    #[must_use]
     pub fn threads(&self) -> Option<Arc<rayon::ThreadPool>> {
         self.threads.clone()
     }
@@ -63,7 +61,6 @@ impl Plume {
     }
 
     /// The time at which all filaments meet next, at the end of the longest step that starts now or last started, s.
-    #[must_use]
     pub fn next_meeting_s(&self) -> f64 {
         self.bands.next_meeting_s()
     }
@@ -88,7 +85,6 @@ impl Plume {
 
     /// Whether no filament begins a step before a time, s. Until then [`Self::look_at`] may take any time from the
     /// latest advance on, and back again.
-    #[must_use]
     pub fn rests_until(&self, t_s: f64) -> bool {
         self.bands.next_s() >= t_s - 1e-9
     }

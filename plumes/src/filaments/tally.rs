@@ -10,13 +10,11 @@ use world::digest::Digest;
 
 impl Plume {
     /// The time to which the plume was brought last, s.
-    #[must_use]
     pub fn now_s(&self) -> f64 {
         self.now_s
     }
 
     /// Number of filaments in the domain.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.stores.iter().map(|s| self.count(s)).sum()
     }
@@ -27,13 +25,11 @@ impl Plume {
     }
 
     /// Whether there are no filaments.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Number of filaments ever released.
-    #[must_use]
     pub fn released(&self) -> u64 {
         self.stores.iter().map(|s| self.ever(s)).sum()
     }
@@ -44,31 +40,26 @@ impl Plume {
     }
 
     /// Number of filaments that have left the domain.
-    #[must_use]
     pub fn left(&self) -> u64 {
         self.stores.iter().map(|s| s.left).sum()
     }
 
     /// How often a filament was reflected at a solid.
-    #[must_use]
     pub fn turned_back(&self) -> u64 {
         self.turned_back
     }
 
     /// Mass in the domain, kg.
-    #[must_use]
     pub fn mass_in_kg(&self) -> f64 {
         self.total(|s| self.count(s) as f64)
     }
 
     /// Mass ever released, kg.
-    #[must_use]
     pub fn mass_released_kg(&self) -> f64 {
         self.total(|s| self.ever(s) as f64)
     }
 
     /// Mass that has left the domain, kg.
-    #[must_use]
     pub fn mass_left_kg(&self) -> f64 {
         self.total(|s| s.left as f64)
     }
@@ -78,13 +69,11 @@ impl Plume {
     }
 
     /// The sources, as placed.
-    #[must_use]
     pub fn sources(&self) -> &[Source] {
         &self.sources
     }
 
     /// The flow that the filaments see.
-    #[must_use]
     pub fn grid(&self) -> &FlowGrid {
         &self.grid
     }
@@ -98,7 +87,6 @@ impl Plume {
     /// Every k-th filament of each source, with the smallest k that leaves at most `max_n` (but at least one of each
     /// source); the same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it
     /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
-    #[must_use]
     pub fn decimated(&self, max_n: usize) -> Vec<[f64; 6]> {
         let shown = |every: usize| -> usize { (self.stores.iter()).map(|s| self.count(s).div_ceil(every)).sum() };
         let longest = self.stores.iter().map(|s| self.count(s)).max().unwrap_or(0);

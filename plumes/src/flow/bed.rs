@@ -71,7 +71,6 @@ impl BoundaryLayer {
     }
 
     /// Height at which the free current is reached in water of this depth, m.
-    #[must_use]
     pub fn top<N: Number>(&self, depth_m: N) -> N {
         let top = N::from(self.delta).least(depth_m);
         top.greatest(N::from(3.0 * self.z0))
@@ -83,7 +82,6 @@ impl BoundaryLayer {
     }
 
     /// Part of the free current that is left at a height above the bed.
-    #[must_use]
     pub fn factor<N: Number>(&self, height_m: N, depth_m: N) -> N {
         let top = self.top(depth_m);
         if height_m.value() >= top.value() {
@@ -96,7 +94,6 @@ impl BoundaryLayer {
     }
 
     /// Friction velocity u_*, m/s, under a free current of this speed.
-    #[must_use]
     pub fn friction_velocity(&self, free_speed_m_s: f64, depth_m: f64) -> f64 {
         KARMAN * free_speed_m_s / self.ln_top(self.top(depth_m))
     }

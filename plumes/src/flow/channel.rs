@@ -42,7 +42,6 @@ pub struct Channel {
 
 impl Channel {
     /// Mean speed at a height above the bed, m/s.
-    #[must_use]
     pub fn speed<N: Number>(&self, height_m: N) -> N {
         let h = height_m.within(N::from(0.0), N::from(self.depth_m));
         let viscous = h * (self.u_star_m_s * self.u_star_m_s) / self.viscosity_m2_s;
@@ -62,20 +61,17 @@ impl Channel {
     }
 
     /// Intensities (along, across, up) at a height above the bed, m/s.
-    #[must_use]
     pub fn intensities(&self, height_m: f64) -> [f64; 3] {
         let fall = math::exp(-height_m / self.depth_m);
         INTENSITIES.map(|c| c * self.u_star_m_s * fall)
     }
 
     /// Turbulent energy at a height, m²/s².
-    #[must_use]
     pub fn energy(&self, height_m: f64) -> f64 {
         4.78 * self.u_star_m_s * self.u_star_m_s * math::exp(-2.0 * height_m / self.depth_m)
     }
 
     /// Dissipation at a height, m²/s³; within a twentieth of the depth from the bed, that at the twentieth.
-    #[must_use]
     pub fn dissipation(&self, height_m: f64) -> f64 {
         let xi = (height_m / self.depth_m).max(0.05);
         let u3 = self.u_star_m_s * self.u_star_m_s * self.u_star_m_s;
@@ -83,7 +79,6 @@ impl Channel {
     }
 
     /// Mean over the depth of a function of the height above the bed.
-    #[must_use]
     pub fn mean_of(&self, f: impl Fn(f64) -> f64) -> f64 {
         const N: usize = 100;
         let heights = (0..N).map(|k| (k as f64 + 0.5) / N as f64 * self.depth_m);

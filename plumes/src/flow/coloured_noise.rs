@@ -34,7 +34,6 @@ pub struct NoiseStep {
 
 impl NoiseStep {
     /// Step of `h` s of noise with standard deviation `std`, frequency `omega` rad/s, damping ratio in (0, 1).
-    #[must_use]
     pub fn new(std: f64, omega: f64, damping: f64, h: f64) -> Self {
         let decay = math::exp(-damping * omega * h);
         let w_d = omega * (1.0 - damping * damping).sqrt();
@@ -55,7 +54,6 @@ impl NoiseStep {
 
 impl ColouredNoise {
     /// A process drawn from the stationary law of `step`.
-    #[must_use]
     pub fn stationary(step: &NoiseStep, mut rng: Stream) -> Self {
         let x = step.std * rng.normal();
         let v = step.std * step.omega * rng.normal();
@@ -63,7 +61,6 @@ impl ColouredNoise {
     }
 
     /// Present value.
-    #[must_use]
     pub fn value(&self) -> f64 {
         self.x
     }

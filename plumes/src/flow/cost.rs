@@ -17,7 +17,6 @@ const ROUND_S: f64 = 250e-9;
 
 impl WaterSpec {
     /// Memory and time that it needs; paths begin with `water`.
-    #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64, times: &Times) -> Cost {
         let mut cost = Cost::default();
         let blockage = self.blockage.as_ref();
@@ -48,14 +47,12 @@ impl WaterSpec {
     }
 
     /// Number of waves that are summed whenever the water is evaluated.
-    #[must_use]
     pub fn waves(&self) -> f64 {
         self.currents.iter().map(|c| c.waves()).sum()
     }
 
     /// Approximate speed at which the water carries things away, m/s: the mean of the currents that keep their
     /// direction.
-    #[must_use]
     pub fn carries_m_s(&self) -> f64 {
         let all = self.currents.iter().map(|c| c.carries_m_s());
         all.sum::<Vector2<f64>>().norm()

@@ -87,7 +87,6 @@ impl FlowGrid {
     /// # Panics
     /// If the shape has fewer than two levels, no positive cell size, or a stretch outside [0, 1): mistakes in the
     /// code.
-    #[must_use]
     pub fn new(area: &Area, terrain: &Terrain, shape: GridShape) -> Self {
         assert!(
             shape.levels >= 2 && shape.cell_m > 0.0 && (0.0..1.0).contains(&shape.stretch),
@@ -126,7 +125,6 @@ impl FlowGrid {
     }
 
     /// World position of a node, m.
-    #[must_use]
     pub fn node(&self, i: usize, j: usize, k: usize) -> Vector3<f64> {
         let (di, dj) = (i as f64 * f64::from(self.spacing[0]), j as f64 * f64::from(self.spacing[1]));
         let xy = |d: usize| {
@@ -137,14 +135,12 @@ impl FlowGrid {
     }
 
     /// A world point from the datum, m.
-    #[must_use]
     pub fn local(&self, p: &Vector3<f64>) -> [f32; 3] {
         let [x, y] = [0, 1].map(|d| (p[d] - self.datum[d]) as f32);
         [x, y, p.z as f32]
     }
 
     /// A point from the datum in the world, m.
-    #[must_use]
     pub fn world(&self, [x, y, z]: [f32; 3]) -> Vector3<f64> {
         let [x, y, z] = [x, y, z].map(f64::from);
         Vector3::new(self.datum.x + x, self.datum.y + y, z)
@@ -152,7 +148,6 @@ impl FlowGrid {
 
     /// Trilinear values at a point from the datum, m; the point is first moved into the grid.
     #[inline]
-    #[must_use]
     pub fn sample(&self, x: f32, y: f32, z: f32) -> GridSample {
         let [nx, ny, nz] = self.dims;
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);

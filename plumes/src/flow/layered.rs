@@ -273,7 +273,6 @@ pub struct LayeredColumn<'a, N = f64> {
 
 impl Layered {
     /// The layers over the floor at (east, north) `p` and time `t_s`.
-    #[must_use]
     pub fn column<N: Number>(&self, p: Vector2<N>, floor: &Floor<N>, t_s: N) -> LayeredColumn<'_, N> {
         let mut column =
             LayeredColumn { of: self, u: [still(Vector2::zeros()); MAX_LAYERS], faces: [Sheet::level(0.0); MAX_FACES] };

@@ -226,7 +226,6 @@ impl Meander {
     }
 
     /// Velocity at (east, north), m/s.
-    #[must_use]
     pub fn velocity<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
         let last = N::from((self.levels.len() - 1) as f64);
         let at = (t_s / self.dt_s - self.first as f64).within(N::from(0.0), last);

@@ -45,14 +45,12 @@ impl Default for MixingSpec {
 }
 
 /// Vertical diffusivity of a neutral stream of depth `reach_m` at a height above the bed, m²/s.
-#[must_use]
 pub fn parabolic(u_star_m_s: f64, height_m: f64, reach_m: f64) -> f64 {
     let s = (height_m / reach_m).clamp(0.0, 1.0);
     KARMAN * u_star_m_s * reach_m * s * (1.0 - s)
 }
 
 /// Gradient Richardson number of a density gradient (kg/m⁴) in a squared shear (1/s²).
-#[must_use]
 pub fn richardson(drho_dz: f64, density_kg_m3: f64, shear2: f64) -> f64 {
     let n2 = (-GRAVITY_M_S2 * drho_dz / density_kg_m3).max(0.0);
     // A minimum shear keeps the result finite in still, stratified water.
@@ -60,7 +58,6 @@ pub fn richardson(drho_dz: f64, density_kg_m3: f64, shear2: f64) -> f64 {
 }
 
 /// Part of the neutral diffusivity that is left at a gradient Richardson number.
-#[must_use]
 pub fn damping(ri: f64) -> f64 {
     let x = 1.0 + 10.0 / 3.0 * ri;
     1.0 / (x * x.sqrt())

@@ -104,7 +104,6 @@ pub struct Jet {
 
 impl Jet {
     /// East, north, up and time themselves, at a place and a time.
-    #[must_use]
     pub fn coordinates(p: &Vector3<f64>, t_s: f64) -> [Self; 4] {
         let values = [p.x, p.y, p.z, t_s];
         std::array::from_fn(|k| Self {

@@ -106,7 +106,6 @@ impl TideSpec {
 
 impl Tide {
     /// (east, north) above the bed's boundary layer, m/s.
-    #[must_use]
     pub fn velocity<N: Number>(&self, t_s: N) -> Vector2<N> {
         let of = |c: &Constituent| {
             let (sin, cos) = (t_s * c.omega_rad_s - c.phase_rad).sin_cos();

@@ -23,7 +23,6 @@ pub struct UniformSpec {
 
 impl UniformSpec {
     /// (east, north), m/s.
-    #[must_use]
     pub fn velocity(&self) -> Vector2<f64> {
         self.heading_deg.heading().unit() * self.speed_m_s.get()
     }

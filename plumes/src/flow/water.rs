@@ -78,19 +78,16 @@ impl Water {
     }
 
     /// What is wrong with the currents of other crates at a place and a time. In the water they must be right.
-    #[must_use]
     pub fn fault(&self, p: Vector2<f64>, t_s: f64) -> Option<String> {
         self.others.iter().find_map(|o| o.fault(p, t_s))
     }
 
     /// The channel, if the water is a channel.
-    #[must_use]
     pub fn channel(&self) -> Option<&Channel> {
         self.flume.as_ref().map(|f| &f.channel)
     }
 
     /// Its resolved eddies, if it has any.
-    #[must_use]
     pub fn eddies(&self) -> Option<&Eddies> {
         self.flume.as_ref().and_then(|f| f.eddies.as_ref())
     }
@@ -103,19 +100,16 @@ impl Water {
     }
 
     /// The eddies that only carry filaments, if there are any.
-    #[must_use]
     pub fn small(&self) -> Option<&Arc<Small>> {
         self.eddies().and_then(Eddies::small)
     }
 
     /// The surface waves, if there are any.
-    #[must_use]
     pub fn waves(&self) -> Option<&Waves> {
         self.waves.as_ref()
     }
 
     /// Velocity at a place and a time without the eddies of a channel, m/s: a check need not draw them.
-    #[must_use]
     pub fn velocity_without_eddies(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let turned = (self.blocked.as_ref()).and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
         let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
@@ -130,7 +124,6 @@ impl Water {
     }
 
     /// The solution for the obstacles, if they divert the currents.
-    #[must_use]
     pub fn blocked(&self) -> Option<&ObstacleFlow> {
         self.blocked.as_ref()
     }
@@ -153,7 +146,6 @@ impl Water {
     }
 
     /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
-    #[must_use]
     pub fn column<N: Number>(&self, p: Vector2<N>, t_s: N) -> Column<'_, N> {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));

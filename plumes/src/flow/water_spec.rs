@@ -51,14 +51,12 @@ impl Default for WaterSpec {
 
 impl WaterSpec {
     /// Whether the area's sides are the walls of a channel.
-    #[must_use]
     pub fn is_walled(&self) -> bool {
         self.currents.iter().any(|c| c.is_walled())
     }
 
     /// The grid on which the plume sees the water, at most `depth_m` deep: one that shows the waves and interfaces of
     /// its currents or, round obstacles, the corners of the water's cells.
-    #[must_use]
     pub fn grid_shape(&self, area: &Area, depth_m: f64) -> GridShape {
         let blockage = self.blockage.as_ref().map(BlockageSpec::grid_shape);
         blockage.unwrap_or_else(|| {

@@ -101,7 +101,6 @@ const RISE_S: f64 = 30e-9;
 
 impl NozzleSpec {
     /// Volume released, m³/s.
-    #[must_use]
     pub fn volume_m3_s(&self) -> f64 {
         let d = self.diameter_m.get();
         std::f64::consts::FRAC_PI_4 * d * d * self.speed_m_s.get()
@@ -111,7 +110,6 @@ impl NozzleSpec {
 impl ReleaseSpec {
     /// The same release with the values that a nozzle sets: filaments with the variance of its disc, (d/4)², one
     /// standard deviation apart.
-    #[must_use]
     pub fn settled(&self) -> Self {
         let Some(nozzle) = &self.nozzle else {
             return self.clone();
@@ -162,7 +160,6 @@ impl ReleaseSpec {
 
     /// What the filaments need in an area whose water carries them at `carries_m_s`. Filaments that eddies or slow
     /// water keep longer are not counted.
-    #[must_use]
     pub fn cost(&self, area: &Area, carries_m_s: f64, times: &Times) -> Cost {
         let (path, value, rate_hz, power) = match &self.nozzle {
             None => ("rate_hz", self.rate_hz.get(), self.rate_hz.get(), 1.0),

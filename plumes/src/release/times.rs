@@ -20,7 +20,6 @@ pub struct ReleaseTimes {
 
 impl ReleaseTimes {
     /// Times of the source called `id` under the run's `seed`; nothing is released before the first `until`.
-    #[must_use]
     pub fn new(rate_hz: f64, poisson: bool, seed: Seed, id: &str) -> Self {
         Self { rate_hz, draws: poisson.then(|| Stream::new(seed, id, "release")), next_s: None }
     }
@@ -39,7 +38,6 @@ impl ReleaseTimes {
     }
 
     /// Time of the next release, s; `None` before the source has opened.
-    #[must_use]
     pub fn next_s(&self) -> Option<f64> {
         self.next_s
     }

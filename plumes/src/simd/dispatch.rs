@@ -95,7 +95,6 @@ fn with_avx512<R>(work: impl FnOnce(InstructionSet) -> R) -> R {
 
 /// Names the vector instructions that the filaments' step uses on this machine. The results have the same bits with
 /// all of them.
-#[must_use]
 pub fn instructions() -> &'static str {
     InstructionSet::detect().name()
 }

@@ -48,7 +48,6 @@ pub struct Autopilot {
 
 impl Autopilot {
     /// An autopilot whose integrals are zero.
-    #[must_use]
     pub fn new(spec: &AutopilotSpec) -> Self {
         Self { spec: spec.clone(), heading_sum: 0.0, depth_sum: 0.0, speed_sum: 0.0 }
     }

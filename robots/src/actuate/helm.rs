@@ -42,7 +42,6 @@ pub struct Helm {
 
 impl Helm {
     /// The helm of a vehicle with these limits that sets out at a speed, m/s.
-    #[must_use]
     pub fn new(limits: RateLimits, spec: &AutopilotSpec, speed_m_s: f64) -> Self {
         Self {
             limits,

@@ -20,7 +20,6 @@ pub enum Pilot {
 
 impl Pilot {
     /// What steers a vehicle, which sets out at a speed, m/s.
-    #[must_use]
     pub fn new(spec: &AutopilotSpec, control: &Control, speed_m_s: f64) -> Self {
         match control {
             Control::Rates(limits) => Self::Rates(Helm::new(*limits, spec, speed_m_s)),
@@ -30,7 +29,6 @@ impl Pilot {
     }
 
     /// Whether a thruster was at its limit in the last step; `None` without an allocation among thrusters.
-    #[must_use]
     pub fn saturated(&self) -> Option<bool> {
         match self {
             Self::Drives(pilot, _) => pilot.saturated(),

@@ -23,13 +23,11 @@ pub struct GoTo {
 
 impl GoTo {
     /// To `point` (east, north), m.
-    #[must_use]
     pub fn new(point: Vector2<f64>) -> Self {
         Self { point: Some(point), begun: false }
     }
 
     /// To the launch point.
-    #[must_use]
     pub fn home() -> Self {
         Self { point: None, begun: false }
     }

@@ -33,7 +33,6 @@ pub struct Passes {
 impl Passes {
     /// Lines through points `offsets_m` to the right of `place`, looking along `along`. Each extends `half_length_m`
     /// to both ends.
-    #[must_use]
     pub fn over(place: Vector2<f64>, along: Heading, offsets_m: &[f64], half_length_m: f64, area: &Area) -> Self {
         let right = along.turned(FRAC_PI_2).unit();
         let line = |(k, offset): (usize, &f64)| {
@@ -61,7 +60,6 @@ impl Passes {
 
     /// Number (from 0) of the line being flown, if a vehicle at `position` on `course` is on it; `None` while it is
     /// on its way to the line.
-    #[must_use]
     pub fn on_line(&self, position: Vector2<f64>, course: Heading) -> Option<usize> {
         let number = self.begun.checked_sub(1)?;
         let (from, to) = *self.lines.get(number)?;

@@ -67,7 +67,6 @@ impl DeclareParams for AlongFlow {
 impl AlongFlow {
     /// The most up-flow of `points` (east, north; m), if enough of them lie close to it along the flow, and also
     /// across it if `across_m` is given; and the points that the result rests on.
-    #[must_use]
     pub fn declare(&self, points: &[Lcdp], up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
         let up = up_flow.unit();
         let mut sorted: Vec<(f64, &Lcdp)> = points.iter().map(|p| (p.position.dot(&up), p)).collect();

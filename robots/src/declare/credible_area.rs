@@ -56,7 +56,6 @@ pub struct CredibleArea {
 
 impl CredibleArea {
     /// The rule before its first tick.
-    #[must_use]
     pub fn new(params: &Params) -> Self {
         Self { params: params.clone(), held: HeldCondition::default() }
     }

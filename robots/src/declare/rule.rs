@@ -19,7 +19,6 @@ pub enum Points {
 
 impl Points {
     /// Those points of a searcher.
-    #[must_use]
     pub fn select(self, memory: &PlumeMemory) -> &[Lcdp] {
         match self {
             Points::Lost => memory.lost.all(),

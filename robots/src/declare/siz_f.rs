@@ -73,7 +73,6 @@ impl SizF {
     /// The most up-flow (east, north), m, of those `points` (in order of time) that remain near their mean, if there
     /// are enough, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
     /// size only.
-    #[must_use]
     pub fn declare(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> Option<(Vector2<f64>, Evidence)> {
         let radius_m = self.size.radius_m(points, up_flow, fix_m);
         let (left, near) = self.left(points, up_flow, radius_m);

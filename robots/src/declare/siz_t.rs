@@ -101,7 +101,6 @@ impl SizT {
     /// The mean (east, north), m, of the considered `points` (given in order of time), if they lie close enough
     /// together, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
     /// size only; `up_flow` matters to an adaptive size and to the order of the same name.
-    #[must_use]
     pub fn declare(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> Option<(Vector2<f64>, Evidence)> {
         let first = self.looked_at(points, up_flow)?;
         let corner = first[0].position;

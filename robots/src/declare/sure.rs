@@ -61,7 +61,6 @@ pub struct Sure {
 
 impl Sure {
     /// The rule before its first tick.
-    #[must_use]
     pub fn new(params: &Params) -> Self {
         Self { params: params.clone(), held: HeldCondition::default(), stated: None }
     }

@@ -49,7 +49,6 @@ pub struct Unchanged {
 
 impl Unchanged {
     /// The rule before its first tick.
-    #[must_use]
     pub fn new(params: &Params) -> Self {
         Self { for_s: params.for_s.get(), since: None }
     }

@@ -57,7 +57,6 @@ pub struct AdaptiveSize {
 impl AdaptiveSize {
     /// Radius of the zone, m, from points in order of time; `fix_m` is the error of a navigation fix along an axis,
     /// m.
-    #[must_use]
     pub fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
         let newest = points.len().saturating_sub(self.look_back.get());
         let across: Vec<f64> = (points[newest..].iter()).map(|p| p.in_flow(up_flow).y).collect();

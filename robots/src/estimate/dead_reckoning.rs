@@ -72,7 +72,6 @@ pub struct DeadReckoning {
 
 impl DeadReckoning {
     /// Dead reckoning that begins at `start` and steps by `dt_s`.
-    #[must_use]
     pub fn new(spec: &DeadReckoningSpec, start: Start, dt_s: f64) -> Self {
         let attitude =
             Attitude { heading: start.heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() };

@@ -17,7 +17,6 @@ pub enum EstimatorSpec {
 impl EstimatorSpec {
     /// The instruments that it needs to tell heading, place, depth and water layer; paths below `estimator`. The flow
     /// needs an ADCP, too, and the altitude an altimeter, for those who ask for them.
-    #[must_use]
     pub fn needs(&self) -> Vec<Need> {
         let Self::DeadReckoning(spec) = self;
         let mut needs = vec![
@@ -33,7 +32,6 @@ impl EstimatorSpec {
     }
 
     /// The estimator, which begins at `start` and steps by `dt_s`.
-    #[must_use]
     pub fn build(&self, start: Start, dt_s: f64) -> DeadReckoning {
         let Self::DeadReckoning(spec) = self;
         DeadReckoning::new(spec, start, dt_s)

@@ -37,7 +37,6 @@ impl DriveFaults {
     ///
     /// # Panics
     /// If the vehicle has no drive of a name: `mistakes` finds that before a run.
-    #[must_use]
     pub fn new(faults: &[FaultSpec], dt_s: f64, drives: &[NamedDrive]) -> Self {
         let failing = |fault: &FaultSpec| match fault.what.subject() {
             FaultSubject::Drive(name, how) => {

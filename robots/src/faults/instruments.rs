@@ -29,7 +29,6 @@ pub struct SensorFaults {
 
 impl SensorFaults {
     /// Those among the faults of a robot with these instruments; steps take `dt_s`.
-    #[must_use]
     pub fn new(faults: &[FaultSpec], sensors: &SensorsSpec, dt_s: f64) -> Self {
         Self {
             faults: (faults.iter())

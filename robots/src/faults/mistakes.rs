@@ -21,7 +21,6 @@ pub struct Mistake {
 
 /// All mistakes in the faults of a robot with these instruments. `drives` are those of its vehicle; without them they
 /// are not checked.
-#[must_use]
 pub fn mistakes(faults: &[FaultSpec], sensors: &SensorsSpec, drives: Option<&[NamedDrive]>) -> Vec<Mistake> {
     let mut found = Vec::new();
     for (i, fault) in faults.iter().enumerate() {

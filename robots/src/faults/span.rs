@@ -17,26 +17,22 @@ pub struct Span {
 impl Span {
     /// From the first step that begins at `at_s` or later, until before the first that begins at `until_s` or later; for
     /// good without it. Steps take `dt_s`.
-    #[must_use]
     pub fn new(at_s: f64, until_s: Option<f64>, dt_s: f64) -> Self {
         let step = |s: f64| (s / dt_s - NEAR).ceil().max(0.0) as u64;
         Self { at_s, from: step(at_s), until: until_s.map(step) }
     }
 
     /// Whether it holds now.
-    #[must_use]
     pub fn holds(&self, clock: &Clock) -> bool {
         clock.step >= self.from && !self.is_over(clock)
     }
 
     /// Whether it held before and will not again.
-    #[must_use]
     pub fn is_over(&self, clock: &Clock) -> bool {
         self.until.is_some_and(|until| clock.step >= until)
     }
 
     /// Time since it began, s.
-    #[must_use]
     pub fn lasted_s(&self, clock: &Clock) -> f64 {
         (clock.t_s() - self.at_s).max(0.0)
     }

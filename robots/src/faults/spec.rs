@@ -93,7 +93,6 @@ impl Faulty {
     }
 
     /// In words, for people.
-    #[must_use]
     pub fn describe(&self) -> String {
         match self.subject() {
             FaultSubject::Instrument(field, how) => {
@@ -121,7 +120,6 @@ impl Faulty {
 
 impl FaultSpec {
     /// When it holds, in steps of `dt_s`.
-    #[must_use]
     pub fn span(&self, dt_s: f64) -> Span {
         Span::new(self.at_s.get(), self.until_s.map(Positive::get), dt_s)
     }

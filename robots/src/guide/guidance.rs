@@ -59,7 +59,6 @@ pub struct Guidance {
 
 impl Guidance {
     /// A guidance without a goal.
-    #[must_use]
     pub fn new(spec: &GuidanceSpec) -> Self {
         Self {
             filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),

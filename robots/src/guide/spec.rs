@@ -62,7 +62,6 @@ impl GuidanceSpec {
 
     /// Radius of the tightest turn of a REMUS that follows the commanded heading, m: that of its speed and rate, or the
     /// planned one if that is less.
-    #[must_use]
     pub fn tightest_turn_m(&self) -> f64 {
         let rate_rad_s = self.heading_rate_deg_s.get().to_radians();
         (self.water_speed_limit_m_s.get().min(TURNING_M_S) / rate_rad_s).min(self.turn_radius_m.get())

@@ -22,7 +22,6 @@ impl BeliefGrid {
     /// A grid of `n` cells over an operating area, between two depths (m). The first axis lies along the area's own
     /// axis, the second points to the left of it, the third upwards. If the area's axis points east, they are east,
     /// north and up.
-    #[must_use]
     pub fn over(area: &Area, top_depth_m: f64, bottom_depth_m: f64, n: [usize; 3]) -> Self {
         let along = area.axis.unit();
         let left = Vector2::new(-along.y, along.x);
@@ -37,7 +36,6 @@ impl BeliefGrid {
     }
 
     /// The grid with each cell divided into so many along both horizontal axes.
-    #[must_use]
     pub fn divided(&self, by: usize) -> Self {
         let [nx, ny, nz] = self.n;
         let [hx, hy, hz] = self.cell_m;
@@ -45,59 +43,50 @@ impl BeliefGrid {
     }
 
     /// How many cells.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.n[0] * self.n[1] * self.n[2]
     }
 
     /// No cell at all.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Index of a cell: first axis fastest.
-    #[must_use]
     pub fn index(&self, [i, j, k]: [usize; 3]) -> usize {
         (k * self.n[1] + j) * self.n[0] + i
     }
 
     /// Place of a cell in the grid.
-    #[must_use]
     pub fn place(&self, index: usize) -> [usize; 3] {
         let (row, i) = (index / self.n[0], index % self.n[0]);
         [i, row % self.n[1], row / self.n[1]]
     }
 
     /// Middle of a cell, world ENU, m.
-    #[must_use]
     pub fn centre(&self, index: usize) -> Vector3<f64> {
         self.world(self.local_centre(index))
     }
 
     /// A point (world ENU, m) in the grid's own axes, m from its corner.
-    #[must_use]
     pub fn local(&self, p_W: &Vector3<f64>) -> [f64; 3] {
         let d = p_W.xy() - self.corner.xy();
         [d.dot(&self.axes[0]), d.dot(&self.axes[1]), p_W.z - self.corner.z]
     }
 
     /// A point in the grid's own axes (m from its corner) in the world (ENU, m).
-    #[must_use]
     pub fn world(&self, local: [f64; 3]) -> Vector3<f64> {
         let xy = self.corner.xy() + self.axes[0] * local[0] + self.axes[1] * local[1];
         Vector3::new(xy.x, xy.y, self.corner.z + local[2])
     }
 
     /// Middle of a cell in the grid's own axes, m from its corner.
-    #[must_use]
     pub fn local_centre(&self, index: usize) -> [f64; 3] {
         let place = self.place(index);
         [0, 1, 2].map(|a| (place[a] as f64 + 0.5) * self.cell_m[a])
     }
 
     /// The cell that holds a point (world ENU, m), if any; in a map of the plane the height does not matter.
-    #[must_use]
     pub fn cell(&self, p_W: &Vector3<f64>) -> Option<usize> {
         let local = self.local(p_W);
         let mut cell = [0; 3];
@@ -136,7 +125,6 @@ const PARTS: usize = 8;
 impl Belief {
     /// Probability of a source within `m` metres (horizontally) of a place (east, north, m), whatever its depth. Within a
     /// cell it is spread evenly.
-    #[must_use]
     pub fn within(&self, place: Vector2<f64>, m: f64) -> f64 {
         let grid = &self.grid;
         let at = grid.local(&place.push(0.0));

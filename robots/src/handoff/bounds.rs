@@ -24,7 +24,6 @@ impl Bounds {
     pub const ANY: Self = Self { far_m: f64::MAX, fast_m_s: f64::MAX, least: -f64::MAX };
 
     /// Those for a strategy: of another crate, or of this program.
-    #[must_use]
     pub fn for_origin(own: bool) -> Self {
         if own { Self::OWN } else { Self::ANY }
     }
@@ -106,7 +105,6 @@ fn within(field: &str, values: &[f64], most: f64) -> Option<String> {
 
 impl Goal {
     /// What of it cannot be carried out.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         // Who sets the drives asks for neither height nor speed; what stands there is only shown.
         let bypasses = matches!(self.manoeuvre, Manoeuvre::Direct { .. } | Manoeuvre::Drives(_));
@@ -119,7 +117,6 @@ impl Goal {
 
 impl MoveOrder {
     /// What of it a vehicle with so many drives cannot carry out.
-    #[must_use]
     pub fn fault(&self, drives: usize) -> Option<String> {
         let bounds = Bounds::OWN;
         if let Manoeuvre::Drives(set) = &self.manoeuvre
@@ -138,7 +135,6 @@ impl MoveOrder {
 
 impl HeadOrder {
     /// What of it no gantry can carry out.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         let speeds = self.speed_m_s.as_ref().map_or(&[][..], |v| v.as_slice());
         (bounds.above_0("speed_m_s", speeds, bounds.fast_m_s))
@@ -148,7 +144,6 @@ impl HeadOrder {
 
 impl Declaration {
     /// What of it is no place or no number.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         let place = |field: &str, p: &[f64]| bounds.place(&format!("declare.{field}"), p);
         (place("position_m", self.position.as_slice()))
@@ -173,7 +168,6 @@ impl Declaration {
 
 impl Decision {
     /// What of it cannot be carried out or shown.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         (self.goal.fault(bounds)).or_else(|| self.declared.and_then(|d| d.fault(bounds)))
     }
@@ -181,7 +175,6 @@ impl Decision {
 
 impl Shown {
     /// What of it cannot be shown.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         let lost = |p: &Vector2<f64>| bounds.place("lost_points_m", p.as_slice());
         let planned = |p: &Vector3<f64>| bounds.place("planned_m", p.as_slice());
@@ -191,7 +184,6 @@ impl Shown {
 
 impl GantryDecision {
     /// What of it cannot be carried out.
-    #[must_use]
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
         let order = HeadOrder {
             id: Some(self.id),

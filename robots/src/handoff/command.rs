@@ -30,7 +30,6 @@ pub struct MoveSetpoint {
 
 impl MoveSetpoint {
     /// The same for a vehicle that cannot hover: heading and speed of the velocity.
-    #[must_use]
     pub fn steered(&self) -> Setpoint {
         let speed = self.over_ground_m_s.norm();
         Setpoint {
@@ -68,7 +67,6 @@ pub enum Actuation {
 
 impl Actuation {
     /// The set-point of a drive by its place in [`NamedDrive`](super::NamedDrive)'s order; `None` without such a drive.
-    #[must_use]
     pub fn drive(&self, place: usize) -> Option<f64> {
         match self {
             Self::Fins(set) => [set.rudder_rad, set.stern_rad, set.rpm].get(place).copied(),

@@ -44,7 +44,6 @@ pub struct Plant {
 
 impl Plant {
     /// C(ν)ν of a velocity through the water and an angular velocity.
-    #[must_use]
     pub fn coriolis(&self, v: &Vector3<f64>, w: &Vector3<f64>) -> Vector6<f64> {
         let momentum = self.mass * Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
         let l = momentum.fixed_rows::<3>(0).into_owned();
@@ -84,25 +83,21 @@ pub struct ThrustTable(pub Vec<(f64, f64)>);
 
 impl ThrustTable {
     /// Least and greatest input.
-    #[must_use]
     pub fn inputs(&self) -> [f64; 2] {
         [self.0[0].0, self.0[self.0.len() - 1].0]
     }
 
     /// Least and greatest thrust, N.
-    #[must_use]
     pub fn thrusts_n(&self) -> [f64; 2] {
         [self.0[0].1, self.0[self.0.len() - 1].1]
     }
 
     /// Thrust, N, of an input.
-    #[must_use]
     pub fn thrust_n(&self, input: f64) -> f64 {
         between(&self.0, input, |p| *p)
     }
 
     /// The input that gives a thrust, N: in a dead band its middle.
-    #[must_use]
     pub fn input(&self, thrust_n: f64) -> f64 {
         let mut same = self.0.iter().filter(|(_, n)| *n == thrust_n);
         if let Some(first) = same.next() {
@@ -135,7 +130,6 @@ pub struct DriveCommand {
 
 impl DriveCommand {
     /// From at most [`MOST_DRIVES`] set-points.
-    #[must_use]
     pub fn new(set_points: &[f64]) -> Self {
         let mut set = [0.0; MOST_DRIVES];
         set[..set_points.len()].copy_from_slice(set_points);
@@ -143,7 +137,6 @@ impl DriveCommand {
     }
 
     /// The set-points.
-    #[must_use]
     pub fn all(&self) -> &[f64] {
         &self.set[..self.n]
     }
@@ -170,7 +163,6 @@ pub struct NamedDrive {
 
 impl NamedDrive {
     /// Those of a vehicle with a rudder, a stern plane and a propeller.
-    #[must_use]
     pub fn fins() -> Vec<Self> {
         let named = |(name, unit): (&str, DriveUnit)| Self { name: name.to_string(), unit, idle: 0.0 };
         [("rudder", DriveUnit::Fin), ("stern_plane", DriveUnit::Fin), ("propeller", DriveUnit::Rpm)].map(named).to_vec()

@@ -65,7 +65,6 @@ impl Behaviour {
     ];
 
     /// Name as it stands in files and topics.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Other(name) => name,
@@ -75,7 +74,6 @@ impl Behaviour {
 
     /// The different behaviours among `all`: those of this crate in the order of tables, then others in order of
     /// appearance.
-    #[must_use]
     pub fn seen(all: impl Iterator<Item = Behaviour>) -> Vec<Behaviour> {
         let mut seen: Vec<Behaviour> = Vec::new();
         for b in all {
@@ -88,7 +86,6 @@ impl Behaviour {
     }
 
     /// Its number in digests: its place in [`Self::ALL`]; for other behaviours a hash of the name.
-    #[must_use]
     pub fn number(self) -> f64 {
         let own = Self::ALL.iter().position(|b| *b == self);
         own.map_or_else(|| f64::from((seeds::key(0, self.name(), "behaviour") >> 32) as u32), |place| place as f64)
@@ -113,13 +110,11 @@ pub enum Verdict {
 
 impl Verdict {
     /// Name as it stands in files and topics.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// The same for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Verdict::CannotTell => "cannot tell",
@@ -190,13 +185,11 @@ pub struct Declaration {
 
 impl Declaration {
     /// The first declaration of a mission without subregions, before any inspection.
-    #[must_use]
     pub fn first(t_s: f64, position: Vector2<f64>, rule: &'static str) -> Self {
         Self { t_s, position, rule, ..Self::default() }
     }
 
     /// Whether it marks where a plume crosses a subregion's up-flow edge: the source is beyond the edge, not there.
-    #[must_use]
     pub fn at_edge(&self) -> bool {
         self.rule == UP_FLOW_EDGE
     }
@@ -247,7 +240,6 @@ pub struct Decision {
 
 impl Decision {
     /// Going for a goal, and nothing else.
-    #[must_use]
     pub fn new(behaviour: Behaviour, goal: Goal) -> Self {
         Self { behaviour, goal, declared: None, picture: false, outcome: None }
     }

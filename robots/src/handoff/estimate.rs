@@ -18,13 +18,11 @@ pub struct FlowEstimate {
 
 impl FlowEstimate {
     /// Where the water goes.
-    #[must_use]
     pub fn heading(&self) -> Heading {
         Heading::from_vector(self.velocity)
     }
 
     /// Where the water comes from.
-    #[must_use]
     pub fn up_flow(&self) -> Heading {
         self.heading().opposite()
     }
@@ -53,19 +51,16 @@ pub struct Estimate {
 
 impl Estimate {
     /// Believed place of the origin of the body frame (ENU), m.
-    #[must_use]
     pub fn p_WB(&self) -> Vector3<f64> {
         Vector3::new(self.position.x, self.position.y, -self.depth_m)
     }
 
     /// Length of the jump, m.
-    #[must_use]
     pub fn fix_jump_m(&self) -> f64 {
         self.fix_jump.norm()
     }
 
     /// Believed velocity over ground (east, north), m/s.
-    #[must_use]
     pub fn v_ground(&self) -> Vector2<f64> {
         let forward = self.attitude.heading.unit();
         let left = self.attitude.heading.turned(-std::f64::consts::FRAC_PI_2).unit();
@@ -105,7 +100,6 @@ pub struct Observation {
 }
 
 /// Whether the chemical sensor reported a detection in this tick.
-#[must_use]
 pub fn detects(seen: &Observation) -> bool {
     seen.chemical.is_some_and(|c| c.detected)
 }

@@ -112,7 +112,6 @@ impl GantryBehaviour {
     ];
 
     /// Its name in records and on the wire.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }

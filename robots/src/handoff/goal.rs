@@ -128,7 +128,6 @@ pub struct Goal {
 
 impl Goal {
     /// The goal before the first one is given.
-    #[must_use]
     pub fn none_yet(vertical: Vertical, speed_m_s: f64) -> Self {
         Self { id: 0, manoeuvre: Manoeuvre::GoToPoint { point: Vector2::zeros(), radius_m: None }, vertical, speed_m_s }
     }

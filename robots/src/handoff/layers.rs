@@ -21,7 +21,6 @@ pub enum LayerState {
 
 impl LayerState {
     /// Name as it stands in files and topics.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }

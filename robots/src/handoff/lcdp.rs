@@ -28,13 +28,11 @@ pub struct Lcdp {
 
 impl Lcdp {
     /// A point of which only time and place matter.
-    #[must_use]
     pub fn new_at(t_s: f64, position: Vector2<f64>) -> Self {
         Self { t_s, position, of_full_scale: 0.0, flow: None }
     }
 
     /// The vehicle's present place, with the reading and the believed flow.
-    #[must_use]
     pub fn here(seen: &Observation) -> Self {
         Self {
             t_s: seen.t_s,
@@ -45,7 +43,6 @@ impl Lcdp {
     }
 
     /// (x_flow, y_flow), m: down-flow, and left of down-flow.
-    #[must_use]
     pub fn in_flow(&self, up_flow: Heading) -> Vector2<f64> {
         let down = -up_flow.unit();
         Vector2::new(down.dot(&self.position), down.perp(&self.position))

@@ -15,14 +15,12 @@ pub struct Need {
 
 impl Need {
     /// An instrument without which the run means nothing.
-    #[must_use]
     pub fn vital(field: impl Into<String>, instrument: &'static str, so: &'static str) -> Self {
         let field = field.into();
         Self { field, instrument, so, vital: true }
     }
 
     /// An instrument without which the robot does worse.
-    #[must_use]
     pub fn wish(field: impl Into<String>, instrument: &'static str, so: &'static str) -> Self {
         Self { vital: false, ..Self::vital(field, instrument, so) }
     }

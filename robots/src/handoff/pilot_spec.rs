@@ -47,7 +47,6 @@ pub struct TorpedoSpec {
 impl TorpedoSpec {
     /// Least speed through the water at which it is steered, m/s: fins have a quarter of their force at half the design
     /// speed.
-    #[must_use]
     pub fn least_speed_m_s(&self) -> f64 {
         0.5 * self.design_speed_m_s.get()
     }

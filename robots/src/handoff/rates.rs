@@ -35,7 +35,6 @@ pub enum TurnLimit {
 
 impl TurnLimit {
     /// Greatest turn rate at a speed, rad/s.
-    #[must_use]
     pub fn rate_rad_s(self, speed_m_s: f64) -> f64 {
         match self {
             Self::Rate(rad_s) => rad_s,
@@ -46,7 +45,6 @@ impl TurnLimit {
 
 impl RateLimits {
     /// The nearest rates within the limits.
-    #[must_use]
     pub fn held(&self, asked: &RateCommand) -> RateCommand {
         let speed_m_s = asked.speed_m_s.clamp(0.0, self.speed_m_s);
         let most = self.turn.rate_rad_s(speed_m_s);

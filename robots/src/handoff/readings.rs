@@ -53,7 +53,6 @@ pub struct Attitude {
 impl Attitude {
     /// Rotation from body axes (FLU) to world axes (ENU), as believed. A rotation about FLU's y is positive nose
     /// down.
-    #[must_use]
     pub fn R_WB(&self) -> UnitQuaternion<f64> {
         UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
     }

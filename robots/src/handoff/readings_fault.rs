@@ -7,7 +7,6 @@ const MOST: f64 = 1e9;
 
 impl Readings {
     /// The first field that is no number, and what it is.
-    #[must_use]
     pub fn fault(&self) -> Option<String> {
         let number = |field: &str, values: &[f64]| {
             let wrong = values.iter().find(|v| !(v.abs() <= MOST))?;

@@ -26,13 +26,11 @@ pub enum RegionState {
 
 impl RegionState {
     /// Name as it stands in files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }
 
     /// The same, for reports.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             RegionState::Waiting => "not searched",
@@ -47,7 +45,6 @@ impl RegionState {
 
 /// Name of the `k`-th subregion, from 0, in the order of search: A to Z, then AA, AB and so on. It is made of letters
 /// so that nobody takes it for the number of a declared source.
-#[must_use]
 pub fn region_name(k: u32) -> String {
     let letter = char::from(b'A' + (k % 26) as u8);
     match k / 26 {

@@ -11,7 +11,6 @@ pub enum Side {
 
 impl Side {
     /// +1 to the right (clockwise), -1 to the left.
-    #[must_use]
     pub fn sign(self) -> f64 {
         match self {
             Side::Left => -1.0,
@@ -20,7 +19,6 @@ impl Side {
     }
 
     /// The side of a signed distance or turn, right positive.
-    #[must_use]
     pub fn from_rightward(rightward: f64) -> Self {
         if rightward < 0.0 { Side::Left } else { Side::Right }
     }

@@ -20,7 +20,6 @@ pub struct Zone {
 
 impl Zone {
     /// The smallest box round `points` with a side along `ahead`.
-    #[must_use]
     pub fn boxed(points: Vec<Vector2<f64>>, ahead: Heading) -> Self {
         let Some(first) = points.first() else {
             return Self::default();
@@ -37,7 +36,6 @@ impl Zone {
     }
 
     /// A circle of `radius_m` round the mean of `points`.
-    #[must_use]
     pub fn round(points: Vec<Vector2<f64>>, radius_m: f64) -> Self {
         if points.is_empty() {
             return Self::default();

@@ -30,7 +30,6 @@ const HOPS: f64 = 9.0;
 
 impl GridSpec {
     /// Number of cells.
-    #[must_use]
     pub fn cells(&self) -> f64 {
         f64::from(self.along) * f64::from(self.across) * f64::from(self.vertical)
     }

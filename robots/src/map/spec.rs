@@ -163,7 +163,6 @@ impl TrajectorySpec {
 
     /// Variance along each horizontal axis that the flow's error alone causes at an age: 2 u′² T (Δt − T (1 −
     /// e^(−Δt/T))), m² (Taylor 1921, Proc. London Math. Soc. 20, 196: dispersion by a velocity that lasts T).
-    #[must_use]
     pub fn strayed_m2(&self, age_s: f64) -> f64 {
         let (u, t) = (self.flow_error_m_s.get(), self.flow_error_s.get());
         if u == 0.0 {
@@ -189,7 +188,6 @@ impl TrajectorySpec {
     }
 
     /// σx, σy, σz, m/√s.
-    #[must_use]
     pub fn sigmas(&self) -> [f64; 3] {
         [self.sigma_x_m_rts, self.sigma_y_m_rts, self.sigma_z_m_rts].map(Positive::get)
     }

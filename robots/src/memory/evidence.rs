@@ -8,7 +8,6 @@ impl Evidence {
     ///
     /// # Panics
     /// If there is no point.
-    #[must_use]
     pub fn from_points<'a>(points: impl IntoIterator<Item = &'a Lcdp>) -> Self {
         let all: Vec<&Lcdp> = points.into_iter().collect();
         assert!(!all.is_empty(), "a declaration rests on no point: its rule must need at least one");

@@ -33,7 +33,6 @@ pub enum FixMove {
 
 impl FixMove {
     /// The instruments that the rule needs; paths below the strategy.
-    #[must_use]
     pub fn needs(self) -> Vec<Need> {
         match self {
             Self::Stay => Vec::new(),
@@ -55,7 +54,6 @@ pub struct NavigationFix {
 
 impl NavigationFix {
     /// How far a place stored at `stored_s` moves (east, north), m.
-    #[must_use]
     pub fn shift_of(&self, stored_s: f64, rule: FixMove) -> Vector2<f64> {
         match rule {
             FixMove::Stay => Vector2::zeros(),
@@ -101,7 +99,6 @@ impl FixWatch {
     }
 
     /// Standard deviation of a fix along one axis, m, from the median of the last 16 jumps; zero if there was no fix.
-    #[must_use]
     pub fn scale_m(&self) -> f64 {
         let mut sorted: Vec<f64> = self.jumps_m.iter().copied().collect();
         sorted.sort_by(f64::total_cmp);

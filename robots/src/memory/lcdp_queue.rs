@@ -13,7 +13,6 @@ use std::num::NonZeroUsize;
 use world::units::Heading;
 
 /// The points, most up-flow first; points equally far up-flow from right to left, then in order of time.
-#[must_use]
 pub fn most_up_flow_first(points: &[Lcdp], up_flow: Heading) -> Vec<Lcdp> {
     let mut sorted: Vec<(Vector2<f64>, Lcdp)> = points.iter().map(|p| (p.in_flow(up_flow), *p)).collect();
     sorted.sort_by(|(a, p), (b, q)| (a.x.total_cmp(&b.x)).then(a.y.total_cmp(&b.y)).then(p.t_s.total_cmp(&q.t_s)));
@@ -29,7 +28,6 @@ pub struct LcdpQueue {
 
 impl LcdpQueue {
     /// An empty queue for `most` points.
-    #[must_use]
     pub fn new(most: NonZeroUsize) -> Self {
         Self { points: Vec::new(), most: most.get() }
     }
@@ -44,13 +42,11 @@ impl LcdpQueue {
     }
 
     /// All points, oldest first.
-    #[must_use]
     pub fn all(&self) -> &[Lcdp] {
         &self.points
     }
 
     /// The newest point.
-    #[must_use]
     pub fn newest(&self) -> Option<Lcdp> {
         self.points.last().copied()
     }

@@ -14,7 +14,6 @@ pub struct LostPoints {
 
 impl LostPoints {
     /// An empty list for `most` points.
-    #[must_use]
     pub fn new(most: NonZeroUsize) -> Self {
         Self { points: Vec::new(), most: most.get() }
     }
@@ -43,13 +42,11 @@ impl LostPoints {
     }
 
     /// The most up-flow point, by the flow at the last sorting.
-    #[must_use]
     pub fn first(&self) -> Option<Lcdp> {
         self.points.first().copied()
     }
 
     /// All points, most up-flow first.
-    #[must_use]
     pub fn all(&self) -> &[Lcdp] {
         &self.points
     }

@@ -43,7 +43,6 @@ impl Default for PlumeMemory {
 
 impl PlumeMemory {
     /// An empty memory with room for `lost` lost points and `lcdps` last detection points.
-    #[must_use]
     pub fn new(lost: NonZeroUsize, lcdps: NonZeroUsize) -> Self {
         Self {
             up_flow: None,
@@ -101,7 +100,6 @@ impl PlumeMemory {
     }
 
     /// Up-flow, or the vehicle's heading as long as no flow is known.
-    #[must_use]
     pub fn up_flow_or_nose(&self, seen: &Observation) -> Heading {
         self.up_flow.unwrap_or(seen.estimate.attitude.heading)
     }

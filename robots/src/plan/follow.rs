@@ -39,7 +39,6 @@ pub struct Steer {
 
 impl Follow {
     /// At the start of a path.
-    #[must_use]
     pub fn new(path: &Path, ahead_m: f64) -> Self {
         let mut upto_m = vec![0.0];
         for w in path.points.windows(2) {
@@ -50,13 +49,11 @@ impl Follow {
     }
 
     /// The path.
-    #[must_use]
     pub fn points(&self) -> &Arc<Vec<Vector3<f64>>> {
         &self.points
     }
 
     /// The part of the path still ahead.
-    #[must_use]
     pub fn rest(&self) -> Vec<Vector3<f64>> {
         let mut rest = vec![self.point_at(self.s_m)];
         let next = self.upto_m.partition_point(|s| *s <= self.s_m);

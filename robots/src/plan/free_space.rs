@@ -53,7 +53,6 @@ pub struct FreeSpace {
 
 impl FreeSpace {
     /// An empty room.
-    #[must_use]
     pub fn new(lattice: BeliefGrid, hull_m: f64, reach_m: f64) -> Self {
         let c = lattice.cell_m;
         let z = if lattice.n[2] == 1 { 0.0 } else { c[2] };
@@ -191,63 +190,53 @@ impl FreeSpace {
     }
 
     /// Whether it is a map of the plane.
-    #[must_use]
     pub fn plane(&self) -> bool {
         self.lattice.n[2] == 1
     }
 
     /// Its cells.
-    #[must_use]
     pub fn lattice(&self) -> &BeliefGrid {
         &self.lattice
     }
 
     /// The state of its clearances, a new one after every change. A copy of the room has the same until either of the
     /// two changes.
-    #[must_use]
     pub fn revision(&self) -> &Revision {
         &self.revision
     }
 
     /// Number of cells sensed to be solid.
-    #[must_use]
     pub fn sensed(&self) -> usize {
         self.sensed.len()
     }
 
     /// Distance of a cell's middle from the nearest solid, m; negative inside one, at most a little more than the
     /// reach.
-    #[must_use]
     pub fn clearance_m(&self, cell: usize) -> f64 {
         f64::from(self.clearance_m[cell])
     }
 
     /// Half the diagonal of a cell, m.
-    #[must_use]
     pub fn half_diagonal_m(&self) -> f64 {
         self.half_diagonal_m
     }
 
     /// Clearance that a free cell needs, m: the hull's radius and half the cell's diagonal.
-    #[must_use]
     pub fn needed_m(&self) -> f64 {
         self.hull_m + self.half_diagonal_m
     }
 
     /// Whether every point of the cell is at least the hull's radius away from any solid.
-    #[must_use]
     pub fn free(&self, cell: usize) -> bool {
         self.clearance_m(cell) >= self.needed_m()
     }
 
     /// Whether the middle of the cell lies in a solid.
-    #[must_use]
     pub fn solid(&self, cell: usize) -> bool {
         self.clearance_m(cell) < 0.0
     }
 
     /// Shortest side of a cell, m.
-    #[must_use]
     pub fn narrowest_m(&self) -> f64 {
         let c = self.lattice.cell_m;
         let flat = c[0].min(c[1]);
@@ -255,7 +244,6 @@ impl FreeSpace {
     }
 
     /// The cell nearest to a point (ENU, m), which may lie outside.
-    #[must_use]
     pub fn nearest_cell(&self, p_W: &Vector3<f64>) -> usize {
         let g = &self.lattice;
         let d = p_W.xy() - g.corner.xy();
@@ -268,7 +256,6 @@ impl FreeSpace {
     }
 
     /// Whether `open` is true for all cells that a straight line (ENU, m) passes.
-    #[must_use]
     pub fn line(&self, a: &Vector3<f64>, b: &Vector3<f64>, mut open: impl FnMut(usize) -> bool) -> bool {
         let g = &self.lattice;
         let local = |p: &Vector3<f64>| {
@@ -306,7 +293,6 @@ impl FreeSpace {
     }
 
     /// Whether a straight line (ENU, m) passes only free cells.
-    #[must_use]
     pub fn line_free(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
         self.line(a, b, |cell| self.free(cell))
     }

@@ -53,7 +53,6 @@ pub struct Path {
 
 impl Path {
     /// Its length, m.
-    #[must_use]
     pub fn length_m(&self) -> f64 {
         self.points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()
     }

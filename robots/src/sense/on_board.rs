@@ -25,13 +25,11 @@ impl<'a> OnBoard<'a> {
     }
 
     /// The random stream of the instrument of a name.
-    #[must_use]
     pub fn stream(&self, name: &str) -> Stream {
         Stream::new(self.seed, self.robot_id, name)
     }
 
     /// The number from which a counter-based generator of the instrument of a name draws.
-    #[must_use]
     pub fn key(&self, name: &str) -> u64 {
         key(self.seed, self.robot_id, name)
     }

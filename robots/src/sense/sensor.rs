@@ -71,7 +71,6 @@ pub struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     /// What an echo sounder may hear.
-    #[must_use]
     pub fn below(&self) -> EchoTarget<'_> {
         EchoTarget { terrain: self.terrain, obstacles: self.obstacles }
     }

@@ -56,7 +56,6 @@ impl<S: SensorParams + 'static> Takes<S> for Sensors {
 
 /// Memory and time of the instruments among so many obstacles; paths below `sensors`. `looks` says whether the
 /// strategy uses sidescan or camera.
-#[must_use]
 pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times) -> Cost {
     let mut cost = Cost::default();
     let used = if looks { SURVEYS } else { 0.0 };

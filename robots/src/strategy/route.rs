@@ -83,7 +83,6 @@ pub struct Route {
 
 impl Route {
     /// Before its first place.
-    #[must_use]
     pub fn new(spec: &RouteSpec) -> Self {
         let points = spec.points.iter().map(|(east, north)| Vector2::new(east.get(), north.get()));
         Self { spec: spec.clone(), points: points.collect(), next: 0, stays_until_s: None, goal: None }

@@ -43,7 +43,6 @@ pub(super) const NO_DEPTH: &str = "cannot hold a depth";
 impl Wishes {
     /// The instruments that guidance and autopilot need to carry them out with a vehicle that can do so much; paths
     /// below the strategy.
-    #[must_use]
     pub fn needs(&self, able: &Capabilities) -> Vec<Need> {
         if *self == Self::default() {
             return Vec::new();

@@ -49,7 +49,6 @@ pub struct Object {
 }
 
 /// The objects that a picture shows, strongest first.
-#[must_use]
 pub fn detect(picture: &Waterfall, spec: &DetectSpec) -> Vec<Object> {
     let mut found = Vec::new();
     if picture.rows().len() >= FEWEST {

@@ -23,7 +23,6 @@ pub struct MergedObject {
 }
 
 /// The objects, strongest first.
-#[must_use]
 pub fn merge(sightings: &[Object], merge_m: f64) -> Vec<MergedObject> {
     let mut left: Vec<&Object> = sightings.iter().collect();
     left.sort_by(|a, b| b.contrast.total_cmp(&a.contrast));

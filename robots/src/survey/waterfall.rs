@@ -48,14 +48,12 @@ pub struct Row {
 
 impl Row {
     /// Believed place (east, north) of a ground range on a side, m.
-    #[must_use]
     pub fn ground_position(&self, port: bool, ground_m: f64) -> Vector2<f64> {
         let turn = if port { -FRAC_PI_2 } else { FRAC_PI_2 };
         self.place + self.heading.turned(turn).unit() * ground_m
     }
 
     /// A side.
-    #[must_use]
     pub fn side(&self, port: bool) -> &[f32] {
         if port { &self.port_db } else { &self.starboard_db }
     }
@@ -76,19 +74,16 @@ pub struct Waterfall {
 
 impl Waterfall {
     /// An empty picture.
-    #[must_use]
     pub fn new(cell_m: f64) -> Self {
         Self { cell_m, rows: Vec::new(), along_m: 0.0, last_s: None, sums: [Vec::new(), Vec::new()], begun_m: 0.0 }
     }
 
     /// Size of a cell, m.
-    #[must_use]
     pub fn cell_m(&self) -> f64 {
         self.cell_m
     }
 
     /// Mean distance between two lines, m.
-    #[must_use]
     pub fn line_m(&self) -> f64 {
         match self.rows.as_slice() {
             [first, .., last] => (last.along_m - first.along_m) / (self.rows.len() - 1) as f64,
@@ -97,7 +92,6 @@ impl Waterfall {
     }
 
     /// Its lines.
-    #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }

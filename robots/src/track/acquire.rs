@@ -57,13 +57,11 @@ impl Acquisition {
     }
 
     /// Number of probes.
-    #[must_use]
     pub fn count(&self) -> usize {
         self.offsets_m.len()
     }
 
     /// The signals of a scan.
-    #[must_use]
     pub fn sample(&self, scan: &ProbeScan, joints: &JointReadings) -> Sample {
         assert!(
             scan.count == self.count(),
@@ -85,7 +83,6 @@ impl Acquisition {
     }
 
     /// A spike of `probe` in the sample `of`.
-    #[must_use]
     pub fn spike(&self, of: &Sample, probe: usize) -> Spike {
         Spike { t_s: of.t_s, probe, magnitude_v: of.above_v[probe], place_m: of.head_m + self.offsets_m[probe] }
     }

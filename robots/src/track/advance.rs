@@ -71,7 +71,6 @@ pub enum StepFrom {
 
 impl AdvanceSpec {
     /// Where the next step up-stream is measured from (forward), m, with the head at `here_m` after this step.
-    #[must_use]
     pub fn from_m(&self, here_m: f64, step: &StepRecord) -> f64 {
         match (self, step.foremost_m) {
             (Self::Gated(Gated { from: StepFrom::Spike, .. }), Some(spike_m)) => spike_m.min(here_m),
@@ -80,7 +79,6 @@ impl AdvanceSpec {
     }
 
     /// Whether the step allows another one up-stream.
-    #[must_use]
     pub fn allows(&self, step: &StepRecord) -> bool {
         match self {
             Self::Gated(p) => step.spikes >= p.spikes.get(),

@@ -63,7 +63,6 @@ pub struct DataBuilder {
 
 impl DataBuilder {
     /// An empty map.
-    #[must_use]
     pub fn new(best: Best) -> Self {
         Self { best, spikes: 0, sum: 0.0, moment: 0.0, greatest: None, up_stream: Vec::with_capacity(KEPT + 1) }
     }
@@ -89,13 +88,11 @@ impl DataBuilder {
     }
 
     /// Spikes of the sweep.
-    #[must_use]
     pub fn sweep_spikes(&self) -> usize {
         self.spikes
     }
 
     /// The place across the stream with the strongest smell of the sweep, m; `None` without any spike.
-    #[must_use]
     pub fn best_left_m(&self) -> Option<f64> {
         let greatest = self.greatest?;
         Some(match self.best {
@@ -105,7 +102,6 @@ impl DataBuilder {
     }
 
     /// Middle across the stream of the `n` most up-stream spikes, m; `None` if there are fewer.
-    #[must_use]
     pub fn trail_end_left_m(&self, n: usize) -> Option<f64> {
         let first = self.up_stream.get(..n)?;
         Some(first.iter().map(|p| p.y).sum::<f64>() / n as f64)

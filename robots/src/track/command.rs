@@ -44,14 +44,12 @@ pub struct MotionCommand {
 
 impl MotionCommand {
     /// Before the first command.
-    #[must_use]
     pub fn new(layout: &GantryLayout) -> Self {
         let max_speed_m_s = Vector2::from(layout.max_speed_m_s);
         Self { travel_m: layout.travel_m, max_speed_m_s, speed_m_s: max_speed_m_s, ..Self::default() }
     }
 
     /// The nearest place within the travel.
-    #[must_use]
     pub fn within(&self, p: Vector2<f64>) -> Vector2<f64> {
         let [x, y] = self.travel_m;
         Vector2::new(p.x.clamp(x[0], x[1]), p.y.clamp(y[0], y[1]))
@@ -90,7 +88,6 @@ impl MotionCommand {
     }
 
     /// The present command as a decision; before the first one it holds the head in place.
-    #[must_use]
     pub fn decision(&self, joints: &JointReadings, working: TrackerState, stopped: Option<bool>) -> GantryDecision {
         GantryDecision {
             behaviour: self.behaviour,

@@ -56,7 +56,6 @@ impl CrabSpec {
     /// moves it up-stream, because continuous motion leaves no step that is long enough to compare averages. Steps are
     /// longer, as the head is faster. The threshold is its floor alone: half of an average that holds the strong spikes
     /// in the thread's core would leave those at its edge unheard.
-    #[must_use]
     pub fn adaptive() -> Self {
         Self {
             step_m: [Positive::new(0.18), Positive::new(0.06)],

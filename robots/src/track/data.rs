@@ -54,7 +54,6 @@ impl Tally {
     }
 
     /// The sum of this tally and another one.
-    #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {
             count: self.count + other.count,
@@ -65,7 +64,6 @@ impl Tally {
     }
 
     /// Mean magnitude, V; zero without spikes.
-    #[must_use]
     pub fn mean_v(&self) -> f64 {
         if self.count == 0 { 0.0 } else { self.sum_v / self.count as f64 }
     }

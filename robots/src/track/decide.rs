@@ -122,7 +122,6 @@ pub struct DecisionUnit {
 
 impl DecisionUnit {
     /// At the start.
-    #[must_use]
     pub fn new(rules: Rules, stop: StopRule) -> Self {
         Self {
             rules,
@@ -139,7 +138,6 @@ impl DecisionUnit {
     }
 
     /// Contrast of a step, left positive, -1 to 1.
-    #[must_use]
     pub fn contrast(&self, step: &StepRecord) -> f64 {
         self.pull(step).contrast
     }
@@ -154,7 +152,6 @@ impl DecisionUnit {
     }
 
     /// Speeds after a step without spikes, m/s.
-    #[must_use]
     pub fn speed_m_s(&self) -> Vector2<f64> {
         self.rules.pace.speed_m_s(0)
     }

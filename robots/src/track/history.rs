@@ -71,13 +71,11 @@ pub struct History {
 
 impl History {
     /// The unit, with the numbers of the steering probes.
-    #[must_use]
     pub fn new(spec: &HistorySpec, left: usize, right: usize) -> Self {
         Self { spec: spec.clone(), left, right, ..Self::default() }
     }
 
     /// Weight of a probe's spikes.
-    #[must_use]
     pub fn weight(&self, probe: usize) -> f64 {
         if probe == self.left || probe == self.right { 1.0 } else { self.spec.centre_weight.get() }
     }
@@ -98,7 +96,6 @@ impl History {
     }
 
     /// The period up to `t_s`.
-    #[must_use]
     pub fn record(&self, t_s: f64) -> StepRecord {
         let (mut w, mut wm, mut spikes) = (0.0, 0.0, 0);
         for (i, t) in self.tallies.iter().enumerate() {

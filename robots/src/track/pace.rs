@@ -84,7 +84,6 @@ pub struct Adaptive {
 
 impl PaceSpec {
     /// Speeds (forward, left) of the step after one with so many spikes, m/s.
-    #[must_use]
     pub fn speed_m_s(&self, spikes: usize) -> Vector2<f64> {
         match self {
             Self::Fixed(p) => Vector2::new(p.forward_m_s.get(), p.left_m_s.get()),
@@ -97,7 +96,6 @@ impl PaceSpec {
     }
 
     /// Speeds of the first sweep, or of a later one, m/s.
-    #[must_use]
     pub fn sweep_m_s(&self, later: bool) -> Vector2<f64> {
         match self {
             Self::Fixed(p) => Vector2::new(p.forward_m_s.get(), p.left_m_s.get()),
@@ -110,7 +108,6 @@ impl PaceSpec {
 
     /// Whether a step is over: `rest_s` is the time since the head came to rest, if it did; `to_go_s` the time of
     /// motion left; `spikes` those of the step.
-    #[must_use]
     pub fn over(&self, rest_s: Option<f64>, to_go_s: f64, spikes: usize) -> bool {
         match self {
             Self::Fixed(p) => rest_s.is_some_and(|r| r >= p.dwell_s.get()),

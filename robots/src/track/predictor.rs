@@ -60,7 +60,6 @@ pub struct Predictor {
 
 impl Predictor {
     /// An empty memory, which predicts what the history averages.
-    #[must_use]
     pub fn new(spec: &PredictorSpec, over: Over) -> Self {
         Self { spec: spec.clone(), over, memory: VecDeque::new() }
     }

@@ -40,7 +40,6 @@ pub struct RateWindow {
 
 impl RateWindow {
     /// An empty window of this length.
-    #[must_use]
     pub fn new(window_s: f64, count: Count, drift_m_s: Option<f64>) -> Self {
         Self { window_s, count, drift_m_s, probes: 1, spikes: VecDeque::new(), scans: VecDeque::new(), latest_s: None }
     }
@@ -69,7 +68,6 @@ impl RateWindow {
     }
 
     /// Spikes per second, Hz; zero until the window is half full.
-    #[must_use]
     pub fn hz(&self) -> f64 {
         let seconds: f64 = self.scans.iter().map(|s| s.1).sum();
         if seconds < 0.5 * self.window_s {

@@ -74,13 +74,11 @@ pub struct Pull {
 
 impl ContrastSpec {
     /// Whether it uses the spikes since the head last moved aside, not only those of the step.
-    #[must_use]
     pub fn gathers(&self) -> bool {
         matches!(self, Self::Adaptive(_))
     }
 
     /// The pull of a step's spikes.
-    #[must_use]
     pub fn pull(&self, step: &StepRecord) -> Pull {
         let of = |t: &Tally| match self {
             Self::Fixed(p) if p.of == Peak::MeanPeak => t.mean_v(),

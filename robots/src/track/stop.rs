@@ -108,7 +108,6 @@ pub struct StopRule {
 
 impl StopRule {
     /// The unit before the first scan.
-    #[must_use]
     pub fn new(spec: &StopSpec) -> Self {
         let window = match spec {
             StopSpec::SpikeRate(p) => RateWindow::new(p.window_s.get(), p.count, None),
@@ -134,7 +133,6 @@ impl StopRule {
     }
 
     /// The present frequency, Hz.
-    #[must_use]
     pub fn hz(&self) -> f64 {
         self.window.hz()
     }
@@ -164,7 +162,6 @@ impl StopRule {
     }
 
     /// The same as [`Self::trail_end`], if the silence since the latest spike is proof enough without a sweep.
-    #[must_use]
     pub fn silent(&self) -> Option<usize> {
         let StopSpec::Experience(p) = &self.spec else {
             return None;
@@ -177,7 +174,6 @@ impl StopRule {
 
     /// How many of the most up-stream spikes mark the source after an empty sweep in a followed plume; `None` without
     /// such a sweep.
-    #[must_use]
     pub fn trail_end(&self) -> Option<usize> {
         match &self.spec {
             StopSpec::SpikeRate(_) => None,

@@ -89,13 +89,11 @@ pub struct ThresholdAnalyser {
 
 impl ThresholdAnalyser {
     /// The unit for probes whose range begins at `bottom_v`.
-    #[must_use]
     pub fn new(spec: &ThresholdSpec, bottom_v: f64) -> Self {
         Self { spec: spec.clone(), bottom_v, running: [Running::default(); MAX_PROBES] }
     }
 
     /// The present threshold of a probe above the bottom of its range, V.
-    #[must_use]
     pub fn above_v(&self, probe: usize) -> f64 {
         match &self.spec {
             ThresholdSpec::Level(p) => p.level_v.get() - self.bottom_v,

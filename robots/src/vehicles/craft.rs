@@ -43,7 +43,6 @@ impl Vehicle {
     }
 
     /// Its limits, if it is kinematic.
-    #[must_use]
     pub fn limits(&self) -> Option<RateLimits> {
         match self {
             Self::Finned(_) | Self::Described(_) => None,
@@ -52,7 +51,6 @@ impl Vehicle {
     }
 
     /// What its autopilot knows of it.
-    #[must_use]
     pub fn control(&self) -> Control {
         match self {
             Self::Finned(_) => Control::Fins,
@@ -62,7 +60,6 @@ impl Vehicle {
     }
 
     /// What it can do; `turn_radius_m` is that of a REMUS under its guidance.
-    #[must_use]
     pub fn capabilities(&self, turn_radius_m: f64) -> Capabilities {
         let swims = |least_speed_m_s, top_speed_m_s, turning_radius_m| Capabilities {
             least_speed_m_s,
@@ -85,7 +82,6 @@ impl Vehicle {
     }
 
     /// Its drives that can fail; none of a kinematic vehicle, which moves as its helm asks.
-    #[must_use]
     pub fn named_drives(&self) -> Vec<NamedDrive> {
         match self {
             Self::Finned(_) => NamedDrive::fins(),
@@ -95,7 +91,6 @@ impl Vehicle {
     }
 
     /// Electric power of its drives now, W; none of a kinematic vehicle.
-    #[must_use]
     pub fn power_w(&self) -> f64 {
         match self {
             Self::Finned(vehicle) => vehicle.power_w(),
@@ -105,7 +100,6 @@ impl Vehicle {
     }
 
     /// Set-points at which nothing moves it.
-    #[must_use]
     pub fn idle(&self) -> Actuation {
         match self {
             Self::Finned(_) => Actuation::Fins(ActuatorCommand::default()),
@@ -115,7 +109,6 @@ impl Vehicle {
     }
 
     /// Whether the water carries it.
-    #[must_use]
     pub fn is_carried(&self) -> bool {
         match self {
             Self::Finned(_) | Self::Described(_) => true,
@@ -125,7 +118,6 @@ impl Vehicle {
 
     /// Greatest speed with the propeller at `rpm`, or at its own limit, m/s: through still water, or over ground if
     /// the water does not carry it.
-    #[must_use]
     pub fn top_speed_m_s(&self, rpm: f64) -> f64 {
         match self {
             Self::Finned(vehicle) => vehicle.top_speed_m_s(rpm),
@@ -135,7 +127,6 @@ impl Vehicle {
     }
 
     /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
-    #[must_use]
     pub fn doubts(&self) -> &[String] {
         match self {
             Self::Finned(vehicle) => vehicle.doubts(),
@@ -145,7 +136,6 @@ impl Vehicle {
     }
 
     /// Pose of an instrument (a link of the URDF), in body axes.
-    #[must_use]
     pub fn mount(&self, name: &str) -> Option<Pose> {
         match self {
             Self::Finned(vehicle) => vehicle.mount(name),
@@ -155,7 +145,6 @@ impl Vehicle {
     }
 
     /// The body for the physics.
-    #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
         match self {
             Self::Finned(vehicle) => vehicle.body_spec(id, truth),

@@ -55,13 +55,11 @@ pub struct Mount {
 
 impl Mount {
     /// The pose with the joint slid to a position, m.
-    #[must_use]
     pub fn slid(&self, position_m: f64) -> Pose {
         Pose { p_WB: self.pose.point(self.axis * position_m), ..self.pose }
     }
 
     /// The pose with the joint turned by an angle, rad.
-    #[must_use]
     pub fn turned(&self, angle_rad: f64) -> Pose {
         let axis = Unit::new_normalize(self.axis);
         Pose { R_WB: self.pose.R_WB * UnitQuaternion::from_axis_angle(&axis, angle_rad), ..self.pose }

@@ -39,7 +39,6 @@ pub struct Battery {
 
 impl Battery {
     /// A full one.
-    #[must_use]
     pub fn new(spec: &EnergySpec) -> Self {
         Self { spec: spec.clone(), used_wh: [0.0; 2] }
     }
@@ -53,19 +52,16 @@ impl Battery {
     }
 
     /// Used by drives and by the hotel load so far, Wh.
-    #[must_use]
     pub fn used_wh(&self) -> [f64; 2] {
         self.used_wh
     }
 
     /// Energy when full, Wh.
-    #[must_use]
     pub fn full_wh(&self) -> f64 {
         self.spec.battery_wh.get()
     }
 
     /// Whether nothing is left.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.used_wh.iter().sum::<f64>() >= self.full_wh()
     }

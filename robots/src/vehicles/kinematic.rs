@@ -59,25 +59,21 @@ impl Kinematic {
     }
 
     /// What it can do.
-    #[must_use]
     pub fn limits(&self) -> RateLimits {
         self.limits
     }
 
     /// What its speed is relative to.
-    #[must_use]
     pub fn moves(&self) -> Moves {
         self.moves
     }
 
     /// Pose of an instrument (a link of the URDF), in body axes.
-    #[must_use]
     pub fn mount(&self, name: &str) -> Option<Pose> {
         self.shell.links.get(name).copied()
     }
 
     /// The body for the physics.
-    #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
         let m = self.shell.ballast.mass_kg();
         let about_vertical = self.shell.ballast.inertia_z_kg_m2();
@@ -93,7 +89,6 @@ impl Kinematic {
 
     /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`. `water_m_s` is the water's velocity
     /// over ground at its origin (ENU); it counts only for a vehicle that moves through the water.
-    #[must_use]
     pub fn step(&self, truth: &Truth, water_m_s: &Vector3<f64>, asked: &RateCommand, dt_s: f64) -> Truth {
         let rates = self.limits.held(asked);
         let drift = match self.moves {

@@ -76,7 +76,6 @@ pub struct RadiusSpec {
 
 impl KinematicSpec {
     /// The limits of its motion.
-    #[must_use]
     pub fn limits(&self) -> RateLimits {
         RateLimits {
             speed_m_s: self.max_speed_m_s.get(),

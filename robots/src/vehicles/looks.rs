@@ -63,7 +63,6 @@ pub enum JointKind {
 
 impl JointKind {
     /// The word of URDF.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.into()
     }

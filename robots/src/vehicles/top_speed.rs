@@ -15,7 +15,6 @@ const STEP_S: f64 = 0.02;
 impl Remus100 {
     /// Greatest speed through still water with the propeller at `rpm`, or at its own limit, m/s: where thrust and
     /// drag balance, found by running the vehicle's own equation of motion from rest.
-    #[must_use]
     pub fn top_speed_m_s(&self, rpm: f64) -> f64 {
         let mut vehicle = self.clone();
         let water = WaterSample {

@@ -44,31 +44,26 @@ impl Remus100 {
     }
 
     /// The hull's numbers.
-    #[must_use]
     pub fn coefficients(&self) -> &Coefficients {
         &self.hull.coefficients
     }
 
     /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
-    #[must_use]
     pub fn doubts(&self) -> &[String] {
         &self.hull.told
     }
 
     /// Pose of an instrument (a link of the URDF), in body axes.
-    #[must_use]
     pub fn mount(&self, name: &str) -> Option<Pose> {
         self.hull.links.get(name).copied()
     }
 
     /// Present state of fins and propeller.
-    #[must_use]
     pub fn actuators(&self) -> Actuators {
         self.actuators
     }
 
     /// Electric power of its propeller in the last step, W.
-    #[must_use]
     pub fn power_w(&self) -> f64 {
         let Some((truth, water_m_s, density_kg_m3)) = &self.last else {
             return 0.0;
@@ -86,7 +81,6 @@ impl Remus100 {
     }
 
     /// The body for the physics.
-    #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
         let c = &self.hull.coefficients;
         BodySpec {

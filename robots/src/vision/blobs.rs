@@ -24,7 +24,6 @@ pub struct Blob {
 
 /// The patches of the pixels above 0, largest first; of patches of equal size, the one that begins higher up and
 /// farther left.
-#[must_use]
 pub fn blobs(mask: &GrayImage) -> Vec<Blob> {
     let (w, h) = mask.dimensions();
     let mut open: Vec<bool> = mask.pixels().map(|p| p.0[0] > 0).collect();

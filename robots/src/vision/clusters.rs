@@ -33,14 +33,12 @@ pub enum Fate {
 
 impl Fate {
     /// Whether it stays in the group.
-    #[must_use]
     pub fn kept(self) -> bool {
         matches!(self, Fate::Pivot | Fate::Kept(_))
     }
 }
 
 /// The fate of each pattern of a group with a common reference.
-#[must_use]
 pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
     let order = |a: &usize, b: &usize| patterns[*a].distance.total_cmp(&patterns[*b].distance);
     // Of equal ones the first.
@@ -69,7 +67,6 @@ pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
 }
 
 /// Lengths of the shortest ways between `n` nodes (Floyd 1962), infinite if there is none; edges may be missing.
-#[must_use]
 pub fn shortest_paths(n: usize, edge: impl Fn(usize, usize) -> Option<f64>) -> Vec<Vec<f64>> {
     let mut d: Vec<Vec<f64>> = (0..n)
         .map(|i| (0..n).map(|j| if i == j { 0.0 } else { edge(i, j).unwrap_or(f64::INFINITY) }).collect())

@@ -27,7 +27,6 @@ pub enum Reference {
 
 impl Reference {
     /// Its levels.
-    #[must_use]
     pub fn rgb(self) -> [u8; 3] {
         match self {
             Reference::Red => [255, 0, 0],
@@ -36,7 +35,6 @@ impl Reference {
     }
 
     /// Its name in the paper.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Reference::Red => "RED",
@@ -55,7 +53,6 @@ pub struct Pattern {
 }
 
 /// Euclidean distance of two colours, levels.
-#[must_use]
 pub fn distance(a: [u8; 3], b: [u8; 3]) -> f64 {
     f64::from(squared(a, b)).sqrt()
 }
@@ -67,7 +64,6 @@ fn squared(a: [u8; 3], b: [u8; 3]) -> u32 {
 }
 
 /// The pixel colour nearest to the reference; `None` if all pixels are white.
-#[must_use]
 pub fn nearest(image: &RgbImage, reference: Reference) -> Option<Pattern> {
     let to = reference.rgb();
     let mut best: Option<(u32, [u8; 3])> = None;

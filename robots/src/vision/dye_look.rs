@@ -90,7 +90,6 @@ fn median(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f6
 impl DyeLook {
     /// How the pixels of `mask` look in a picture and in the same, levelled; all three are of one size. All zero if it has
     /// none, or all.
-    #[must_use]
     pub fn new(picture: &RgbImage, even: &RgbImage, mask: &GrayImage) -> Self {
         let (w, h) = (picture.width() as usize, picture.height() as usize);
         let n = w * h;

@@ -21,7 +21,6 @@ pub struct Extractor {
 
 impl Extractor {
     /// The extractor with these parameters.
-    #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         let inference = Inference::new(spec);
         let rho: [f64; 256] = std::array::from_fn(|d| inference.difference([d as f64, 0.0, 0.0]));
@@ -29,20 +28,17 @@ impl Extractor {
     }
 
     /// Δρ_F of a pixel from a pattern, levels.
-    #[must_use]
     pub fn difference(&self, pixel: [u8; 3], pattern: [u8; 3]) -> f64 {
         self.rho[greatest(pixel, pattern)]
     }
 
     /// Whether the pattern takes the pixel.
     #[inline]
-    #[must_use]
     pub fn takes(&self, pixel: [u8; 3], pattern: [u8; 3]) -> bool {
         self.taken[greatest(pixel, pattern)]
     }
 
     /// The greatest difference in a channel that is still taken, levels; `None` if not even an equal colour is taken.
-    #[must_use]
     pub fn reach(&self) -> Option<u8> {
         self.taken.iter().rposition(|t| *t).map(|d| d as u8)
     }

@@ -20,13 +20,11 @@ pub struct Inference {
 
 impl Inference {
     /// The rules with the sets of these parameters.
-    #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         Self { differences: Differences::new(spec), outputs: Outputs::new(spec) }
     }
 
     /// Weights of Matched and Unmatched (eq. 12) for differences in red, green and blue (eq. 6).
-    #[must_use]
     pub fn weights(&self, difference: [f64; 3]) -> (f64, f64) {
         let mu = &self.differences;
         let zero = difference.map(|d| mu.zero(d));
@@ -35,14 +33,12 @@ impl Inference {
     }
 
     /// Δρ_F (eq. 13) for differences in red, green and blue, levels.
-    #[must_use]
     pub fn difference(&self, difference: [f64; 3]) -> f64 {
         let (w_m, w_u) = self.weights(difference);
         self.centroid(w_m, w_u)
     }
 
     /// Centroid of the envelope of both output sets, cut at their rules' weights.
-    #[must_use]
     pub fn centroid(&self, w_m: f64, w_u: f64) -> f64 {
         let matched = |x: f64| self.outputs.matched(x).min(w_m);
         let unmatched = |x: f64| self.outputs.unmatched(x).min(w_u);

@@ -18,7 +18,6 @@ const SAMPLES: usize = 20_000;
 const TOP: f64 = 254.0;
 
 /// The picture without its slow changes.
-#[must_use]
 pub fn levelled(picture: &RgbImage) -> RgbImage {
     let (w, h) = picture.dimensions();
     let there = (picture.pixels()).filter(|p| p.0 != WHITE).count();

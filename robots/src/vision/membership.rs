@@ -22,25 +22,21 @@ pub struct Differences {
 
 impl Differences {
     /// With the knees of the parameters.
-    #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         Self { alpha1: spec.alpha1.get(), alpha2: spec.alpha2.get() }
     }
 
     /// μ_N, eq. 7.
-    #[must_use]
     pub fn negative(&self, x: f64) -> f64 {
         self.positive(-x)
     }
 
     /// μ_Z, eq. 8.
-    #[must_use]
     pub fn zero(&self, x: f64) -> f64 {
         ((self.alpha2 - x.abs()) / (self.alpha2 - self.alpha1)).clamp(0.0, 1.0)
     }
 
     /// μ_P, eq. 9.
-    #[must_use]
     pub fn positive(&self, x: f64) -> f64 {
         ((x - self.alpha1) / (self.alpha2 - self.alpha1)).clamp(0.0, 1.0)
     }
@@ -54,31 +50,26 @@ pub struct Outputs {
 
 impl Outputs {
     /// With the width of the parameters.
-    #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         Self { rho_m: spec.rho_m.get() }
     }
 
     /// ρ_U.
-    #[must_use]
     pub fn rho_u(&self) -> f64 {
         TOP - self.rho_m
     }
 
     /// μ_M, eq. 10.
-    #[must_use]
     pub fn matched(&self, x: f64) -> f64 {
         ((self.rho_m - x) / self.rho_m).max(0.0)
     }
 
     /// μ_U, eq. 11: the mirror image of μ_M, since ρ_M + ρ_U = 255.
-    #[must_use]
     pub fn unmatched(&self, x: f64) -> f64 {
         self.matched(TOP - x)
     }
 
     /// Places, in order, between which both sets, cut at `w_m` and `w_u`, are straight lines.
-    #[must_use]
     pub fn knees(&self, w_m: f64, w_u: f64) -> [f64; 6] {
         let mut at = [0.0, self.rho_m * (1.0 - w_m), self.rho_m, self.rho_u(), self.rho_u() + w_u * self.rho_m, TOP];
         at.sort_by(f64::total_cmp);

@@ -33,7 +33,6 @@ pub enum Target {
 
 impl Target {
     /// The colour that it resembles.
-    #[must_use]
     pub fn reference(self) -> Reference {
         match self {
             Target::Plume => Reference::Red,
@@ -69,7 +68,6 @@ pub struct Segmentation {
 }
 
 /// Segments a picture of any size.
-#[must_use]
 pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
     let extractor = Extractor::new(spec);
     let seen = if spec.dehaze { stretched(&levelled(picture)) } else { picture.clone() };
@@ -125,7 +123,6 @@ fn give_back(seen: &RgbImage, passes: &[Pass], left: &mut RgbImage, labels: &mut
 impl Segmentation {
     /// Whether each pixel belongs to the target: 255 or 0. Counts all passes, or only those whose patterns stayed in
     /// the group.
-    #[must_use]
     pub fn mask(&self, target: Target, of_group: bool) -> GrayImage {
         let mut belongs = [0_u8; 256];
         for pass in &self.passes {
@@ -145,19 +142,16 @@ impl Segmentation {
     }
 
     /// What one pass took, on white (I_M).
-    #[must_use]
     pub fn taken_by(&self, number: u8) -> RgbImage {
         self.on_white(|label| label == number)
     }
 
     /// What all passes left over, on white (the last I_U).
-    #[must_use]
     pub fn left(&self) -> RgbImage {
         self.on_white(|label| label == 0)
     }
 
     /// What the passes of a target took, on white; as in [`Segmentation::mask`].
-    #[must_use]
     pub fn union(&self, target: Target, of_group: bool) -> RgbImage {
         let of =
             |n: u8| (self.passes.iter()).any(|p| p.number == n && p.target == target && (!of_group || p.fate.kept()));

@@ -50,7 +50,6 @@ pub struct ColourSpec {
 
 impl ColourSpec {
     /// The paper's parameters with what hazy pictures need: dehazed, and dropped patterns given back.
-    #[must_use]
     pub fn for_haze() -> Self {
         Self { give_back: true, dehaze: true, ..Self::default() }
     }
@@ -79,7 +78,6 @@ impl ColourSpec {
     }
 
     /// The first field that contradicts the others, and what would be legal.
-    #[must_use]
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let (a1, a2) = (self.alpha1.get(), self.alpha2.get());
         if a1 >= a2 {

@@ -22,7 +22,6 @@ const TOP: f64 = 254.0;
 const MOST: f64 = 8.0;
 
 /// The picture, stretched.
-#[must_use]
 pub fn stretched(picture: &RgbImage) -> RgbImage {
     let mut counts = [[0_u64; 256]; 3];
     let mut all = 0;

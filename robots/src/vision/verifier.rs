@@ -76,7 +76,6 @@ pub enum Lack {
 
 impl Sighting {
     /// The verdict in words.
-    #[must_use]
     pub fn label(&self) -> &'static str {
         match self.lacks {
             None => "a source giving off dye",
@@ -99,19 +98,16 @@ pub struct Verifier {
 
 impl Verifier {
     /// With these parameters.
-    #[must_use]
     pub fn new(spec: &VerifierSpec) -> Self {
         Self { spec: spec.clone() }
     }
 
     /// What a picture shows.
-    #[must_use]
     pub fn judge(&self, picture: &RgbImage) -> Sighting {
         self.look(picture).1
     }
 
     /// What a picture shows, with its parts.
-    #[must_use]
     pub fn look(&self, picture: &RgbImage) -> (Segmentation, Sighting) {
         let parts = segment(picture, &self.spec.colours);
         let [dye, body] = [Target::Plume, Target::Source].map(|t| parts.mask(t, true));
@@ -121,7 +117,6 @@ impl Verifier {
     }
 
     /// The verdict on a picture whose dye and dark bodies are known, however they were found.
-    #[must_use]
     pub fn weigh(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
         let even = levelled(picture);
         let look = DyeLook::new(picture, &even, dye);

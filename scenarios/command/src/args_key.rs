@@ -21,13 +21,11 @@ pub struct KeyArgs {
 
 impl KeyArgs {
     /// The key; the public one if none was given.
-    #[must_use]
     pub fn get(&self) -> Key {
         self.key.as_deref().map_or_else(Key::public, Key::secret)
     }
 
     /// The seed of a number under the key.
-    #[must_use]
     pub fn seed(&self, number: u64) -> Seed {
         self.get().seed(number)
     }

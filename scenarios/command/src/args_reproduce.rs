@@ -72,7 +72,6 @@ pub struct ReproduceArgs {
 
 impl ReproduceArgs {
     /// Seeds for a row; with a width to reach, at most.
-    #[must_use]
     pub fn n(&self, row: &Row) -> u64 {
         match (self.quick, self.until_width) {
             (true, _) => row.quick.get(),

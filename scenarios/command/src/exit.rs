@@ -20,7 +20,6 @@ pub enum Exit {
 
 impl Exit {
     /// The number that the shell sees. Wrong usage is 2, which the argument parser returns.
-    #[must_use]
     pub fn code(self) -> u8 {
         match self {
             Exit::Success => 0,
@@ -32,7 +31,6 @@ impl Exit {
     }
 
     /// How some work ends. A panic has printed its message by now; to the shell it is an error like any other.
-    #[must_use]
     pub fn guarded(work: impl FnOnce() -> Self) -> Self {
         catch_unwind(AssertUnwindSafe(work)).unwrap_or(Self::Error)
     }

@@ -69,14 +69,12 @@ use std::process::ExitCode;
 use world::registry::Registry;
 
 /// The whole command, from its arguments to its exit code.
-#[must_use]
 pub fn main() -> ExitCode {
     main_with(&Registry::default())
 }
 
 /// The whole command for a crate that adds strategies, currents or sensors of its own. `run`, `check`, `list`,
 /// `explain` and campaigns then know them.
-#[must_use]
 pub fn main_with(registry: &Registry) -> ExitCode {
     signals::ignore_limits();
     let Args { command, memory } = match Args::try_parse() {

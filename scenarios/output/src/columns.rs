@@ -19,7 +19,6 @@ impl ColumnInfo {
     ///
     /// # Panics
     /// If the meaning does not end as a sentence.
-    #[must_use]
     pub const fn new(name: &'static str, unit: &'static str, what: &'static str) -> Self {
         let what = what.trim_ascii();
         assert!(matches!(what.as_bytes(), [.., b'.']), "a sentence");
@@ -48,7 +47,6 @@ pub struct TableInfo {
 
 impl TableInfo {
     /// Whether a file of this name holds such a table.
-    #[must_use]
     pub fn is_in(&self, file: &str) -> bool {
         match (self.file.split_once('<'), self.file.rsplit_once('>')) {
             (Some((start, _)), Some((_, end))) => file.starts_with(start) && file.ends_with(end),
@@ -57,7 +55,6 @@ impl TableInfo {
     }
 
     /// The table and its columns as text for a terminal.
-    #[must_use]
     pub fn text(&self) -> String {
         let mut out = format!("{}\n  {}\n", self.file, self.what);
         for ColumnInfo { name, unit, what } in &self.columns {
@@ -86,7 +83,6 @@ are clockwise from north.
 ";
 
 /// The page of all tables, for `docs/columns.md`.
-#[must_use]
 pub fn markdown(tables: &[TableInfo]) -> String {
     let mut out = String::from(HEAD);
     for table in tables {

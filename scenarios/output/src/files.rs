@@ -43,7 +43,6 @@ pub enum ReportError {
 
 impl ReportError {
     /// One error for several; `None` if there are none.
-    #[must_use]
     pub fn combine(mut failures: Vec<ReportError>) -> Option<Self> {
         match failures.len() {
             0 | 1 => failures.pop(),

@@ -19,7 +19,6 @@ pub const PLAIN: Look = Look { color: false, width: None };
 
 /// A text as a terminal may show it. Titles and names are texts of others: characters in them that would command the
 /// terminal, or turn the direction of writing, are written as `\u{1b}`. Lines and tabs stay.
-#[must_use]
 pub fn printable(text: &str) -> Cow<'_, str> {
     let acts = |c: char| (c.is_control() && !matches!(c, '\n' | '\t')) || turns(c);
     if !text.contains(acts) {
@@ -36,7 +35,6 @@ pub fn printable(text: &str) -> Cow<'_, str> {
 }
 
 /// Whether a character marks or turns the direction of writing, or ends a line unseen.
-#[must_use]
 pub fn turns(c: char) -> bool {
     matches!(
         c,
@@ -45,7 +43,6 @@ pub fn turns(c: char) -> bool {
 }
 
 /// A mistake or a warning with the lines around it.
-#[must_use]
 pub fn fault(fault: &Fault, look: Look) -> String {
     let mut message = fault.to_string();
     if fault.text.is_none() {
@@ -61,13 +58,11 @@ pub fn fault(fault: &Fault, look: Look) -> String {
 }
 
 /// Any other error, and how to put it right.
-#[must_use]
 pub fn error(message: &str, hint: Option<&str>, look: Look) -> String {
     head(Severity::Error, message, look) + &help(hint, look)
 }
 
 /// All mistakes of a scenario, one after the other.
-#[must_use]
 pub fn all(mistakes: &ScenarioError, look: Look) -> Vec<String> {
     match mistakes {
         ScenarioError::Many { faults, .. } => faults.iter().map(|f| fault(f, look)).collect(),

@@ -89,7 +89,6 @@ impl Simulation {
     }
 
     /// The ocean as it is.
-    #[must_use]
     pub fn ocean(&self) -> &Ocean {
         self.world.resource()
     }
@@ -144,13 +143,11 @@ impl Simulation {
     }
 
     /// Mission time, s.
-    #[must_use]
     pub fn t_s(&self) -> f64 {
         self.world.resource::<Clock>().t_s()
     }
 
     /// Flow at a point (ENU, m) now, m/s.
-    #[must_use]
     pub fn velocity(&self, p_W: &Vector3<f64>) -> Vector3<f64> {
         self.ocean().velocity(p_W, self.t_s())
     }

@@ -86,13 +86,11 @@ pub struct SpinUp {
 
 impl SpinUps {
     /// Those in the user's cache folder, which may hold so many bytes; `None` if the system names no such folder.
-    #[must_use]
     pub fn of_user(most: u64) -> Option<Self> {
         dirs::cache_dir().map(|dir| Self::new(dir.join("rheotaxis"), most))
     }
 
     /// Those in a folder, which need not exist yet, with the most bytes that it may hold.
-    #[must_use]
     pub fn new(dir: PathBuf, most: u64) -> Self {
         Self {
             shelf: Shelf::new(dir, most),
@@ -126,13 +124,11 @@ impl SpinUps {
     }
 
     /// The folder with its files.
-    #[must_use]
     pub fn shelf(&self) -> &Shelf {
         &self.shelf
     }
 
     /// The first fault since this was asked last.
-    #[must_use]
     pub fn fault(&self) -> Option<CacheFault> {
         self.noted().take()
     }
@@ -256,7 +252,6 @@ impl<O: Observer> Lanes<O> {
 
 /// The first 32 hexadecimal digits of the fingerprint of the running program's file; `unknown` if it cannot be read.
 /// Programs with other algorithms of their own have another one, even if they call themselves by one version.
-#[must_use]
 pub fn program_mark() -> String {
     program().map_or_else(|_| "unknown".to_string(), |print| Fingerprint::hex(print)[..32].to_string())
 }

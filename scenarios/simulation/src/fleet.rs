@@ -14,7 +14,6 @@ pub struct Fleet<'s> {
 
 impl<'s> Fleet<'s> {
     /// Robots, then gantries, then what other crates add, each in the scenario's order.
-    #[must_use]
     pub fn from_scenario(scenario: &'s Scenario) -> Self {
         let robots = scenario.robots.iter().map(|r| r as &dyn Machine);
         let gantries = scenario.gantries.iter().map(|g| g as &dyn Machine);

@@ -60,7 +60,6 @@ pub struct WaterFrame {
 
 impl PlumeFrame {
     /// The points in single precision, east and north relative to the centre of the area.
-    #[must_use]
     pub fn local(&self) -> Vec<[f32; 6]> {
         local(&self.points, self.centre)
     }
@@ -68,7 +67,6 @@ impl PlumeFrame {
 
 impl WaterFrame {
     /// The points in single precision, east and north relative to the centre of the area.
-    #[must_use]
     pub fn local(&self) -> Vec<[f32; 6]> {
         local(&self.points, self.centre)
     }

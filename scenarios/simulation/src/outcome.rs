@@ -24,7 +24,6 @@ pub enum RunOutcome {
 
 impl RunOutcome {
     /// In words, for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             RunOutcome::Found => "source found",

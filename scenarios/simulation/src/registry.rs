@@ -56,7 +56,6 @@ pub struct Section {
 }
 
 /// All sections, in the order of the list. Sections with the same heading are joined.
-#[must_use]
 pub fn sections(registry: &Registry) -> Vec<Section> {
     use Group::{Algorithms, Flows, Sensors, Vehicles};
     let chosen = RegistrySections(registry);
@@ -97,7 +96,6 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
 }
 
 /// All topics of a run: its own, those of each kind of apparatus, those that a registry carries.
-#[must_use]
 pub fn topics(registry: &Registry) -> Vec<Topic> {
     let own = [run::CLOCK, auv::topics::TOPICS, gantry::topics::TOPICS, run::RUN];
     own.into_iter().flatten().chain(registry.carried()).copied().collect()
@@ -105,7 +103,6 @@ pub fn topics(registry: &Registry) -> Vec<Topic> {
 
 /// The JSON messages of a frame, with their keys below `rheotaxis/<run>/`: those of each robot, those of each gantry,
 /// and what systems have published.
-#[must_use]
 pub fn messages(frame: &Frame) -> Vec<(String, Value)> {
     let robot = |r| auv::message::messages(frame.t_s, r, &frame.abnormal);
     let gantry = |g| gantry::message::messages(frame.t_s, g);

@@ -40,7 +40,6 @@ pub struct Energy {
 
 impl Energy {
     /// How long a full battery lasts at the mean power so far, s; infinite at none.
-    #[must_use]
     pub fn endurance_s(&self) -> f64 {
         match self.emptied_s {
             Some(t_s) => t_s,
@@ -77,7 +76,6 @@ pub struct Saturation {
 
 impl Saturation {
     /// Share of the time.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.saturated_s / self.counted_s
     }
@@ -137,7 +135,6 @@ impl SearcherScore {
     }
 
     /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
-    #[must_use]
     pub fn traced_m(&self) -> Option<f64> {
         let first = self.declarations.first()?;
         Some((first.position - self.first_detection?).norm())
@@ -193,7 +190,6 @@ impl SearcherScore {
 
 impl Score {
     /// Without searchers.
-    #[must_use]
     pub fn new(sources: Vec<Vector3<f64>>) -> Self {
         Self { sources, ..Self::default() }
     }
@@ -206,7 +202,6 @@ impl Score {
     }
 
     /// Least horizontal distance between any robot and a source so far, m.
-    #[must_use]
     pub fn closest_m(&self) -> f64 {
         let all = self.searchers.iter().map(|s| s.closest_m);
         all.fold(f64::INFINITY, f64::min)

@@ -210,7 +210,6 @@ impl Trial {
     }
 
     /// The result of the run so far. Before its end the outcome is the one that it would have at the time limit.
-    #[must_use]
     pub fn ended(&self) -> RunEnd {
         let world = &self.simulation.world;
         let samples = f64::from(self.progress.flow_samples.max(1));
@@ -242,13 +241,11 @@ impl Trial {
     }
 
     /// Makes the run to its end without an observer.
-    #[must_use]
     pub fn finish_quietly(mut self) -> RunEnd {
         self.run(&mut Unwatched)
     }
 
     /// The newest frame; `None` before the first. `record.frame_period_s` of the scenario says how often there is one.
-    #[must_use]
     pub fn frame(&self) -> Option<&Frame> {
         self.progress.frame.as_deref()
     }
@@ -259,7 +256,6 @@ impl Trial {
     }
 
     /// What the summary shows of each machine that has its own part in it, by id.
-    #[must_use]
     pub fn apparatus(&self) -> BTreeMap<String, serde_json::Value> {
         let all = Fleet::from_scenario(&self.scenario);
         let part = |a: &dyn Machine| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
@@ -267,7 +263,6 @@ impl Trial {
     }
 
     /// How near each searcher came to a source, what it declared, and how its mission ended.
-    #[must_use]
     pub fn score(&self) -> &Score {
         self.simulation.world.resource()
     }

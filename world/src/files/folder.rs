@@ -94,13 +94,11 @@ impl Folder {
     }
 
     /// Names of the files of an earlier run that were removed.
-    #[must_use]
     pub fn removed(&self) -> &[String] {
         &self.removed
     }
 
     /// The folder.
-    #[must_use]
     pub fn dir(&self) -> &Path {
         &self.dir
     }

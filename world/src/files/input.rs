@@ -28,7 +28,6 @@ pub(super) fn special(kind: FileType) -> Option<&'static str> {
 }
 
 /// Whether a special file (no regular file) stands at this path. Such a file is not ours, so it must not be replaced.
-#[must_use]
 pub fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|m| special(m.file_type()).is_some())
 }

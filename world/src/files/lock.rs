@@ -64,7 +64,6 @@ pub(super) fn busy() -> io::Error {
 }
 
 /// Whether a run is writing its results into a folder now, so that what others write there could mix with them.
-#[must_use]
 pub fn is_in_use(dir: &Path) -> bool {
     // Reading is enough for a look; as nothing is made, a folder without a run stays as it is.
     let path = dir.join(NAME);

@@ -42,13 +42,11 @@ impl OutputError {
     }
 
     /// Whether somebody else's file stands in the place.
-    #[must_use]
     pub fn is_foreign(&self) -> bool {
         self.source.get_ref().is_some_and(|e| e.is::<Foreign>())
     }
 
     /// Whether another run is writing there.
-    #[must_use]
     pub fn is_busy(&self) -> bool {
         self.source.kind() == ErrorKind::ResourceBusy
     }
@@ -156,13 +154,11 @@ impl Output {
     }
 
     /// The temporary path, until the file has its name.
-    #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary
     }
 
     /// An error of this file.
-    #[must_use]
     pub fn failed(&self, source: io::Error) -> OutputError {
         OutputError::new(&self.path, source)
     }
@@ -235,7 +231,6 @@ impl Seek for Output {
 }
 
 /// The folder that a file is in, or is to be in.
-#[must_use]
 pub fn folder_of(file: &Path) -> &Path {
     match file.parent() {
         Some(folder) if folder != Path::new("") => folder,

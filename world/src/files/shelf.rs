@@ -77,20 +77,17 @@ struct Entry {
 
 impl Shelf {
     /// A folder, which need not exist yet, and the most bytes that it may hold.
-    #[must_use]
     pub fn new(dir: PathBuf, most: u64) -> Self {
         let added = AtomicU64::new(0);
         Self { dir, most, added }
     }
 
     /// The folder.
-    #[must_use]
     pub fn dir(&self) -> &Path {
         &self.dir
     }
 
     /// The most bytes that it may hold.
-    #[must_use]
     pub fn most(&self) -> u64 {
         self.most
     }

@@ -22,7 +22,6 @@ impl Obstacle {
     /// Casts a ray from `origin` (ENU, m) in the unit direction `dir`. Returns the distance to the first hit within
     /// `max_m`, m, and the outward unit normal there. A ray that starts inside returns zero and the direction
     /// backwards.
-    #[must_use]
     pub fn cast(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<(f64, Vector3<f64>)> {
         if self.contains(origin) {
             return Some((0.0, -dir));
@@ -33,7 +32,6 @@ impl Obstacle {
     }
 
     /// Centre and radius of a ball that encloses it, m.
-    #[must_use]
     pub fn ball(&self) -> (Vector3<f64>, f64) {
         let (low, high) = self.bounds();
         (0.5 * (low + high), 0.5 * (high - low).norm())
@@ -42,7 +40,6 @@ impl Obstacle {
 
 impl Obstacles {
     /// The first hit on any obstacle along a ray from `origin` (ENU, m) in the unit direction `dir` within `max_m`, m.
-    #[must_use]
     pub fn cast(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<Hit<'_>> {
         self.0
             .iter()

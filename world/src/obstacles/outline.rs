@@ -10,7 +10,6 @@ const ROUND: usize = 32;
 
 impl Obstacle {
     /// Convex outline seen from above: corners (east, north) anticlockwise, m.
-    #[must_use]
     pub fn outline(&self) -> Vec<[f64; 2]> {
         let points: Vec<Vector3<f64>> = if let Some(block) = self.shape.as_cuboid() {
             let h = block.half_extents;

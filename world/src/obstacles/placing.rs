@@ -39,7 +39,6 @@ fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
 
 impl Obstacle {
     /// What is suspicious about its size and place.
-    #[must_use]
     pub fn remarks(&self, spec: &ObstacleSpec, area: &Area, terrain: &Terrain) -> Vec<Remark> {
         let (low, high) = self.bounds();
         let id = &self.id;
@@ -108,14 +107,12 @@ impl Obstacle {
 
 impl ObstacleSpec {
     /// Whether it differs from another obstacle only in its name.
-    #[must_use]
     pub fn is_copy_of(&self, other: &Self) -> bool {
         let renamed = Self { id: other.id.clone(), ..self.clone() };
         renamed == *other
     }
 
     /// The file with its shape, as the scenario names it.
-    #[must_use]
     pub fn file(&self) -> Option<&str> {
         match &self.shape {
             ShapeSpec::Mesh(m) => Some(&m.file),
@@ -127,14 +124,12 @@ impl ObstacleSpec {
 
 impl Obstacles {
     /// The obstacles whose ids are not among `ids`.
-    #[must_use]
     pub fn without(&self, ids: &[String]) -> Self {
         let stays = |o: &&Obstacle| !ids.contains(&o.id);
         Self(self.0.iter().filter(stays).cloned().collect())
     }
 
     /// Whether the obstacles leave open water in the area, tested on a dense grid of points.
-    #[must_use]
     pub fn leave_water(&self, area: &Area, terrain: &Terrain) -> bool {
         let part = |n: usize, d: usize| (n as f64 + 0.5) / LOOKS[d] as f64;
         (0..LOOKS[0]).any(|i| {

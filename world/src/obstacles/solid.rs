@@ -90,13 +90,11 @@ impl Obstacle {
     }
 
     /// Whether a point (ENU, m) lies inside.
-    #[must_use]
     pub fn contains(&self, p: &Vector3<f64>) -> bool {
         self.distance(p) < 0.0
     }
 
     /// Distance from a point (ENU, m) to the surface, m; negative inside.
-    #[must_use]
     pub fn distance(&self, p: &Vector3<f64>) -> f64 {
         let p = vector(p);
         let on = self.shape.project_point(&pose(&self.pose), p, false);
@@ -105,14 +103,12 @@ impl Obstacle {
     }
 
     /// Axis-aligned bounds (min, max) in the world, m.
-    #[must_use]
     pub fn bounds(&self) -> (Vector3<f64>, Vector3<f64>) {
         let b = self.shape.compute_aabb(&pose(&self.pose));
         (from_vector(b.mins), from_vector(b.maxs))
     }
 
     /// Its least and its greatest horizontal extent along its own axes, m.
-    #[must_use]
     pub fn plan_m(&self) -> [f64; 2] {
         let half = from_vector(self.shape.compute_local_aabb().half_extents());
         let upright = |axis: usize| (self.pose.R_WB * Vector3::ith(axis, 1.0)).z.abs() > 0.5;
@@ -122,7 +118,6 @@ impl Obstacle {
 
     /// Distance along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first hit within
     /// `max_m`, m; zero if it starts inside.
-    #[must_use]
     pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         if self.contains(origin) {
             return Some(0.0);
@@ -133,7 +128,6 @@ impl Obstacle {
 
     /// Whether a block of half extents `half_m` overlaps the obstacle's surface, or its inside if the shape is solid. A
     /// block that only touches does not count.
-    #[must_use]
     pub fn meets_box(&self, pose_WB: &Pose, half_m: [f64; 3]) -> bool {
         let block = Cuboid::new(Vector::new(half_m[0], half_m[1], half_m[2]));
         let at = pose(pose_WB);
@@ -149,19 +143,16 @@ pub struct Obstacles(pub Vec<Obstacle>);
 
 impl Obstacles {
     /// The obstacle that contains a point, if any.
-    #[must_use]
     pub fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
         self.0.iter().find(|o| o.contains(p))
     }
 
     /// Distance to the nearest surface, m (negative inside); infinite without obstacles.
-    #[must_use]
     pub fn distance(&self, p: &Vector3<f64>) -> f64 {
         self.0.iter().map(|o| o.distance(p)).fold(f64::INFINITY, f64::min)
     }
 
     /// Distance along a ray to the first hit on any obstacle, m; see [`Obstacle::ray`].
-    #[must_use]
     pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         self.0.iter().filter_map(|o| o.ray(origin, dir, max_m)).min_by(f64::total_cmp)
     }

@@ -9,7 +9,6 @@ const ROUND: u32 = 32;
 
 impl Obstacle {
     /// Its surface: corners in the world (ENU, m), anticlockwise seen from outside.
-    #[must_use]
     pub fn triangles(&self) -> Vec<[Vector3<f64>; 3]> {
         let (points, triangles) = if let Some(block) = self.shape.as_cuboid() {
             block.to_trimesh()

@@ -25,7 +25,6 @@ impl Obstacle {
 impl Obstacles {
     /// The nearest free point to a point inside a solid, searched sideways and up to the surface. Returns the point
     /// itself if it is free, or if there is no way out below the surface.
-    #[must_use]
     pub fn way_out(&self, p: &Vector3<f64>) -> Vector3<f64> {
         if self.containing(p).is_none() {
             return *p;

@@ -134,13 +134,11 @@ impl Physics {
     }
 
     /// The joints after the latest step.
-    #[must_use]
     pub fn joints(&self, id: GantryId) -> [JointState; 2] {
         self.gantries[id.0].states
     }
 
     /// Pose of the base axes as if the second slide carried them; it never turns.
-    #[must_use]
     pub fn head(&self, id: GantryId) -> Truth {
         let g = &self.gantries[id.0];
         let [a, b] = &g.states;
@@ -155,7 +153,6 @@ impl Physics {
     }
 
     /// What a gantry touched in the latest step.
-    #[must_use]
     pub fn gantry_contact(&self, id: GantryId) -> GantryContact {
         self.gantries[id.0].contact
     }
@@ -216,7 +213,6 @@ impl Physics {
     }
 
     /// Name of something solid, for messages.
-    #[must_use]
     pub fn name(&self, solid: Solid) -> &str {
         match solid {
             Solid::Fixed(i) => &self.fixed[i].name,

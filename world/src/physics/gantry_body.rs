@@ -114,7 +114,6 @@ pub struct GantryContact {
 
 impl GantryContact {
     /// Whether anything pushed back.
-    #[must_use]
     pub fn touching(&self) -> bool {
         self.with.is_some()
     }

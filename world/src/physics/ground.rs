@@ -70,7 +70,6 @@ impl FixedSolid {
 
 impl Bed {
     /// The bed of a terrain.
-    #[must_use]
     pub fn new(terrain: &Terrain, area: &Area) -> Self {
         let (min, max) = area.bounds();
         let size = (max - min).map(|s| s + 2.0 * MARGIN_M);

@@ -69,21 +69,18 @@ impl Shape {
     }
 
     /// Whether the solver can use it: false for a hull whose points span no volume.
-    #[must_use]
     pub fn is_solid(&self) -> bool {
         // One cubic millimetre, because a flat hull has some volume from rounding.
         self.shared().is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
     }
 
     /// Tells of points, m in its own axes, whether they lie in it; of a flat hull none does.
-    #[must_use]
     pub fn inside(&self) -> Inside {
         let shared = self.shared();
         Box::new(move |p| shared.as_ref().is_some_and(|s| s.contains_local_point(vector(p))))
     }
 
     /// Greatest distance of any of its points from its origin, m.
-    #[must_use]
     pub fn reach_m(&self) -> f64 {
         match self {
             Shape::Sphere { radius_m } => *radius_m,

@@ -47,7 +47,6 @@ pub struct Physics {
 
 impl Physics {
     /// Empty water with steps of `dt_s`, s.
-    #[must_use]
     pub fn new(dt_s: f64) -> Self {
         let mut world = Box::new(r::PhysicsWorld::new());
         world.gravity = r::Vector::ZERO;
@@ -64,7 +63,6 @@ impl Physics {
     }
 
     /// Length of a step, s.
-    #[must_use]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
     }
@@ -138,7 +136,6 @@ impl Physics {
     }
 
     /// True state of a body.
-    #[must_use]
     pub fn truth(&self, id: BodyId) -> Truth {
         self.bodies[id.0].truth
     }
@@ -151,13 +148,11 @@ impl Physics {
     }
 
     /// What a body touched in the latest step.
-    #[must_use]
     pub fn contacts(&self, id: BodyId) -> ContactReport {
         self.bodies[id.0].contact
     }
 
     /// Distance from `from_W` along `along_W` (any length) to the first fixed solid, m, within `max_m`.
-    #[must_use]
     pub fn ray(&self, from_W: &Vector3<f64>, along_W: &Vector3<f64>, max_m: f64) -> Option<f64> {
         let along = along_W.normalize();
         self.fixed

@@ -74,7 +74,6 @@ impl Registry {
     }
 
     /// All things of a kind: those that come with the program first.
-    #[must_use]
     pub fn rows<K: Kind>(&self) -> Vec<Row<K>> {
         let mine = self.added.iter().filter(|a| a.kind == TypeId::of::<K>());
         let mine = mine.filter_map(|a| a.row.downcast_ref::<Row<K>>().copied());
@@ -82,7 +81,6 @@ impl Registry {
     }
 
     /// The same for lists.
-    #[must_use]
     pub fn entries<K: Kind>(&self) -> Vec<Entry> {
         self.rows::<K>().iter().map(|r| r.entry).collect()
     }

@@ -12,7 +12,6 @@ pub struct Choice<K: Kind>(Box<K::Spec>);
 
 impl<K: Kind> Choice<K> {
     /// The thing with these parameters.
-    #[must_use]
     pub fn new<S>(spec: S) -> Self
     where
         K: Takes<S>,
@@ -21,13 +20,11 @@ impl<K: Kind> Choice<K> {
     }
 
     /// Its name, as in RON.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         self.0.entry().name
     }
 
     /// Whether it comes from another crate than the program's.
-    #[must_use]
     pub fn is_own(&self) -> bool {
         K::built_in().iter().all(|row| row.entry.name != self.name())
     }
@@ -38,13 +35,11 @@ impl<K: Kind> Choice<K> {
     }
 
     /// Its parameters, if they are `S`.
-    #[must_use]
     pub fn get<S: 'static>(&self) -> Option<&S> {
         self.0.as_any().downcast_ref()
     }
 
     /// The same, to change them.
-    #[must_use]
     pub fn get_mut<S: 'static>(&mut self) -> Option<&mut S> {
         self.0.as_any_mut().downcast_mut()
     }

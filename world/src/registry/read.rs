@@ -44,7 +44,6 @@ impl Registry {
     }
 
     /// The JSON Schema of a file that is read as a `T`. The schemas of `more` types refer to the same definitions.
-    #[must_use]
     pub fn schema<T: JsonSchema>(
         &self,
         settings: SchemaSettings,

@@ -19,7 +19,6 @@ pub struct Row<K: Kind> {
 
 impl<K: Kind> Row<K> {
     /// The row of parameters `S`.
-    #[must_use]
     pub fn new<S: Listed + DeserializeOwned + JsonSchema>() -> Self
     where
         K: Takes<S>,

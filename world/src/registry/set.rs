@@ -32,13 +32,11 @@ impl<K: Kind> Set<K> {
     }
 
     /// Whether there is one of that name.
-    #[must_use]
     pub fn has(&self, name: &str) -> bool {
         self.0.iter().any(|c| c.name() == name)
     }
 
     /// The one with parameters `S`.
-    #[must_use]
     pub fn get<S: 'static>(&self) -> Option<&S> {
         self.0.iter().find_map(Choice::get)
     }

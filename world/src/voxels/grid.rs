@@ -150,39 +150,33 @@ impl Voxels {
     }
 
     /// Number of cells along, across and upwards.
-    #[must_use]
     pub fn size(&self) -> [usize; 3] {
         self.n
     }
 
     /// Size of a cell along, across and upwards, m.
-    #[must_use]
     pub fn cell_m(&self) -> [f64; 3] {
         self.cell_m
     }
 
     /// The area that the cells fill.
-    #[must_use]
     pub fn area(&self) -> &Area {
         &self.area
     }
 
     /// Number of a cell: (i·ny + j)·nz + k.
     #[inline]
-    #[must_use]
     pub fn index(&self, [i, j, k]: [usize; 3]) -> usize {
         (i * self.n[1] + j) * self.n[2] + k
     }
 
     /// Whether a cell is solid or contains part of a solid.
     #[inline]
-    #[must_use]
     pub fn solid(&self, i: usize, j: usize, k: usize) -> bool {
         self.solid[self.index([i, j, k])]
     }
 
     /// All cells, by [number](Self::index).
-    #[must_use]
     pub fn solids(&self) -> &[bool] {
         &self.solid
     }
@@ -190,25 +184,21 @@ impl Voxels {
     /// Distance from the centre of a cell to the surface of the nearest solid cell, m; 0 if it is solid itself,
     /// infinite if none is.
     #[inline]
-    #[must_use]
     pub fn clearance(&self, cell: [usize; 3]) -> f64 {
         f64::from(self.clearance[self.index(cell)])
     }
 
     /// Clearances of all cells, by [number](Self::index), m.
-    #[must_use]
     pub fn clearances(&self) -> &[f32] {
         &self.clearance
     }
 
     /// Clearance of the cell that contains a point (ENU, m), m; infinite outside.
-    #[must_use]
     pub fn clearance_m(&self, p: &Vector3<f64>) -> f64 {
         self.cell(p).map_or(f64::INFINITY, |c| self.clearance(c))
     }
 
     /// The cell that contains a point (ENU, m); `None` outside.
-    #[must_use]
     pub fn cell(&self, p: &Vector3<f64>) -> Option<[usize; 3]> {
         let c = self.in_cells(p);
         // The far edges belong to the last cells.
@@ -218,7 +208,6 @@ impl Voxels {
     }
 
     /// Centre of a cell (ENU), m.
-    #[must_use]
     pub fn centre(&self, [i, j, k]: [usize; 3]) -> Vector3<f64> {
         let p = self.area.world(self.local_of([i as f64 + 0.5, j as f64 + 0.5]));
         Vector3::new(p.x, p.y, self.low_z + (k as f64 + 0.5) * self.cell_m[2])

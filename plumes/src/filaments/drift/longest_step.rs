@@ -66,7 +66,6 @@ fn times(until_s: f64) -> impl Iterator<Item = f64> {
 
 impl SharpestMixing {
     /// The sharpest columns of an area from time 0 to `until_s`, as a plume on a grid of this shape sees them.
-    #[must_use]
     pub fn sharpest(flow: &dyn Flow, area: &Area, terrain: &Terrain, shape: &GridShape, until_s: f64) -> Self {
         let mut columns: Vec<Column> = Vec::new();
         let mut slowest_m_s = f64::INFINITY;
@@ -86,7 +85,6 @@ impl SharpestMixing {
 
     /// How steps of `dt_s` disturb mixed water within `lasts_s`, or for as long as it stays in the area. `None` if K_z
     /// is finite nowhere.
-    #[must_use]
     pub fn uneven(&self, dt_s: f64, lasts_s: f64) -> Option<Uneven> {
         let all = self.columns.iter().map(|c| Uneven {
             part: c.profile.unevenness(dt_s, lasts_s.min(self.stay_s)),
@@ -97,7 +95,6 @@ impl SharpestMixing {
     }
 
     /// Whether steps of `dt_s` are so short that nothing has to be worked out.
-    #[must_use]
     pub fn surely_even(&self, dt_s: f64) -> bool {
         let bends = self.columns.iter().map(|c| c.profile.sharpest());
         AT_MOST * dt_s * bends.fold(0.0, f64::max) <= EVEN
@@ -105,7 +102,6 @@ impl SharpestMixing {
 
     /// The longest step up to `most_s` that keeps mixed water within [`EVEN`] for `lasts_s`, s; it may be a twentieth
     /// too short. `None` if it would be shorter than a millisecond.
-    #[must_use]
     pub fn longest_step_s(&self, most_s: f64, lasts_s: f64) -> Option<f64> {
         let even = |dt_s: f64| self.uneven(dt_s, lasts_s).is_none_or(|u| u.part <= EVEN);
         let (mut long, mut short) = (most_s, most_s);

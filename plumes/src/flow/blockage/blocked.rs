@@ -93,7 +93,6 @@ impl ObstacleFlow {
     }
 
     /// The last solution: cells, steps, divergence left.
-    #[must_use]
     pub fn solved(&self) -> SolutionReport {
         self.solved
     }

@@ -53,7 +53,6 @@ const LEVELS: (u32, u32) = (2, 201);
 
 impl BlockageSpec {
     /// The grid for the plume's flow whose nodes are the corners of these cells.
-    #[must_use]
     pub fn grid_shape(&self) -> GridShape {
         GridShape {
             cell_m: self.cell_m.get(),
@@ -64,7 +63,6 @@ impl BlockageSpec {
     }
 
     /// What it takes to lead the water round: in steady water once.
-    #[must_use]
     pub fn cost(&self, area: &Area, steady: bool, times: &Times) -> Cost {
         let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * self.margin_m.get());
         let count = extent.map(|e| (e / self.cell_m.get()).ceil().max(1.0));

@@ -135,7 +135,6 @@ fn beside(work: impl FnOnce() + Send + 'static) {
 
 impl EddiesSpec {
     /// What the eddies need in a channel as wide as the area.
-    #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64) -> Cost {
         let up = f64::from(self.cells_a_depth);
         let across = (area.width_m / depth_m * up).round();
@@ -154,7 +153,6 @@ impl EddiesSpec {
 
 impl Eddies {
     /// The eddies below the grid, if they are resolved.
-    #[must_use]
     pub fn small(&self) -> Option<&Arc<Small>> {
         self.small.as_ref()
     }
@@ -180,25 +178,21 @@ impl Eddies {
     }
 
     /// The spectrum of the eddies.
-    #[must_use]
     pub fn spectrum(&self) -> &Spectrum {
         &self.shape.spectrum
     }
 
     /// Expected intensities (along, across, up) at a height above the bed, m/s, averaged over the width.
-    #[must_use]
     pub fn intensities(&self, height_m: f64) -> [f64; 3] {
         self.shape.expected(height_m).map(|v| v * self.u_star_m_s)
     }
 
     /// Integral time in the frame that moves with the stream, s.
-    #[must_use]
     pub fn turn_over_s(&self) -> f64 {
         self.period_s * 8.0 / (std::f64::consts::PI * std::f64::consts::PI)
     }
 
     /// Velocity at a place (ENU, m), m/s; beyond walls, bed or surface, the velocity at them.
-    #[must_use]
     pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let d = p.xy() - self.centre;
         let now = self.now(t_s);

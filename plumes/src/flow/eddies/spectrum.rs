@@ -36,7 +36,6 @@ pub struct Spectrum {
 
 impl Spectrum {
     /// Of a channel whose eddies are resolved down to the wave length `shortest_m`.
-    #[must_use]
     pub fn new(channel: &Channel, shortest_m: f64) -> Self {
         let nu = channel.viscosity_m2_s;
         let epsilon = channel.dissipation(0.5 * channel.depth_m);
@@ -48,14 +47,12 @@ impl Spectrum {
     }
 
     /// E(k), any unit.
-    #[must_use]
     pub fn energy(&self, k: f64) -> f64 {
         let x2 = (k / self.k_e) * (k / self.k_e);
         x2 * x2 * math::powf(1.0 + x2, -17.0 / 6.0) * math::exp(-2.25 * math::powf(k * self.eta, 4.0 / 3.0))
     }
 
     /// Part of the energy at wave numbers up to k_c.
-    #[must_use]
     pub fn resolved(&self) -> f64 {
         // In ln k, from well below the energy to well beyond the viscous end.
         const N: usize = 2000;
@@ -71,7 +68,6 @@ impl Spectrum {
     }
 
     /// Diffusivity of the eddies beyond a wave number, at a height above the bed, m²/s.
-    #[must_use]
     pub fn beyond(channel: &Channel, height_m: f64, k_c: f64) -> f64 {
         let epsilon = channel.dissipation(height_m);
         let inertial = 0.444 / 0.7 * math::powf(epsilon, 1.0 / 3.0) * math::powf(k_c, -4.0 / 3.0);

@@ -65,7 +65,6 @@ impl GridShape {
 
     /// The default grid. In water less than 100 m wide it is scaled: cells of a sixth of the width, a margin of an
     /// eighth.
-    #[must_use]
     pub fn fitting(area: &Area) -> Self {
         let usual = Self::default();
         if area.width_m >= 2.0 * usual.margin_m {
@@ -75,7 +74,6 @@ impl GridShape {
     }
 
     /// Number of nodes along, across and upwards. These are `f64`, so that a number that is too large can be reported.
-    #[must_use]
     pub fn nodes(&self, area: &Area) -> [f64; 3] {
         let [along, across] =
             [area.length_m, area.width_m].map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
@@ -89,7 +87,6 @@ impl GridShape {
     }
 
     /// Distance between two levels at a height above the bed, m.
-    #[must_use]
     pub fn spacing_m(&self, height_m: f64, depth_m: f64) -> f64 {
         let (a, s) = (self.stretch, (height_m / depth_m).clamp(0.0, 1.0));
         // ds/dξ at s, from s = (1 − a)ξ + aξ².

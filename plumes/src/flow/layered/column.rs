@@ -13,7 +13,6 @@ use nalgebra::Vector2;
 
 impl<N: Number> LayeredColumn<'_, N> {
     /// The interfaces, top first.
-    #[must_use]
     pub fn faces(&self) -> &[Sheet<N>] {
         &self.faces[..self.of.faces.len()]
     }
@@ -27,14 +26,12 @@ impl<N: Number> LayeredColumn<'_, N> {
     }
 
     /// Horizontal velocity at a height, m/s: that of [`LayeredColumn::profile`], without the rest.
-    #[must_use]
     pub fn velocity(&self, z: N) -> Vector2<N> {
         let n = self.of.u.len();
         (0..n - 1).fold(self.u[n - 1], |u, i| u + (self.u[i] - self.u[i + 1]) * self.share(i, z))
     }
 
     /// Density at a height, kg/m³: that of [`LayeredColumn::profile`], without the rest.
-    #[must_use]
     pub fn density(&self, z: N) -> f64 {
         let rho = &self.of.density;
         (0..rho.len() - 1)
@@ -43,7 +40,6 @@ impl<N: Number> LayeredColumn<'_, N> {
 
     /// The layer-following surface through a height between floor and surface: linear between bed, interfaces and
     /// surface.
-    #[must_use]
     pub fn sheet(&self, z: N, floor: &Floor<N>) -> Sheet<N> {
         let mut upper = Sheet::level(0.0);
         for lower in self.faces() {
@@ -60,7 +56,6 @@ impl<N: Number> LayeredColumn<'_, N> {
 impl LayeredColumn<'_> {
     /// Height of the lowest interface across which the density changes, m. It limits the turbulence of the bed from
     /// above.
-    #[must_use]
     pub fn lid(&self) -> Option<f64> {
         let rho = &self.of.density;
         let lowest = (0..self.of.faces.len()).rev().find(|&i| rho[i] < rho[i + 1]);
@@ -75,7 +70,6 @@ impl LayeredColumn<'_> {
     }
 
     /// Velocity, density and gradients at a height, m.
-    #[must_use]
     pub fn profile(&self, z: f64) -> Profile {
         let n = self.of.u.len();
         let mut p =

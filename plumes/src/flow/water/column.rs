@@ -26,7 +26,6 @@ impl<N: Number> Column<'_, N> {
     }
 
     /// Velocity at a height, m/s.
-    #[must_use]
     pub fn velocity(&self, z: N) -> Vector3<N> {
         let z = self.inside(z);
         self.velocity_in(z, self.layered(z))
@@ -51,7 +50,6 @@ impl<N: Number> Column<'_, N> {
     }
 
     /// Density at a height, kg/m³.
-    #[must_use]
     pub fn density(&self, z: N) -> f64 {
         let layers = self.layers.as_ref();
         layers.map_or(self.water.density, |l| l.density(self.inside(z)))
@@ -60,13 +58,11 @@ impl<N: Number> Column<'_, N> {
 
 impl Column<'_> {
     /// Height of the bed, m.
-    #[must_use]
     pub fn bed_z(&self) -> f64 {
         self.floor.z
     }
 
     /// The interfaces between the layers, top first.
-    #[must_use]
     pub fn interfaces(&self) -> &[Sheet] {
         self.layers.as_ref().map_or(&[], LayeredColumn::faces)
     }
@@ -81,7 +77,6 @@ impl Column<'_> {
     }
 
     /// Friction velocity at the bed, m/s; zero without bed friction.
-    #[must_use]
     pub fn friction_velocity(&self) -> f64 {
         if let Some(flume) = &self.water.flume {
             return flume.channel.u_star_m_s;
@@ -94,7 +89,6 @@ impl Column<'_> {
     }
 
     /// Diffusivities at a height, given the column's friction velocity.
-    #[must_use]
     pub fn mixing(&self, z: f64, u_star_m_s: f64) -> Mixing {
         let z = self.inside(z);
         self.mixing_in(z, u_star_m_s, self.profile(z).as_ref())

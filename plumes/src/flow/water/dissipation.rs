@@ -13,7 +13,6 @@ use world::units::GRAVITY_M_S2;
 
 impl Column<'_> {
     /// Dissipation of turbulent energy at a height, given the column's friction velocity, m²/s³.
-    #[must_use]
     pub fn dissipation(&self, z: f64, u_star_m_s: f64) -> f64 {
         let z = self.inside(z);
         let height = z - self.floor.z;

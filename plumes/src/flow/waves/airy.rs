@@ -41,7 +41,6 @@ struct State {
 
 /// Wave number, 1/m, of a wave of angular frequency `omega` (rad/s) in water `depth_m` deep: ω² = gk tanh kh to
 /// rounding.
-#[must_use]
 pub(super) fn wave_number(omega: f64, depth_m: f64) -> f64 {
     let deep = omega * omega / GRAVITY_M_S2;
     let wanted = deep * depth_m;

@@ -167,7 +167,6 @@ impl WavesSpec {
 
 impl WavesSpec {
     /// Number of waves that are summed.
-    #[must_use]
     pub fn count(&self) -> f64 {
         let sea = self.spectrum.as_ref().map_or(0, |s| s.components);
         self.trains.len() as f64 + f64::from(sea)
@@ -182,7 +181,6 @@ fn turn(angle: f64) -> nalgebra::Matrix2<f64> {
 
 impl Waves {
     /// Orbital velocity at a place (ENU, m), m/s.
-    #[must_use]
     pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.waves.iter().map(|w| w.velocity(p, t_s)).sum()
     }
@@ -195,33 +193,28 @@ impl Waves {
     }
 
     /// Displacement of the water whose mean place is `p`, m; at the surface, its height is the surface's.
-    #[must_use]
     pub fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.waves.iter().map(|w| w.displacement(p, t_s)).sum()
     }
 
     /// Head of the waves' pressure at a place, m of water.
-    #[must_use]
     pub fn head(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
         self.waves.iter().map(|w| w.head(p, t_s)).sum()
     }
 
     /// Stokes' drift (east, north) at a height, m/s; zero if it is off.
-    #[must_use]
     pub fn drift(&self, z: f64) -> Vector2<f64> {
         let (n, part) = self.level(z);
         self.profile[n].0.lerp(&self.profile[n + 1].0, part)
     }
 
     /// Vertical diffusivity by waves at a height, m²/s.
-    #[must_use]
     pub fn vertical(&self, z: f64) -> f64 {
         let (n, part) = self.level(z);
         self.profile[n].1 + (self.profile[n + 1].1 - self.profile[n].1) * part
     }
 
     /// Variance of the surface, m².
-    #[must_use]
     pub fn variance(&self) -> f64 {
         self.waves.iter().map(Airy::variance).sum()
     }

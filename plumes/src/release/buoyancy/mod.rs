@@ -47,7 +47,6 @@ impl Curve {
     const COUNT: usize = 278;
 
     /// At a dilution of at least 1.
-    #[must_use]
     pub fn at(&self, dilution: f64) -> f64 {
         let last = self.lifts.len() - 1;
         let at = (math::ln(dilution.max(1.0)) / Self::STEP).min(last as f64);

@@ -40,7 +40,6 @@ pub struct ThrusterCommands {
 
 impl Allocation {
     /// For thrusters with force and moment of 1 N each, and limits (N). `weights` of zero leave a direction free.
-    #[must_use]
     pub fn new(arms: &[Vector6<f64>], limits: Vec<[f64; 2]>, weights: Vector6<f64>) -> Self {
         let weighted = DMatrix::from_fn(6, arms.len(), |i, j| weights[i] * arms[j][i]);
         let gamma = SMALL * weighted.norm_squared().max(1e-12);
@@ -48,7 +47,6 @@ impl Allocation {
     }
 
     /// The thrusts whose force and moment come nearest to what is wanted.
-    #[must_use]
     pub fn share(&self, wanted: &Vector6<f64>) -> ThrusterCommands {
         let n = self.limits.len();
         let target = DVector::from_iterator(6, (0..6).map(|i| self.weights[i] * wanted[i]));

@@ -37,7 +37,6 @@ pub struct GliderPilot {
 
 impl GliderPilot {
     /// From what is known of the vehicle; it begins downwards.
-    #[must_use]
     pub fn new(plant: &Plant, spec: &GliderSpec) -> Self {
         Self { spec: spec.clone(), plant: plant.clone(), down: true, sum: 0.0 }
     }

@@ -26,7 +26,6 @@ pub enum DrivePilot {
 
 impl DrivePilot {
     /// The autopilot that the vehicle's file asks for.
-    #[must_use]
     pub fn new(plant: &Plant) -> Self {
         match &plant.pilot {
             PilotSpec::Torpedo(spec) => Self::Torpedo(TorpedoPilot::new(plant, spec)),
@@ -36,7 +35,6 @@ impl DrivePilot {
     }
 
     /// Whether a thruster was at its limit in the last step; `None` without an allocation among thrusters.
-    #[must_use]
     pub fn saturated(&self) -> Option<bool> {
         match self {
             Self::Thrusters(pilot) => Some(pilot.saturated()),

@@ -48,7 +48,6 @@ pub struct ThrusterPilot {
 
 impl ThrusterPilot {
     /// From what is known of the vehicle.
-    #[must_use]
     pub fn new(plant: &Plant, spec: &ThrustersSpec) -> Self {
         let mut thrusters = Vec::new();
         let (mut arms, mut limits) = (Vec::new(), Vec::new());
@@ -76,7 +75,6 @@ impl ThrusterPilot {
     }
 
     /// Whether a thruster was at its limit in the last step.
-    #[must_use]
     pub fn saturated(&self) -> bool {
         self.saturated
     }

@@ -34,7 +34,6 @@ pub struct TorpedoPilot {
 
 impl TorpedoPilot {
     /// From what is known of the vehicle.
-    #[must_use]
     pub fn new(plant: &Plant, spec: &TorpedoSpec) -> Self {
         let arms = plant.drives.iter().filter_map(|d| match &d.does {
             DriveEffect::Lifts(arm) => Some(*arm),

@@ -36,7 +36,6 @@ pub(in crate::guide) struct Follower {
 
 impl Follower {
     /// Plans the first path.
-    #[must_use]
     pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, spec: &GuidanceSpec) -> Self {
         let path = DubinsPath::shortest(from, end, spec.turn_radius_m.get());
         Self {

@@ -30,7 +30,6 @@ pub struct DubinsPath {
 
 impl DubinsPath {
     /// The shortest of the (up to four) candidates; the two whose arcs turn the same way always exist.
-    #[must_use]
     pub fn shortest(start: Pose, end: Pose, radius_m: f64) -> Self {
         let mut best: Option<Self> = None;
         for first in [1.0, -1.0] {
@@ -88,13 +87,11 @@ impl DubinsPath {
     }
 
     /// Whole length, m.
-    #[must_use]
     pub fn length_m(&self) -> f64 {
         self.lengths_m.iter().sum()
     }
 
     /// Pose after `s_m` metres, held within the path.
-    #[must_use]
     pub fn pose_at(&self, s_m: f64) -> Pose {
         let [a, b, c] = self.lengths_m;
         let s = s_m.clamp(0.0, a + b + c);
@@ -108,7 +105,6 @@ impl DubinsPath {
     }
 
     /// Direction after `s_m` metres, held within the path.
-    #[must_use]
     pub fn heading(&self, s_m: f64) -> Heading {
         let [a, b, c] = self.lengths_m;
         let s = s_m.clamp(0.0, a + b + c);
@@ -122,14 +118,12 @@ impl DubinsPath {
     }
 
     /// Unit vector of a direction of the path (east, north).
-    #[must_use]
     pub fn unit(&self, heading: Heading) -> Vector2<f64> {
         if heading == self.course { self.along } else { heading.unit() }
     }
 
     /// Place along the path, m, between `from_m` and `to_m`, that is nearest to `p`, and the pose there. `from` is the
     /// pose at `from_m`.
-    #[must_use]
     pub fn nearest(&self, p: Vector2<f64>, (from_m, from): (f64, Pose), to_m: f64) -> (f64, Pose) {
         let [a, b, c] = self.lengths_m;
         let ends = [0.0, a, a + b, a + b + c];

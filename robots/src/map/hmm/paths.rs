@@ -17,7 +17,6 @@ const NEVER: f64 = 1e-300;
 impl Hmm {
     /// Cells of the most likely path of odour that was released `age` steps ago and is now in `end`, source first
     /// (`age` + 1 cells); `None` if no path leads there or the chain is shorter.
-    #[must_use]
     pub fn odour_path(&self, end: usize, age: usize) -> Option<Vec<usize>> {
         let chain = self.chain();
         let first = chain.len().checked_sub(age)?;
@@ -73,7 +72,6 @@ impl Hmm {
 
     /// The most likely path of odour to `end`, of the age that most likely brought it; `None` while no flow is known,
     /// or if no path leads there.
-    #[must_use]
     pub fn likely_odour_path(&self, end: usize) -> Option<Vec<usize>> {
         let source = self.belief().p.clone();
         let (mut age, mut best, mut most) = (0, None, 0.0);

@@ -16,7 +16,6 @@ use world::math;
 
 impl Hmm {
     /// Present chance of a detection in each cell, given the source map and the flow of the look-back.
-    #[must_use]
     pub fn detection_map(&self) -> Vec<f64> {
         let n = self.grid.n;
         let source = self.with.belief.p();

@@ -45,7 +45,6 @@ const SENSES: [Spectrum; 3] = [
 const MIDDLE_NM: Rgb = [600.0, 530.0, 460.0];
 
 /// The same for each wavelength.
-#[must_use]
 pub(super) fn each(mut f: impl FnMut(usize) -> f64) -> Spectrum {
     // A loop is compiled in place, `map` of an array is not.
     let mut all = [0.0; N];
@@ -56,13 +55,11 @@ pub(super) fn each(mut f: impl FnMut(usize) -> f64) -> Spectrum {
 }
 
 /// The camera's response to a spectrum.
-#[must_use]
 pub(super) fn see(light: &Spectrum) -> Rgb {
     SENSES.map(|senses| (0..N).map(|i| senses[i] * light[i]).sum())
 }
 
 /// A scenario's red, green and blue, by wavelength.
-#[must_use]
 pub(super) fn spread<T: Into<f64>>(c: (T, T, T)) -> Spectrum {
     let [red, green, blue] = [c.0.into(), c.1.into(), c.2.into()];
     each(|i| {
@@ -74,7 +71,6 @@ pub(super) fn spread<T: Into<f64>>(c: (T, T, T)) -> Spectrum {
 
 /// A Gaussian of height 1 about `peak_nm`, `width_nm` wide at half height, averaged over the interval of each
 /// wavelength.
-#[must_use]
 pub(super) fn line(peak_nm: f64, width_nm: f64) -> Spectrum {
     each(|i| {
         let sum: f64 = (-34..35)

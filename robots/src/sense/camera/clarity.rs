@@ -73,13 +73,11 @@ impl Clarity {
     }
 
     /// Distance at which a dark thing is just visible on a level line, m.
-    #[must_use]
     pub fn visibility_m(&self) -> f64 {
         CONTRAST / self.attenuation[GREEN]
     }
 
     /// Attenuation of daylight with depth, 1/m, for light whose slant has the cosine `mu`.
-    #[must_use]
     pub fn down(&self, mu: f64) -> Spectrum {
         each(|i| {
             let (a, b) = (self.absorption[i], self.scattering[i]);

@@ -51,7 +51,6 @@ pub struct Dye {
 
 impl Dye {
     /// The dye of a specification.
-    #[must_use]
     pub fn new(spec: &DyeSpec) -> Self {
         let peak = spec.absorption_m2_kg.get();
         let lines = ABSORBS.map(|(nm, width, height)| line(nm, width).map(|v| height * v));

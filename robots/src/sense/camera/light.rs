@@ -95,31 +95,26 @@ impl Light {
     }
 
     /// Scalar irradiance at height `z` (m, negative below the surface), lx.
-    #[must_use]
     pub fn irradiance(&self, z: f64) -> Spectrum {
         each(|i| self.scalar * math::exp(self.down[i] * z.min(0.0)))
     }
 
     /// Irradiance on a face with the outward unit normal `normal`, as a share of the scalar irradiance.
-    #[must_use]
     pub fn on(&self, normal: &Vector3<f64>) -> f64 {
         on_face(self.mean_cosine, normal.dot(&self.to_sun))
     }
 
     /// Light that one scattering sends into the line of sight `dir` (unit vector away from the camera), 1/sr.
-    #[must_use]
     pub fn scattered(&self, dir: &Vector3<f64>) -> f64 {
         phase(SCATTER_COSINE * self.mean_cosine, dir.dot(&self.to_sun))
     }
 
     /// Share of the field's light that comes from the camera's side of a place on the line of sight `dir`.
-    #[must_use]
     pub fn from_front(&self, dir: &Vector3<f64>) -> f64 {
         (0.5 - 0.75 * self.mean_cosine * dir.dot(&self.to_sun)).clamp(0.0, 1.0)
     }
 
     /// Radiance of endless water along `dir` from height `z`, where there is nothing else to see, cd/m².
-    #[must_use]
     pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Spectrum {
         let (e, p) = (self.irradiance(z), self.scattered(dir));
         each(|i| clarity.scattering[i] * p * e[i] / (clarity.attenuation[i] - self.down[i] * dir.z))
@@ -127,7 +122,6 @@ impl Light {
 }
 
 /// Phase function of Henyey & Greenstein, 1/sr.
-#[must_use]
 pub(super) fn phase(g: f64, cosine: f64) -> f64 {
     let d = 1.0 + g * g - 2.0 * g * cosine;
     (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
@@ -143,7 +137,6 @@ fn on_face(g: f64, x: f64) -> f64 {
 }
 
 /// Share of unpolarised light that the surface reflects; cosines of the slants above and below it.
-#[must_use]
 pub(super) fn fresnel(cos_air: f64, cos_water: f64) -> f64 {
     let s = (cos_air - INDEX * cos_water) / (cos_air + INDEX * cos_water);
     let p = (cos_water - INDEX * cos_air) / (cos_water + INDEX * cos_air);

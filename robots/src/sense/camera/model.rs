@@ -83,7 +83,6 @@ pub struct CameraModel {
 
 impl CameraModel {
     /// The camera of a specification; its direction is given with each picture, see [`looking`].
-    #[must_use]
     pub fn new(spec: &CameraSpec) -> Self {
         Self {
             width: spec.width,
@@ -95,13 +94,11 @@ impl CameraModel {
     }
 
     /// Focal length, pixels.
-    #[must_use]
     pub fn focal_px(&self) -> f64 {
         0.5 * f64::from(self.width) / math::tan(0.5 * self.view_rad)
     }
 
     /// Direction of a place in the picture (pixels from its upper left corner): a unit vector in camera axes.
-    #[must_use]
     pub fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
         let middle = [self.width, self.height].map(|n| 0.5 * f64::from(n));
         Vector3::new(x - middle[0], y - middle[1], self.focal_px()).normalize()
@@ -110,7 +107,6 @@ impl CameraModel {
 
 /// Rotation from camera axes to those of a body (FLU), for a camera turned to the left and down from the body's x
 /// axis, rad.
-#[must_use]
 pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
     // Camera x, y, z are the body's right, down and forward.
     let forward = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
@@ -120,7 +116,6 @@ pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
 
 /// Pose of a camera in the world (its axes: see [`CameraModel`]) at a place, looking along a yaw (rad, from east to
 /// the left) and an angle down from the horizon (rad).
-#[must_use]
 pub fn looking(p_W: Vector3<f64>, yaw_rad: f64, down_rad: f64) -> Pose {
     Pose { p_WB: p_W, R_WB: turned(yaw_rad, down_rad) }
 }

@@ -44,7 +44,6 @@ pub struct RenderedPicture {
 }
 
 /// Takes a picture of `scene` with a camera of the pose `pose_WC`; the sensor's noise depends only on `noise`.
-#[must_use]
 pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> RenderedPicture {
     let lamp = camera.lamp.as_ref().map(|l| Lamp::new(l, pose_WC));
     let volume = Volume::new(camera, pose_WC, scene, lamp.as_ref());

@@ -53,7 +53,6 @@ pub(super) const TYPES: [(&str, Spectrum, Spectrum); 8] = [
 ];
 
 /// Absorption and scattering of pure sea water, 1/m.
-#[must_use]
 pub(super) fn pure() -> (Spectrum, Spectrum) {
     let scatters = each(|i| 16.06 * 4.72e-4 * math::powf(400.0 / NM[i], 4.32));
     (PURE, scatters)
@@ -61,7 +60,6 @@ pub(super) fn pure() -> (Spectrum, Spectrum) {
 
 /// Absorption and scattering, 1/m, of the water whose beam attenuation at 530 nm is `c`; not below that of pure sea
 /// water.
-#[must_use]
 pub(super) fn of_attenuation(c: f64) -> (Spectrum, Spectrum) {
     let at = |w: &(Spectrum, Spectrum)| w.0[GREEN] + w.1[GREEN];
     let mut below = pure();

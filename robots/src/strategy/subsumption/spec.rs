@@ -63,7 +63,6 @@ fn all() -> NonZeroUsize {
 
 impl SubsumptionSpec {
     /// These layers, with defaults for everything else.
-    #[must_use]
     pub fn with_layers(layers: Vec<LayerSpec>) -> Self {
         Self {
             speed_m_s: two(),

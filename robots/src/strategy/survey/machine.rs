@@ -232,7 +232,6 @@ impl PostDeclaration {
     }
 
     /// What the vehicle does after a verdict.
-    #[must_use]
     pub fn next(verdict: Verdict) -> Behaviour {
         match verdict {
             Verdict::Rejected => Behaviour::Find,
@@ -241,7 +240,6 @@ impl PostDeclaration {
     }
 
     /// Height for the passes; `None` while no passes are flown.
-    #[must_use]
     pub fn vertical(&self) -> Option<Vertical> {
         let spec = self.spec()?;
         let altitude = match self.phase {
@@ -256,13 +254,11 @@ impl PostDeclaration {
     }
 
     /// Whether a picture is wanted in this tick.
-    #[must_use]
     pub fn picture(&self) -> bool {
         self.picture
     }
 
     /// Lost points within this distance of a rejected place are forgotten, m.
-    #[must_use]
     pub fn forget_m(&self) -> f64 {
         self.spec().map_or(0.0, |s| s.forget_m.get())
     }

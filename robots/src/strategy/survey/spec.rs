@@ -34,7 +34,6 @@ pub enum AfterDeclaration {
 
 impl AfterDeclaration {
     /// The instruments that it needs; paths below the strategy.
-    #[must_use]
     pub fn needs(&self) -> Vec<Need> {
         match self {
             Self::Survey(spec) => spec.needs("after_declaration"),
@@ -62,7 +61,6 @@ pub struct SurveySpec {
 
 impl SurveySpec {
     /// The instruments that it needs; paths below `path`.
-    #[must_use]
     pub fn needs(&self, path: &str) -> Vec<Need> {
         let far = "never knows how far the bed is that it looks at";
         let mut needs = Vec::new();

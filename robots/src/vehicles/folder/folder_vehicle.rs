@@ -75,44 +75,37 @@ pub struct FolderVehicle {
 
 impl FolderVehicle {
     /// Name of the vehicle.
-    #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// What is doubtful about it, one sentence each.
-    #[must_use]
     pub fn doubts(&self) -> &[String] {
         &self.told
     }
 
     /// What its autopilot knows of it.
-    #[must_use]
     pub fn plant(&self) -> &Plant {
         &self.plant
     }
 
     /// What it can do.
-    #[must_use]
     pub fn capabilities(&self) -> Capabilities {
         self.capabilities
     }
 
     /// Mass by its URDF, kg.
-    #[must_use]
     pub fn mass_kg(&self) -> f64 {
         self.equation.body.mass.kg
     }
 
     /// Centres of gravity and of buoyancy, FLU, m.
-    #[must_use]
     pub fn centres(&self) -> [Vector3<f64>; 2] {
         let body = &self.equation.body;
         [body.mass.r_G, body.r_B].map(|r| Vector3::new(r.x, -r.y, -r.z))
     }
 
     /// Shapes to look at, in body axes, with their colours (`#rrggbb`).
-    #[must_use]
     pub fn visuals(&self) -> &[(Pose, Shape, String)] {
         &self.shell.visuals
     }
@@ -138,20 +131,17 @@ impl FolderVehicle {
     }
 
     /// Present state of each drive: thrusters' inputs, angles (rad), volumes (m³), places (m).
-    #[must_use]
     pub fn states(&self) -> &[f64] {
         &self.states[..self.drives.len()]
     }
 
     /// Electric power of all drives now, W.
-    #[must_use]
     pub fn power_w(&self) -> f64 {
         let each = self.drives.iter().zip(self.states.iter().zip(&self.asked));
         each.map(|(d, (now, asked))| d.power_w(*now, *asked)).sum()
     }
 
     /// Its drives by the names of their links.
-    #[must_use]
     pub fn named_drives(&self) -> Vec<NamedDrive> {
         let named = |drive: &Drive| NamedDrive {
             name: drive.link.clone(),
@@ -165,19 +155,16 @@ impl FolderVehicle {
     }
 
     /// Set-points at which no drive does anything.
-    #[must_use]
     pub fn idle(&self) -> DriveCommand {
         DriveCommand::new(&self.drives.iter().map(Drive::idle).collect::<Vec<_>>())
     }
 
     /// Pose of an instrument (a link of the URDF), in body axes.
-    #[must_use]
     pub fn mount(&self, name: &str) -> Option<Pose> {
         self.shell.links.get(name).copied()
     }
 
     /// The body for the physics.
-    #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
         let r_G = self.equation.body.mass.r_G;
         BodySpec {
@@ -192,7 +179,6 @@ impl FolderVehicle {
 
     /// Kinetic energy in still water, with that of the water that moves along, and potential energy in water of a
     /// density, J.
-    #[must_use]
     pub fn energy_J(&self, truth: &Truth, density_kg_m3: f64) -> f64 {
         let (v, w) = (truth.v_WB_B, truth.w_WB_B);
         let nu = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);

@@ -36,7 +36,6 @@ pub const SHIPPED: &[ShippedVehicle] = shipped!["bluerov2", "bluerov2_heavy", "l
 
 impl ShippedVehicle {
     /// The one of a name.
-    #[must_use]
     pub fn named(folder: &str) -> Option<&'static Self> {
         SHIPPED.iter().find(|s| s.folder == folder)
     }

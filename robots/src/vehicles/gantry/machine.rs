@@ -112,7 +112,6 @@ impl Gantry {
     }
 
     /// What a searcher may know of this machine.
-    #[must_use]
     pub fn layout(&self, scan_hz: f64, range_v: [f64; 2]) -> GantryLayout {
         let mut max_speed_m_s = [0.0; 2];
         for slide in &self.frame.slides {
@@ -122,7 +121,6 @@ impl Gantry {
     }
 
     /// Names of the joints, in the order of the joint states.
-    #[must_use]
     pub fn joint_names(&self) -> [&str; 2] {
         self.frame.slides.each_ref().map(|s| s.joint.as_str())
     }
@@ -177,7 +175,6 @@ impl Gantry {
     }
 
     /// What encoders and drives report.
-    #[must_use]
     pub fn readings(&self, joints: &[JointState; 2]) -> JointReadings {
         let mut readings = JointReadings { arrived: !self.blocked, blocked: self.blocked, ..JointReadings::default() };
         for (k, slide) in self.frame.slides.iter().enumerate() {
@@ -190,7 +187,6 @@ impl Gantry {
     }
 
     /// True place of the head in the gantry's frame (forward, left), m.
-    #[must_use]
     pub fn head_m(&self, joints: &[JointState; 2]) -> Vector2<f64> {
         let mut at = Vector2::zeros();
         for (slide, joint) in self.frame.slides.iter().zip(joints) {
@@ -200,7 +196,6 @@ impl Gantry {
     }
 
     /// True place of the head's reference point in the world, m.
-    #[must_use]
     pub fn head_W(&self, base: &Pose, joints: &[JointState; 2]) -> Vector3<f64> {
         base.point(self.frame.head_B + self.head_m(joints).push(0.0))
     }

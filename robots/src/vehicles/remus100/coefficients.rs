@@ -130,7 +130,6 @@ pub struct Coefficients {
 
 impl Coefficients {
     /// The numbers of a set.
-    #[must_use]
     pub fn from_set(set: ParameterSet) -> Self {
         match set {
             ParameterSet::Reference => Self::reference(),
@@ -261,13 +260,11 @@ impl Coefficients {
     }
 
     /// Rigid-body mass matrix about CO, FRD.
-    #[must_use]
     pub fn rigid_mass(&self) -> Matrix6<f64> {
         self.body().mass.matrix()
     }
 
     /// Added mass matrix, FRD.
-    #[must_use]
     pub fn added_mass(&self) -> Matrix6<f64> {
         Matrix6::from_diagonal(&nalgebra::Vector6::from_row_slice(&self.added))
     }

@@ -34,20 +34,17 @@ pub struct SeenClarity {
 
 impl SeenClarity {
     /// Share of a thing's contrast that arrives over a way of `way_m`.
-    #[must_use]
     pub fn left(&self, way_m: f64) -> f64 {
         let e = math::exp(-self.attenuation_per_m * way_m);
         e / (e + VEIL * (1.0 - e))
     }
 
     /// Distance at which a dark thing is just visible, m.
-    #[must_use]
     pub fn visibility_m(&self) -> f64 {
         CONTRAST / self.attenuation_per_m
     }
 
     /// The greatest height in `range_m` at which at least `least` of the contrast arrives; the lowest if there is none.
-    #[must_use]
     pub fn height_m(&self, least: f64, range_m: (f64, f64)) -> f64 {
         let (low, high) = range_m;
         let steps = 64;

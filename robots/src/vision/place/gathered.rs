@@ -37,7 +37,6 @@ pub struct PlacePictures {
 
 impl PlacePictures {
     /// A place (east, north, m) of which there are no pictures yet, in water that goes along `down_flow`.
-    #[must_use]
     pub fn new(spec: &AddUpSpec, place: Vector2<f64>, down_flow: Heading) -> Self {
         Self {
             spec: spec.clone(),
@@ -78,25 +77,21 @@ impl PlacePictures {
     }
 
     /// Number of pictures that were added, and of those that said nothing.
-    #[must_use]
     pub fn pictures(&self) -> [usize; 2] {
         [self.patches.len(), self.useless]
     }
 
     /// The water as the pictures show it.
-    #[must_use]
     pub fn clarity(&self) -> Option<SeenClarity> {
         self.clarity
     }
 
     /// Shift of the newest picture against the navigation (east, north), m.
-    #[must_use]
     pub fn shift_m(&self) -> Vector2<f64> {
         Vector2::from(self.shift.map(|s| f64::from(s) * self.spec.cell_m.get()))
     }
 
     /// The ground as all pictures show it; `None` without any.
-    #[must_use]
     pub fn mosaic(&self) -> Option<Mosaic> {
         let cell_m = self.spec.cell_m.get();
         let middle = [0, 1].map(|k| (self.place[k] / cell_m).floor() as i32);
@@ -108,13 +103,11 @@ impl PlacePictures {
 
     /// What no picture shows of sources that may be here: where it is (east, north, m), weighted by how likely the
     /// pictures make each source. Empty without any picture.
-    #[must_use]
     pub fn unseen(&self) -> Vec<(Vector2<f64>, f64)> {
         self.mosaic().map_or_else(Vec::new, |mosaic| unseen(&mosaic, &self.weigh().places, self.down_flow))
     }
 
     /// What the pictures say.
-    #[must_use]
     pub fn weigh(&self) -> PlaceEvidence {
         let limits = Limits { verify_at: self.spec.verify_at.get(), reject_at: self.spec.reject_at.get() };
         let (place, within_m) = (self.place, self.spec.within_m.get());

@@ -66,7 +66,6 @@ impl Mosaic {
     }
 
     /// Contrast of brightness and redness of a cell; `None` if no picture shows it.
-    #[must_use]
     pub fn contrast(&self, column: usize, row: usize) -> Option<[f64; 2]> {
         let k = row * self.size[0] + column;
         let of = |s: [f64; 2]| (s[1] > 0.0).then(|| s[0] / s[1]);

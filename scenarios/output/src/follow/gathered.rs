@@ -98,13 +98,11 @@ impl RunResults {
     }
 
     /// The figures of the run. Nothing is written.
-    #[must_use]
     pub fn figures(&self, ocean: &Ocean) -> Vec<Figure> {
         figures(&self.report(ocean))
     }
 
     /// The data of the [animation](crate::report::film) of the run; `None` if nothing moved.
-    #[must_use]
     pub fn film(&self, ocean: &Ocean) -> Option<String> {
         film(&self.report(ocean))
     }
@@ -114,7 +112,6 @@ impl RunResults {
     ///
     /// # Errors
     /// If it cannot be drawn.
-    #[must_use]
     pub fn still(&self, ocean: &Ocean) -> Option<Result<String, String>> {
         let run = self.report(ocean);
         let svg = if run.track.robots.is_empty() {
@@ -143,7 +140,6 @@ impl RunResults {
     }
 
     /// The folder of the results, if they are written.
-    #[must_use]
     pub fn out(&self) -> Option<&Folder> {
         self.out.as_ref()
     }

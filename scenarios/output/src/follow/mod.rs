@@ -102,7 +102,6 @@ impl Follower {
     }
 
     /// What tables and figures know beforehand about the robots, in the scenario's order.
-    #[must_use]
     pub fn robots(&self) -> &[RobotInfo] {
         &self.robots
     }
@@ -120,13 +119,11 @@ impl Follower {
     }
 
     /// The identity of the run.
-    #[must_use]
     pub fn run(&self) -> &RunInfo {
         &self.run
     }
 
     /// Whether all that was gathered so far could be written. If not, the run should end.
-    #[must_use]
     pub fn well(&self) -> bool {
         self.worker.well()
     }
@@ -135,7 +132,6 @@ impl Follower {
     ///
     /// # Panics
     /// As the thread [beside the run](Self::beside) has, if it has.
-    #[must_use]
     pub fn finish(self, trial: &Trial, ended: &RunEnd) -> RunResults {
         let walls: [Duration; 2] = [self.mission_begun - self.begun, self.mission_begun.elapsed()];
         let mut gatherer = self.worker.finish();

@@ -66,7 +66,6 @@ impl LiveController {
     }
 
     /// The key at which a controller answers.
-    #[must_use]
     pub fn key(&self) -> &str {
         &self.key
     }

@@ -18,7 +18,6 @@ pub struct LiveController;
 
 impl LiveController {
     /// No key.
-    #[must_use]
     pub fn key(&self) -> &str {
         "none (built without the feature `live`)"
     }
@@ -53,7 +52,6 @@ impl Live {
     }
 
     /// Nothing.
-    #[must_use]
     pub fn session(&self) -> LiveSession {
         LiveSession
     }
@@ -67,19 +65,16 @@ impl Live {
     }
 
     /// Where clients connect: nowhere.
-    #[must_use]
     pub fn endpoint(&self) -> &str {
         "none (built without the feature `live`)"
     }
 
     /// A line for the user.
-    #[must_use]
     pub fn notice(&self) -> Option<&str> {
         Some("built without the feature `live`: nothing is published")
     }
 
     /// None.
-    #[must_use]
     pub fn warning(&self) -> Option<&str> {
         None
     }
@@ -88,7 +83,6 @@ impl Live {
     pub fn see(&self, _event: &Event) {}
 
     /// All zero.
-    #[must_use]
     pub fn counts(&self) -> LiveCounts {
         LiveCounts::default()
     }
@@ -117,13 +111,11 @@ impl Listener {
     }
 
     /// Nowhere.
-    #[must_use]
     pub fn place(&self) -> &str {
         "nowhere"
     }
 
     /// None.
-    #[must_use]
     pub fn notice(&self) -> Option<&str> {
         None
     }

@@ -36,7 +36,6 @@ pub struct LiveOptions {
 impl LiveOptions {
     /// The defaults: loopback interface, [`DEFAULT_PORT`] or the next free port, state at most 20 times and plume at
     /// most twice a second.
-    #[must_use]
     pub fn new(run_id: String) -> Self {
         Self {
             run_id,
@@ -92,7 +91,6 @@ pub struct LiveCounts {
 }
 
 /// The id of a run in keys: `<scenario>_<seed>`, in which everything but `a-z`, `0-9` and `_` becomes `_`.
-#[must_use]
 pub fn run_id(scenario: &str, seed: u64) -> String {
     format!("{}_{seed}", chunk(scenario))
 }

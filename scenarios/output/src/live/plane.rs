@@ -73,13 +73,11 @@ impl fmt::Debug for PlaneReply {
 impl Plane {
     /// Of a run with a pace: simulated seconds in a second, or `None` for as fast as the machine can. If it is not
     /// `allowed`, others may only ask how the run stands.
-    #[must_use]
     pub fn new(allowed: bool, times: Option<f64>) -> Self {
         Self { allowed, state: Mutex::new(State { times, ..State::default() }), changed: Condvar::new() }
     }
 
     /// Whether others may do more than ask how the run stands.
-    #[must_use]
     pub fn allowed(&self) -> bool {
         self.allowed
     }

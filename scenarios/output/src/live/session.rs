@@ -74,7 +74,6 @@ impl Live {
     }
 
     /// The session, for other runs.
-    #[must_use]
     pub fn session(&self) -> LiveSession {
         self.session.clone()
     }
@@ -133,20 +132,17 @@ impl Live {
     }
 
     /// Where clients connect, as a zenoh endpoint.
-    #[must_use]
     pub fn endpoint(&self) -> &str {
         &self.endpoint
     }
 
     /// A line for the user, if necessary: that a port other than the default one was taken.
-    #[must_use]
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
     }
 
     /// A warning for the user, if necessary: that anybody who comes from another machine can control the run, as
     /// [`LiveOptions::control_from_anywhere`] allows.
-    #[must_use]
     pub fn warning(&self) -> Option<&str> {
         self.warning.as_deref()
     }
@@ -164,7 +160,6 @@ impl Live {
     }
 
     /// What happened to the states so far.
-    #[must_use]
     pub fn counts(&self) -> LiveCounts {
         self.mailbox.done()
     }

@@ -89,7 +89,6 @@ impl McapFile {
     }
 
     /// The temporary path, until the file is complete.
-    #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary
     }

@@ -88,7 +88,6 @@ impl Recorder {
     }
 
     /// The temporary path, until the recording is complete.
-    #[must_use]
     pub fn temporary(&self) -> &Path {
         self.file.temporary()
     }

@@ -23,7 +23,6 @@ const FIGURES_OF_GANTRY: [&str; 3] = ["flume", "probes", "approach"];
 const TABLES_OF_GANTRY: [&str; 1] = ["probes"];
 
 /// Whether a run of a scenario may leave a file of this name. Some it leaves only with certain instruments or options.
-#[must_use]
 pub fn is_result(scenario: &Scenario, name: &str) -> bool {
     let Some((stem, ending)) = name.rsplit_once('.') else {
         return false;

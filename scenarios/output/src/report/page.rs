@@ -36,7 +36,6 @@ pub struct Page {
 
 impl Page {
     /// Begins a page: its title for the browser, its heading, and what it adds to the style of all pages.
-    #[must_use]
     pub fn new(title: &str, heading: &str, style: &str) -> Self {
         let (title, heading) = (escaped(title), escaped(heading));
         let text = format!(
@@ -98,7 +97,6 @@ impl Page {
     }
 
     /// The whole page.
-    #[must_use]
     pub fn end(mut self) -> String {
         if self.moves {
             self.text.push_str(&film_script());

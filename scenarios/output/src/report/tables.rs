@@ -5,7 +5,6 @@ use crate::columns::TableInfo;
 use crate::results::{belief_track, odour, pictures, probes, track_columns};
 
 /// The tables of a run, in the order of README.
-#[must_use]
 pub fn tables() -> Vec<TableInfo> {
     let tables = [
         (

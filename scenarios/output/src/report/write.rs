@@ -116,7 +116,6 @@ impl Figure {
 }
 
 /// Draws each figure of the run.
-#[must_use]
 pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Vec::new();
     let mut add = |kind: &str, id: &str, title: String, svg: Result<Option<String>, String>| {

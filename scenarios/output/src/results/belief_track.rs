@@ -134,7 +134,6 @@ impl RobotBelief {
     }
 
     /// When the most probable cell reached its final place and stayed there, s.
-    #[must_use]
     pub fn settled_s(&self) -> Option<f64> {
         let end = self.rows.last()?;
         let same = self.rows.iter().rev().take_while(|r| r.best == end.best);

@@ -73,7 +73,6 @@ pub struct GantrySummary {
 
 impl GantryPath {
     /// Begins with the first frame.
-    #[must_use]
     pub fn new(g: &GantryFrame) -> Self {
         Self { id: g.id.clone(), forward: g.forward, last: g.head_W.xy(), ..Self::default() }
     }
@@ -109,13 +108,11 @@ impl GantryPath {
     }
 
     /// Its id in the scenario.
-    #[must_use]
     pub fn id(&self) -> &str {
         &self.id
     }
 
     /// The results, what it declared compared with the true sources.
-    #[must_use]
     pub fn summary(&self, score: &SearcherScore, sources: &[SourceTruth]) -> GantrySummary {
         let nearest = |s: &&SourceTruth| (s.position.xy() - self.last).norm();
         let source = sources.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b)));

@@ -5,7 +5,6 @@ use rheotaxis::outcome::RunOutcome;
 
 impl Summary {
     /// Scenario, seed and outcome, such as `duck_st, seed 1: found after 1234 s, 2.1 m off`.
-    #[must_use]
     pub fn headline(&self) -> String {
         format!("{}, seed {}: {}", self.scenario, self.seed, self.ended())
     }

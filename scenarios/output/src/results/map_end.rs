@@ -31,7 +31,6 @@ pub struct MapEnd {
 
 impl MapEnd {
     /// From the last map (only it knows its cells), the robot's declarations and the true sources.
-    #[must_use]
     pub fn from_belief(last: &Belief, declarations: &[Declaration], sources: &[SourceTruth]) -> Self {
         let (grid, probability) = (&last.grid, last.p[last.best]);
         let best = grid.centre(last.best).xy();

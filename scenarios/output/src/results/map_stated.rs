@@ -31,7 +31,6 @@ pub struct MapStated {
 
 impl MapStated {
     /// From a map and the true sources.
-    #[must_use]
     pub fn from_belief(map: &Belief, at_declaration: bool, sources: &[SourceTruth]) -> Self {
         let best = map.grid.centre(map.best).xy();
         let any = |yes: &dyn Fn(&SourceTruth) -> bool| (!sources.is_empty()).then(|| sources.iter().any(yes));

@@ -69,7 +69,6 @@ pub struct Pictures {
 
 impl Pictures {
     /// Writes into a folder, at most `most` pictures.
-    #[must_use]
     pub fn new(out: &Folder, most: u32) -> Self {
         Self { out: out.clone(), most: most as usize, rows: Vec::new(), shown: Vec::new() }
     }
@@ -122,7 +121,6 @@ impl Pictures {
     }
 
     /// The pictures kept, in the order in which they were taken.
-    #[must_use]
     pub fn shown(&self) -> &[ShownPicture] {
         &self.shown
     }

@@ -155,7 +155,6 @@ impl ProbeTables {
     }
 
     /// Keeps data for the figures only, without files.
-    #[must_use]
     pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
         Self { files: Vec::new(), line: String::new(), tracks: gantries.into_iter().map(GantryTrack::new).collect() }
     }
@@ -180,7 +179,6 @@ impl ProbeTables {
     }
 
     /// The tracks, for the figures.
-    #[must_use]
     pub fn finish(self) -> Vec<GantryTrack> {
         self.tracks
     }

@@ -96,7 +96,6 @@ const STILL_M_S: f64 = 1e-6;
 
 impl SourceTruth {
     /// The sources of a run that has ended.
-    #[must_use]
     pub fn from_run(trial: &Trial, ended: &RunEnd) -> Vec<Self> {
         let plume = trial.simulation.ocean().plume();
         (plume.sources().iter().zip(&ended.flow_at_sources))
@@ -132,7 +131,6 @@ fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> 
 
 impl DeclarationSummary {
     /// A declaration compared with the true sources.
-    #[must_use]
     pub fn compare(d: &Declaration, sources: &[SourceTruth]) -> Self {
         let region_name = d.region.map(region_name);
         let (kind, name) = if d.at_edge() {

@@ -157,7 +157,6 @@ pub struct MassBalance {
 
 impl MassBalance {
     /// From its three terms.
-    #[must_use]
     pub fn new(released_kg: f64, in_water_kg: f64, left_kg: f64) -> Self {
         Self { released_kg, in_water_kg, left_kg, imbalance_kg: released_kg - in_water_kg - left_kg }
     }
@@ -258,7 +257,6 @@ pub struct Summary {
 
 impl Summary {
     /// As JSON for people.
-    #[must_use]
     pub fn json(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).expect("plain data becomes JSON");
         text.push('\n');

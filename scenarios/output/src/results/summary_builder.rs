@@ -187,7 +187,6 @@ pub struct SummaryBuilder {
 
 impl SummaryBuilder {
     /// Begins the summary of a run.
-    #[must_use]
     pub fn new(run: &RunInfo) -> Self {
         Self {
             run: run.clone(),
@@ -224,7 +223,6 @@ impl SummaryBuilder {
     }
 
     /// The summary of the run, compared with the true sources.
-    #[must_use]
     pub fn finish(&self, end: &SummaryEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
         let score = |id: &str| {

@@ -116,7 +116,6 @@ impl RobotTrack {
 
     /// How high a declared source is drawn (up from the still surface), m: where its rule puts it, or else where the
     /// vehicle was when it declared. `None` before the first moment.
-    #[must_use]
     pub fn declared_z(&self, declared: &Declaration) -> Option<f64> {
         let apart = |r: &&TrackRow| (r.t_s - declared.t_s).abs();
         let nearest = || (self.rows.iter()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
@@ -217,7 +216,6 @@ impl TrackTable {
     }
 
     /// Keeps data for the figures only, without a file.
-    #[must_use]
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
         Self {
             file: None,
@@ -261,7 +259,6 @@ impl TrackTable {
     }
 
     /// The tracks, for the figures.
-    #[must_use]
     pub fn finish(self) -> Track {
         self.track
     }

@@ -50,7 +50,6 @@ pub(crate) fn columns(regions: bool, layered: bool) -> Vec<ColumnInfo> {
 
 /// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. `full_scale_ug_l` is the greatest
 /// concentration of the chemical sensor, µg/L. The pitch of the true pose is converted to nose-up, as in the estimate.
-#[must_use]
 pub fn numbers(r: &RobotFrame, full_scale_ug_l: Option<f64>) -> [Option<f64>; 19] {
     let (p, e) = (&r.truth.pose, &r.estimate);
     let (roll, pitch_down) = p.roll_pitch();

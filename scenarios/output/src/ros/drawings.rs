@@ -106,7 +106,6 @@ impl<'a> Message<'a> {
 }
 
 /// A `MarkerArray` of surfaces.
-#[must_use]
 pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
     let messages = markers.iter().map(|m| {
         let (header, corners) = (Header::new(t_ns, frame), m.triangles.as_flattened());
@@ -117,7 +116,6 @@ pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
 }
 
 /// A `MarkerArray` of balls.
-#[must_use]
 pub fn balls(t_ns: u64, frame: &str, all: &[Balls]) -> Vec<u8> {
     let messages = all.iter().map(|b| {
         let header = Header::new(t_ns, frame);
@@ -127,7 +125,6 @@ pub fn balls(t_ns: u64, frame: &str, all: &[Balls]) -> Vec<u8> {
 }
 
 /// A `Path` through points (m), without directions.
-#[must_use]
 pub fn path(t_ns: u64, frame: &str, points: &[Vector3<f64>]) -> Vec<u8> {
     let straight = UnitQuaternion::identity();
     let poses: Vec<_> = (points.iter()).map(|p| (Header::new(t_ns, frame), pose(p, &straight))).collect();

@@ -17,7 +17,6 @@ pub enum LogLevel {
 }
 
 /// A `Log`: a line by `name`.
-#[must_use]
 pub fn log_line(t_ns: u64, level: LogLevel, name: &str, line: &str) -> Vec<u8> {
     #[derive(Serialize)]
     struct Message<'a> {

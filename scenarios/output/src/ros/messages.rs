@@ -11,7 +11,6 @@ use serde::Serialize;
 use world::frames::Pose;
 
 /// An `Odometry`: the pose of `child` in `frame`; its velocity, m/s, and angular velocity, rad/s, in its own axes.
-#[must_use]
 pub fn odometry(t_ns: u64, [frame, child]: [&str; 2], at: &Pose, [linear, angular]: [Vector3<f64>; 2]) -> Vec<u8> {
     const UNKNOWN: [[f64; 6]; 6] = [[0.0; 6]; 6];
     let twist = (xyz(&linear), xyz(&angular));
@@ -19,25 +18,21 @@ pub fn odometry(t_ns: u64, [frame, child]: [&str; 2], at: &Pose, [linear, angula
 }
 
 /// A `Float64`.
-#[must_use]
 pub fn float64(v: f64) -> Vec<u8> {
     cdr(&v)
 }
 
 /// A `String`.
-#[must_use]
 pub fn text(s: &str) -> Vec<u8> {
     cdr(&s)
 }
 
 /// A `Vector3Stamped`.
-#[must_use]
 pub fn vector3_stamped(t_ns: u64, frame: &str, v: &Vector3<f64>) -> Vec<u8> {
     cdr(&(Header::new(t_ns, frame), xyz(v)))
 }
 
 /// A `PoseStamped`.
-#[must_use]
 pub fn pose_stamped(t_ns: u64, frame: &str, p: &Vector3<f64>, q: &UnitQuaternion<f64>) -> Vec<u8> {
     cdr(&(Header::new(t_ns, frame), pose(p, q)))
 }
@@ -58,7 +53,6 @@ pub struct Transform {
 }
 
 /// A `TFMessage`.
-#[must_use]
 pub fn transforms(all: &[Transform]) -> Vec<u8> {
     let stamped = all.iter().map(|t| {
         let pose = pose(&t.position, &t.attitude);
@@ -68,7 +62,6 @@ pub fn transforms(all: &[Transform]) -> Vec<u8> {
 }
 
 /// A `Clock`.
-#[must_use]
 pub fn clock(t_ns: u64) -> Vec<u8> {
     cdr(&Time::new(t_ns))
 }
@@ -84,7 +77,6 @@ pub(super) struct CompressedImage<'a> {
 
 /// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the bytes
 /// of a `png` or `jpeg` file.
-#[must_use]
 pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
     cdr(&CompressedImage { header: Header::new(t_ns, frame), format, data: file })
 }
@@ -103,7 +95,6 @@ pub struct Joint<'a> {
 }
 
 /// A `JointState`.
-#[must_use]
 pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
     let names: Vec<&str> = joints.iter().map(|j| j.name).collect();
     let columns: [fn(&Joint) -> f64; 3] = [|j| j.position, |j| j.velocity, |j| j.effort];
@@ -112,14 +103,12 @@ pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
 }
 
 /// The echoes of a ping in body axes, as a `PointCloud2`.
-#[must_use]
 pub fn echo_cloud(t_ns: u64, frame: &str, scan: &RangeScan) -> Vec<u8> {
     let points: Vec<[f32; 3]> = (scan.echoes_B()).map(|p| [p.x as f32, p.y as f32, p.z as f32]).collect();
     point_cloud(t_ns, frame, ["x", "y", "z"], &points)
 }
 
 /// A `PointCloud2` with the named 32-bit fields; for each point, `rows` holds one value per field.
-#[must_use]
 pub fn point_cloud<const N: usize>(t_ns: u64, frame: &str, names: [&str; N], rows: &[[f32; N]]) -> Vec<u8> {
     #[derive(Serialize)]
     struct PointField<'a> {

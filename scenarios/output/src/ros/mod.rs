@@ -22,7 +22,6 @@ pub use sensors::{fluid_pressure, imu, range, twist_stamped};
 pub use types::MessageKind;
 
 /// A simulated time in seconds as nanoseconds, never negative.
-#[must_use]
 pub fn nanoseconds(t_s: f64) -> u64 {
     (t_s.max(0.0) * 1e9).round() as u64
 }

@@ -6,7 +6,6 @@ use std::f64::consts::TAU;
 
 /// Filaments as a `PointCloud2`. `mass` is that of all filaments for which one stands (kg); `concentration` is that at
 /// the centre of one filament, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
-#[must_use]
 pub fn plume_cloud(plume: &PlumeFrame, frame: &str) -> Vec<u8> {
     let shape = (TAU * TAU.sqrt()) as f32;
     let local = plume.local();
@@ -23,7 +22,6 @@ pub fn plume_cloud(plume: &PlumeFrame, frame: &str) -> Vec<u8> {
 }
 
 /// The flow as a `PointCloud2`: a place (m) and the velocity there (m/s), both in `frame`.
-#[must_use]
 pub fn water_cloud(water: &WaterFrame, frame: &str) -> Vec<u8> {
     let names = ["x", "y", "z", "vx", "vy", "vz"];
     point_cloud(nanoseconds(water.t_s), frame, names, &water.local())

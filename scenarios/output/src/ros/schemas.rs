@@ -46,7 +46,6 @@ const POINT_FIELD: (&str, &str) = (
 
 impl MessageKind {
     /// Definition followed by those of all types in it, in the form that `ros2msg` readers expect.
-    #[must_use]
     pub fn schema(self) -> String {
         let (own, parts): (&str, &[(&str, &str)]) = match self {
             MessageKind::Odometry => (

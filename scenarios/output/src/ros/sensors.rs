@@ -10,7 +10,6 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 /// An `Imu`: the attitude of a frame in east, north, up, and its rates, rad/s. The acceleration is marked as not
 /// measured.
-#[must_use]
 pub fn imu(t_ns: u64, frame: &str, attitude: &UnitQuaternion<f64>, rates: &Vector3<f64>) -> Vec<u8> {
     const UNKNOWN: [f64; 9] = [0.0; 9];
     const NOT_MEASURED: [f64; 9] = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -19,20 +18,17 @@ pub fn imu(t_ns: u64, frame: &str, attitude: &UnitQuaternion<f64>, rates: &Vecto
 }
 
 /// A `FluidPressure` of an absolute pressure, Pa.
-#[must_use]
 pub fn fluid_pressure(t_ns: u64, frame: &str, pressure_Pa: f64) -> Vec<u8> {
     cdr(&(Header::new(t_ns, frame), pressure_Pa, 0.0))
 }
 
 /// A `TwistStamped` of a velocity, m/s; its angular part is zero.
-#[must_use]
 pub fn twist_stamped(t_ns: u64, frame: &str, linear: &Vector3<f64>) -> Vec<u8> {
     cdr(&(Header::new(t_ns, frame), xyz(linear), [0.0; 3]))
 }
 
 /// A `Range` by sound along the x axis of a frame: the full opening angle of the cone, rad, the least and the greatest
 /// range, m, and the range, m, or `None` if nothing was heard.
-#[must_use]
 pub fn range(t_ns: u64, frame: &str, view_rad: f64, limits_m: [f64; 2], range_m: Option<f64>) -> Vec<u8> {
     const ULTRASOUND: u8 = 0;
     let range = range_m.map_or(f32::INFINITY, |m| m as f32);

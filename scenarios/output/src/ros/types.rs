@@ -116,13 +116,11 @@ impl MessageKind {
     }
 
     /// Full name, such as `std_msgs/msg/Float64`.
-    #[must_use]
     pub fn name(self) -> &'static str {
         TABLE[self as usize].1
     }
 
     /// The name in DDS, such as `std_msgs::msg::dds_::Float64_`.
-    #[must_use]
     pub fn dds_name(self) -> String {
         let parts: Vec<&str> = self.name().split('/').collect();
         let [package, kind, name] = parts[..] else { unreachable!("the names of the table have three parts") };
@@ -130,7 +128,6 @@ impl MessageKind {
     }
 
     /// The hash, such as `RIHS01_705b…`.
-    #[must_use]
     pub fn hash(self) -> String {
         format!("RIHS01_{}", TABLE[self as usize].2)
     }

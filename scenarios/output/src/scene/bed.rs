@@ -29,7 +29,6 @@ pub struct Bed {
 
 impl Bed {
     /// That of an area.
-    #[must_use]
     pub fn from_terrain(area: &Area, terrain: &Terrain) -> Self {
         let share = |k: usize| (1.0 + 2.0 * MARGIN) * (k as f64 / (POINTS - 1) as f64 - 0.5);
         let at = |i: usize, j: usize| {
@@ -42,7 +41,6 @@ impl Bed {
     }
 
     /// Numbers of the corners of its triangles, anticlockwise seen from above.
-    #[must_use]
     pub fn triangles(&self) -> Vec<[usize; 3]> {
         let fields = (1..self.rows).flat_map(|i| (1..self.columns).map(move |j| (i - 1, j - 1)));
         fields
@@ -57,7 +55,6 @@ impl Bed {
     }
 
     /// Colour of each point: red, green, blue, opacity, 0 to 1.
-    #[must_use]
     pub fn colours(&self) -> Vec<[f32; 4]> {
         let heights = || self.points.iter().map(|p| p.z);
         let (low, high) = (heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max));
@@ -80,7 +77,6 @@ impl Bed {
     }
 
     /// As a surface to look at.
-    #[must_use]
     pub fn marker(&self) -> Marker {
         let coarse = self.coarse();
         let (colours, triangles) = (coarse.colours(), coarse.triangles());

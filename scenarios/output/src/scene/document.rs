@@ -19,7 +19,6 @@ const VERSION: u32 = 2;
 
 impl Scene {
     /// The document of a run of this scenario.
-    #[must_use]
     pub fn document(&self, seed: u64) -> String {
         let centre = self.centre().push(0.0);
         let solids = self.solids.iter().map(|s| {

@@ -21,20 +21,17 @@ pub struct Names<'a> {
 
 impl Names<'_> {
     /// Frame of a link.
-    #[must_use]
     pub fn frame(&self, link: &str) -> String {
         [self.own, "/", link].concat()
     }
 }
 
 /// A pose as a transform.
-#[must_use]
 pub fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> Transform {
     Transform { t_ns, parent: parent.to_owned(), child, position: pose.p_WB, attitude: pose.R_WB }
 }
 
 /// All links of a machine but its slides, its altimeter's beam, and where a gantry stands; joints with drives at zero.
-#[must_use]
 pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
     let mut all = Vec::new();
     let name = |link: &str| names.frame(link);
@@ -63,7 +60,6 @@ pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
 }
 
 /// A gantry's slides at their positions, m.
-#[must_use]
 pub fn slid(t_ns: u64, machine: &Machine, names: &Names, positions_m: &[f64]) -> Vec<Transform> {
     let all = machine.slides.iter().zip(positions_m);
     all.filter_map(|(slide, position_m)| {

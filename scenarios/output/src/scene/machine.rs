@@ -86,7 +86,6 @@ impl Machine {
     }
 
     /// Name of the frame of one of its links in ROS.
-    #[must_use]
     pub fn frame(&self, link: &str) -> String {
         format!("{}/{link}", self.name)
     }

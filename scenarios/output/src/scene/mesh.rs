@@ -17,7 +17,6 @@ pub struct Mesh {
 
 impl Mesh {
     /// Of triangles, with equal corners joined, and made coarser if there are more than [`MOST_TRIANGLES`].
-    #[must_use]
     pub fn from_triangles(triangles: &[[Vector3<f64>; 3]]) -> Self {
         Self::limited(triangles, MOST_TRIANGLES)
     }

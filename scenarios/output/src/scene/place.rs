@@ -52,14 +52,12 @@ pub struct Solid {
 
 impl Scene {
     /// Centre of the operating area (east, north), m.
-    #[must_use]
     pub fn centre(&self) -> Vector2<f64> {
         let all = self.corners.len().max(1) as f64;
         self.corners.iter().sum::<Vector2<f64>>() / all
     }
 
     /// The frame of clouds, whose numbers of single precision are relative to the centre of the area.
-    #[must_use]
     pub fn area_frame(&self, parent: &str, child: &str) -> Transform {
         let pose = Pose { p_WB: self.centre().push(0.0), R_WB: UnitQuaternion::identity() };
         transform(0, parent, child.to_owned(), &pose)
@@ -108,13 +106,11 @@ impl Scene {
     }
 
     /// The machine of an id.
-    #[must_use]
     pub fn machine(&self, id: &str) -> Option<&Machine> {
         self.machines.iter().find(|m| m.id == id)
     }
 
     /// Bed and solid things as surfaces to look at.
-    #[must_use]
     pub fn markers(&self) -> Vec<Marker> {
         let solids = self.solids.iter().map(|solid| Marker {
             name: format!("obstacle {}", solid.name),

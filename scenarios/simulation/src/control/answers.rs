@@ -39,7 +39,6 @@ pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Reply, String> 
 }
 
 /// An answer as [`read_answer`] reads it, to the last bit.
-#[must_use]
 pub fn answer_json(answer: &Reply) -> Value {
     let mut value = serde_json::to_value(AnswerForm::from_reply(answer)).expect("numbers and names can be written");
     drop_nulls(&mut value);

@@ -71,7 +71,6 @@ pub enum Response {
 
 impl Response {
     /// Name as it stands in files and topics.
-    #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Response::Answer(_) => "answered",
@@ -100,7 +99,6 @@ pub struct Exchange {
 
 impl Exchange {
     /// A question to which this came back.
-    #[must_use]
     pub fn new(question: &Question, response: Response) -> Self {
         let Question { number, step, t_s, .. } = *question;
         Self { robot: question.robot.clone(), number, step, t_s, response }

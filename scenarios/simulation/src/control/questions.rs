@@ -6,7 +6,6 @@ use robots::handoff::{Estimate, GantryObservation, Observation, RangeScan};
 use serde_json::{Map, Value, json};
 
 /// A question as JSON. Pictures and sidescan pings are not in it: they have topics of their own.
-#[must_use]
 pub fn question_json(question: &Question) -> Value {
     let mut said = match &question.seen {
         QuestionContent::Robot(seen, gathered) => robot(question.t_s, seen, gathered),

@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// A consultation as JSON, as it is recorded.
-#[must_use]
 pub fn consultation_json(told: &Exchange) -> Value {
     let mut said = json!({
         "robot": told.robot, "number": told.number, "step": told.step, "t_s": told.t_s, "cause": told.response.name(),
@@ -54,7 +53,6 @@ impl Replay {
     }
 
     /// The robots that were asked.
-    #[must_use]
     pub fn robots(&self) -> Vec<String> {
         let mut names: Vec<String> = self.told.keys().map(|(name, _)| name.clone()).collect();
         names.dedup();

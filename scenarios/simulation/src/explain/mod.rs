@@ -37,7 +37,6 @@ pub fn explain(registry: &Registry, path: &str, more: &[FileKind]) -> Result<Str
 }
 
 /// The whole reference as Markdown, for `docs/reference.md`, with `more` kinds of files.
-#[must_use]
 pub fn markdown(registry: &Registry, more: &[FileKind]) -> String {
     markdown::document(&reference(registry, more))
 }
@@ -48,7 +47,6 @@ fn reference(registry: &Registry, more: &[FileKind]) -> Reference {
 }
 
 /// The JSON Schema of a scenario, for `docs/scenario.schema.json`.
-#[must_use]
 pub fn json_schema(registry: &Registry) -> String {
     format!("{:#}\n", schema::schema(registry, &[]))
 }

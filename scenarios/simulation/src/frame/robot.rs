@@ -46,7 +46,6 @@ pub struct RobotFrame {
 
 impl RobotFrame {
     /// Depth or altitude that its guidance asks for, of a vehicle that keeps one.
-    #[must_use]
     pub fn asked_height(&self) -> Option<Vertical> {
         let asked = match self.command? {
             Command::Steer(s) => s.vertical,
@@ -57,7 +56,6 @@ impl RobotFrame {
     }
 
     /// Name of the layer that controls the vehicle.
-    #[must_use]
     pub fn holding_layer(&self) -> Option<&'static str> {
         let holds = |l: &&Layer| l.state == LayerState::Holds;
         self.shown.layers.iter().find(holds).map(|l| l.name)
@@ -81,7 +79,6 @@ pub struct PictureFrame {
 
 impl PictureFrame {
     /// From a picture that was taken in this step.
-    #[must_use]
     pub fn new(t_s: f64, id: &str, picture: &Picture, truth: &Truth, estimate: &Estimate) -> Self {
         Self { t_s, robot: id.to_owned(), picture: picture.clone(), truth: truth.pose, estimate: *estimate }
     }
@@ -102,7 +99,6 @@ pub struct PingFrame {
 
 impl PingFrame {
     /// From a ping of this step.
-    #[must_use]
     pub fn new(t_s: f64, id: &str, ping: &SidescanPing, estimate: &Estimate) -> Self {
         Self { t_s, robot: id.to_owned(), ping: ping.clone(), estimate: *estimate }
     }

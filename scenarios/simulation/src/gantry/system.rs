@@ -45,7 +45,6 @@ pub(crate) struct Head {
 
 impl Head {
     /// Probes that have not been read.
-    #[must_use]
     pub(crate) fn new(probes: Probes) -> Self {
         Self { probes, latest: None, tips_W: Vec::new() }
     }

@@ -71,7 +71,6 @@ impl IncidentKind {
     ];
 
     /// In words, for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Self::LeftArea => "left the area",
@@ -131,7 +130,6 @@ pub struct Incident {
 
 impl Incident {
     /// What is wrong, in words.
-    #[must_use]
     pub fn describe(&self) -> String {
         match &self.fault {
             Some(fault) => format!("{}: {fault}", self.what.label()),
@@ -140,7 +138,6 @@ impl Incident {
     }
 
     /// On one line, for people.
-    #[must_use]
     pub fn line(&self) -> String {
         let p = &self.p_W;
         let lasted = match (self.over, self.lasted_s) {

@@ -63,7 +63,6 @@ struct Rosters {
 
 impl Worlds {
     /// For the runs of a scenario; none is made yet.
-    #[must_use]
     pub fn new(loaded: &Loaded) -> Self {
         Self { loaded: loaded.clone(), idle: Mutex::default() }
     }

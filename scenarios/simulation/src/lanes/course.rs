@@ -40,7 +40,6 @@ impl Course {
 /// Divides runs into groups that have the same ocean, step by step, and of which all runs together need at most
 /// `memory_bytes`; a run that needs more by itself is a group of its own. Each group holds indices of `runs`, in their
 /// order, and the groups come in the order of their first runs.
-#[must_use]
 pub fn group_by_ocean(runs: &[(&Loaded, Seed)], memory_bytes: f64) -> Vec<Vec<usize>> {
     struct Group {
         course: Course,

@@ -258,7 +258,6 @@ impl Shared {
     }
 
     /// Steps of the mission so far.
-    #[must_use]
     pub fn step(&self) -> u64 {
         self.clock.step
     }
@@ -301,13 +300,11 @@ impl Shared {
     }
 
     /// What a run that failed said.
-    #[must_use]
     pub fn failure(&self, place: usize) -> Option<&str> {
         self.runs.all.get(place)?.as_ref()?.failed.as_deref()
     }
 
     /// How the run in a place stands.
-    #[must_use]
     pub fn standing(&self, place: usize) -> Standing {
         match self.runs.all.get(place).and_then(Option::as_ref) {
             None => Standing::Empty,

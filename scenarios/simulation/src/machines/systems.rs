@@ -74,13 +74,11 @@ impl<'a> Systems<'a> {
     }
 
     /// Whether the run makes frames. Without them it needs no system that only prepares them.
-    #[must_use]
     pub fn has_frames(&self) -> bool {
         self.frames == Frames::Made
     }
 
     /// Whether an entity has this component now. Systems for what nobody has can be left out.
-    #[must_use]
     pub fn has<C: Component>(&mut self) -> bool {
         (self.world.query::<&C>().iter(self.world)).next().is_some()
     }

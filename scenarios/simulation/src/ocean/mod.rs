@@ -99,32 +99,27 @@ impl Ocean {
     }
 
     /// The water. Its own time begins with the spin-up.
-    #[must_use]
     pub fn water(&self) -> &Water {
         &self.water
     }
 
     /// Age of the water when the mission starts, s.
-    #[must_use]
     pub fn spin_up_s(&self) -> f64 {
         self.spin_up_s
     }
 
     /// The plume: filaments of all sources.
-    #[must_use]
     pub fn plume(&self) -> &Plume {
         &self.plume
     }
 
     /// Places of the sources (ENU), m.
-    #[must_use]
     pub fn sources(&self) -> Vec<Vector3<f64>> {
         self.plume.sources().iter().map(|s| s.p_W).collect()
     }
 
     /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the
     /// waves.
-    #[must_use]
     pub fn dye(&self, t_s: f64) -> DisplacedConcentration<'_> {
         DisplacedConcentration::new(&self.plume, self, t_s)
     }
@@ -194,14 +189,12 @@ impl Ocean {
 
     /// Digest of the plume, if the latest advance reached a checkpoint: the first tick after all filaments have met at
     /// the end of a longest step.
-    #[must_use]
     pub fn checkpoint(&self) -> Option<&str> {
         let (t_s, digest) = self.checkpoint.as_ref()?;
         (*t_s == self.plume.now_s()).then_some(digest)
     }
 
     /// Copies of the present water and plume.
-    #[must_use]
     pub fn state(&self) -> (Water, Plume) {
         let mut plume = Plume::clone(&self.plume);
         plume.use_threads(None);

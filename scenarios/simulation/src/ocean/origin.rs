@@ -105,7 +105,6 @@ impl Origin {
     }
 
     /// The run's seed.
-    #[must_use]
     pub fn seed(&self) -> Seed {
         self.seed
     }

@@ -39,7 +39,6 @@ pub struct Outbox {
 
 impl Outbox {
     /// Empty, with the periods of frames and of pictures of the plume, and the most filaments in such a picture.
-    #[must_use]
     pub fn new(frame_every: Every, plume_every: Every, plume_points: usize) -> Self {
         Self {
             open: None,

@@ -112,7 +112,6 @@ pub const CATALOG: &[Template] = catalog![
 ];
 
 /// The scenario of that name.
-#[must_use]
 pub fn template(name: &str) -> Option<&'static Template> {
     CATALOG.iter().find(|t| t.name == name)
 }

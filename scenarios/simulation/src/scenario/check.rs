@@ -24,13 +24,11 @@ use world::terrain::Terrain;
 const BERTH_M: f64 = 1.0;
 
 /// Finds all errors and warnings. File paths in the scenario are relative to `base_dir`.
-#[must_use]
 pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<UnplacedFault> {
     check_within(scenario, base_dir, cost::limit())
 }
 
 /// The same with a limit for the memory of a run, bytes. What does not fit is not built for the checks either.
-#[must_use]
 pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<UnplacedFault> {
     let area = scenario.area.build();
     let terrain = scenario.terrain.build(&area);

@@ -27,7 +27,6 @@ const POINT_S: f64 = 0.3e-6;
 static LIMIT: AtomicU64 = AtomicU64::new(MEMORY.to_bits());
 
 /// Memory that a run of this process may use, bytes.
-#[must_use]
 pub fn limit() -> f64 {
     f64::from_bits(LIMIT.load(Ordering::Relaxed))
 }
@@ -38,7 +37,6 @@ pub fn set_limit(bytes: f64) {
 }
 
 /// The durations and steps of a run.
-#[must_use]
 pub fn times(scenario: &Scenario) -> Times {
     let t = &scenario.time;
     Times {
@@ -52,7 +50,6 @@ pub fn times(scenario: &Scenario) -> Times {
 }
 
 /// The cost of a run, computed from its fields.
-#[must_use]
 pub fn cost(scenario: &Scenario) -> Cost {
     let mut cost = of_ocean(scenario);
     cost.add(of_lane(scenario));
@@ -83,7 +80,6 @@ fn depth_m(scenario: &Scenario) -> f64 {
 
 /// The part of the cost that each run has for itself, also in an ocean shared with others: its searchers and what is
 /// recorded of it.
-#[must_use]
 pub fn of_lane(scenario: &Scenario) -> Cost {
     let times = times(scenario);
     let (depth_m, waves) = (depth_m(scenario), scenario.water.waves());
@@ -138,7 +134,6 @@ fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
 }
 
 /// The parts that take most time or memory, largest first, as in "1.6e4 nodes of the plume's flow (area): 2 MB".
-#[must_use]
 pub fn greatest(cost: &Cost) -> Vec<String> {
     let share = |p: &Part| (p.seconds / cost.seconds().max(1e-9)).max(p.bytes / cost.bytes().max(1.0));
     let mut parts: Vec<&Part> = cost.parts.iter().filter(|p| share(p) > 0.05).collect();

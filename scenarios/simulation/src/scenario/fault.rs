@@ -42,7 +42,6 @@ pub enum ScenarioError {
 
 impl ScenarioError {
     /// One or more mistakes of one text, put in the order of the text.
-    #[must_use]
     pub fn from_faults(path: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|f| (f.line, f.column));
         match faults.len() {
@@ -52,7 +51,6 @@ impl ScenarioError {
     }
 
     /// One line for each mistake, `file:line:column: field: what is wrong`, for logs and tables.
-    #[must_use]
     pub fn lines(&self) -> Vec<String> {
         match self {
             ScenarioError::File { .. } => vec![self.to_string()],
@@ -113,7 +111,6 @@ impl Fault {
     }
 
     /// The fault in one line: `file:line:column: field: what is wrong`.
-    #[must_use]
     pub fn line(&self) -> String {
         format!("{}:{}:{}: {self}", self.source_name, self.line, self.column)
     }
@@ -135,13 +132,11 @@ pub struct UnplacedFault {
 
 impl UnplacedFault {
     /// A mistake that stops a run.
-    #[must_use]
     pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { path: path.into(), message: message.into(), help: None, severity: Severity::Error, label: "here" }
     }
 
     /// Something legal that is probably not meant.
-    #[must_use]
     pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(path, message) }
     }

@@ -72,13 +72,11 @@ impl Default for HeadSpec {
 
 impl GantryBlock {
     /// What its searcher may know of the gantry.
-    #[must_use]
     pub fn layout(&self, gantry: &Gantry) -> GantryLayout {
         gantry.layout(self.probes.rate_hz.get(), self.probes.range_v.map(Finite::get))
     }
 
     /// Pose of the gantry's base in the world.
-    #[must_use]
     pub fn base(&self, terrain: &Terrain) -> Pose {
         let (x, y) = (self.place.east_m.get(), self.place.north_m.get());
         let p_W = Vector3::new(x, y, terrain.bed_z(x, y) + self.place.raised_m.get());
@@ -86,7 +84,6 @@ impl GantryBlock {
     }
 
     /// Where the head starts (forward, left), m.
-    #[must_use]
     pub fn start_m(&self) -> Vector2<f64> {
         Vector2::new(self.start.forward_m.get(), self.start.left_m.get())
     }

@@ -51,7 +51,6 @@ impl Loaded {
     }
 
     /// The text of the file; if the scenario was changed since, its own text, without the comments of the file.
-    #[must_use]
     pub fn text(&self) -> Cow<'_, str> {
         if self.scenario == self.read {
             return Cow::Borrowed(&self.text);
@@ -67,7 +66,6 @@ impl Loaded {
     }
 
     /// Hash of the text, 32 hexadecimal digits.
-    #[must_use]
     pub fn hash(&self) -> String {
         hash(&self.text())
     }
@@ -164,7 +162,6 @@ pub fn load_text_in(registry: &Registry, name: &str, text: &str, base_dir: &Path
 }
 
 /// Hash of a scenario's text, 32 hexadecimal digits.
-#[must_use]
 pub fn hash(text: &str) -> String {
     let mut digest = Digest::default();
     digest.text(text);

@@ -86,7 +86,6 @@ pub struct Id(String);
 
 impl Id {
     /// The name.
-    #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -137,7 +136,6 @@ fn zero() -> Finite {
 
 impl AreaSpec {
     /// The area itself.
-    #[must_use]
     pub fn build(&self) -> Area {
         Area {
             centre: Vector2::new(self.east_m.get(), self.north_m.get()),
@@ -179,7 +177,6 @@ pub struct SlopeSpec {
 
 impl TerrainSpec {
     /// The bed itself.
-    #[must_use]
     pub fn build(&self, area: &Area) -> Terrain {
         match self {
             TerrainSpec::Level(level) => Terrain::Level { depth_m: level.depth_m.get() },
@@ -232,7 +229,6 @@ pub struct RobotSpec {
 
 impl RobotSpec {
     /// What the strategy knows before the mission.
-    #[must_use]
     pub fn setting(&self, area: &Area, terrain: &Terrain, obstacles: &Obstacles) -> Setting {
         let charted = |o: &&Obstacle| self.chart.contains(&o.id);
         Setting {
@@ -277,7 +273,6 @@ fn still() -> NonNegative {
 impl StartSpec {
     /// Position in the world. If both are given, altitude counts; if neither is, the surface. [`check`](super::check)
     /// refuses both cases.
-    #[must_use]
     pub fn p_W(&self, terrain: &Terrain) -> Vector3<f64> {
         let (x, y) = (self.east_m.get(), self.north_m.get());
         let z = match (self.altitude_m, self.depth_m) {

@@ -21,7 +21,6 @@ pub enum SuccessSpec {
 
 impl SuccessSpec {
     /// Greatest distance at which a declaration counts, m; `None` if the rule asks for no declaration.
-    #[must_use]
     pub fn declared_within_m(&self) -> Option<f64> {
         match self {
             SuccessSpec::Declared(d) | SuccessSpec::AllDeclared(d) => Some(d.within_m.get()),
@@ -32,7 +31,6 @@ impl SuccessSpec {
 
 impl SuccessSpec {
     /// The rule in words.
-    #[must_use]
     pub fn describe(&self) -> String {
         match self {
             SuccessSpec::Declared(d) => format!("a source is declared within {} m of a true one", d.within_m.get()),

@@ -16,7 +16,6 @@ pub struct FileKind {
 
 impl FileKind {
     /// The kind of file that is read as a `T`: its paths begin with `name`.
-    #[must_use]
     pub const fn new<T: JsonSchema>(name: &'static str, what: &'static str) -> Self {
         Self { name, what, schema: SchemaGenerator::subschema_for::<T> }
     }

@@ -59,7 +59,6 @@ impl Eq for Topic {}
 impl Topic {
     /// A topic whose messages are JSON objects of a type. Give every message the time `t_s`, and put the unit into the
     /// name of each field.
-    #[must_use]
     pub const fn of<M: JsonSchema>(name: &'static str, key: &'static str, rate: &'static str) -> Self {
         Self { name, key, rate, payload: Payload::Json, describe: described::<M> }
     }
@@ -71,7 +70,6 @@ impl Topic {
     }
 
     /// JSON Schema (draft 2020-12) of the payload, or of the attachment if the payload is packed.
-    #[must_use]
     pub fn schema(&self) -> Value {
         // Of the two forms that schemars knows, the one for reading lets fields be absent.
         let mut schema = (self.describe)(SchemaSettings::draft2020_12().for_deserialize());
@@ -96,14 +94,12 @@ impl Topic {
     }
 
     /// What it contains.
-    #[must_use]
     pub fn what(&self) -> String {
         let schema = (self.describe)(SchemaSettings::draft2020_12());
         schema["description"].as_str().unwrap_or_default().to_owned()
     }
 
     /// The names of its fields, in the order of the type.
-    #[must_use]
     pub fn fields(&self) -> Vec<String> {
         // The form for writing asks for every field.
         let schema = (self.describe)(SchemaSettings::draft2020_12().for_serialize());
@@ -166,7 +162,6 @@ impl IntoIterator for Said {
 }
 
 /// A name as a part of a key: everything but `a-z`, `0-9` and `_` becomes `_`.
-#[must_use]
 pub fn chunk(name: &str) -> String {
     if name.is_empty() {
         return "_".to_owned();

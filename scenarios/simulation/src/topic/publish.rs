@@ -32,7 +32,6 @@ pub struct Topics {
 
 impl Topics {
     /// For a run that has declared these topics.
-    #[must_use]
     pub fn new(declared: Vec<Topic>) -> Self {
         Self { declared, ..Self::default() }
     }

@@ -23,7 +23,6 @@ fn those(outside: &[String]) -> String {
 }
 
 /// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
-#[must_use]
 pub fn consulted(scenario: &Scenario) -> Vec<(String, ExchangeTiming)> {
     let robots = scenario.robots.iter();
     let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.consulted()?)));
@@ -34,7 +33,6 @@ pub fn consulted(scenario: &Scenario) -> Vec<(String, ExchangeTiming)> {
 }
 
 /// Their ids.
-#[must_use]
 pub fn controlled(scenario: &Scenario) -> Vec<String> {
     consulted(scenario).into_iter().map(|(id, _)| id).collect()
 }
@@ -86,13 +84,11 @@ impl Trial {
     }
 
     /// Ids of the robots and gantries whose strategy is `External`, in the order of the scenario.
-    #[must_use]
     pub fn controlled(&self) -> Vec<String> {
         controlled(&self.scenario)
     }
 
     /// The true state of a robot whose strategy is `External`: for rewards and scores, never for its searcher.
-    #[must_use]
     pub fn truth(&self, robot: &str) -> Option<Truth> {
         truth_of(&self.simulation.world, robot)
     }

@@ -13,7 +13,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 impl Campaign {
     /// Makes runs anew whose tracks are to be shown, so many at the same time; 0 means one on each core. Once `stop` is
     /// set, no run begins. `made` is called after each, from any thread.
-    #[must_use]
     pub fn films(&self, picks: Vec<Pick>, jobs: usize, stop: &AtomicBool, made: &(dyn Fn() + Sync)) -> Vec<RemadeRun> {
         let one = |pick: Pick| {
             let film = if stop.load(Ordering::Relaxed) {

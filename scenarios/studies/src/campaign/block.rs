@@ -35,7 +35,6 @@ pub enum BlockState {
 
 impl BlockState {
     /// The rows that exist; none of a damaged block.
-    #[must_use]
     pub fn rows(self) -> Vec<RunRow> {
         match self {
             BlockState::Part(rows) | BlockState::Done(rows) => rows,
@@ -45,13 +44,11 @@ impl BlockState {
 }
 
 /// The file of a block's rows.
-#[must_use]
 pub fn block_path(dir: &Path, block: u64) -> PathBuf {
     dir.join(format!("part-{block:06}.parquet"))
 }
 
 /// The file of its declarations.
-#[must_use]
 pub fn declarations_path(dir: &Path, block: u64) -> PathBuf {
     dir.join(format!("declarations-{block:06}.parquet"))
 }
@@ -126,7 +123,6 @@ pub(super) fn add_to_block(dir: &Path, manifest: &Manifest, block: u64, rows: &[
 
 /// Reads a block and verifies it: seals, footers, indices of its runs, hash of its rows and their declarations.
 /// Whatever the bytes are, the answer is one of the four states.
-#[must_use]
 pub fn read_block(dir: &Path, manifest: &Manifest, block: u64) -> BlockState {
     let wanted = manifest.runs_of(block).count();
     match sound(dir, manifest, block) {

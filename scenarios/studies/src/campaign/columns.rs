@@ -7,7 +7,6 @@ use output::columns::{ColumnInfo, TableInfo};
 use output::files::{csv_number, csv_text};
 
 /// The tables of a campaign.
-#[must_use]
 pub fn tables() -> Vec<TableInfo> {
     fn columns<T: Record>() -> Vec<ColumnInfo> {
         T::COLUMNS.iter().map(|(info, ..)| *info).collect()

@@ -14,7 +14,6 @@ const A_SHARE: u64 = 4;
 /// Runs in a block: as many as one thread does in about half a minute. The number is a multiple of the arms, at most
 /// [`LONGEST`], and small enough that each of `shares` processes has several. `spin_up_s` and `mission_s` are the wall
 /// times of one run.
-#[must_use]
 pub fn block_of(campaign: &Campaign, spin_up_s: f64, mission_s: f64, shares: u64) -> u64 {
     let arms = campaign.n_arms();
     // At best, the arms of a seed share its spin-up.

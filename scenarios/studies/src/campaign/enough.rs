@@ -25,14 +25,12 @@ pub struct Demand {
 
 impl Demand {
     /// The blocks that contain those runs: from 0 to this one, exclusive.
-    #[must_use]
     pub fn blocks(&self, manifest: &Manifest) -> u64 {
         self.runs.div_ceil(manifest.block)
     }
 }
 
 /// The runs that `dir` must hold before the campaign is done, or before more can be decided.
-#[must_use]
 pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Demand {
     let Some(until) = &campaign.spec.until else {
         return Demand { runs: manifest.runs, decided: true };

@@ -32,7 +32,6 @@ impl LaneLimits<'_> {
 }
 
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
-#[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
     let mut made = None;
     let runs = [(name.clone(), loaded)];

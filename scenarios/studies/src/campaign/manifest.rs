@@ -64,7 +64,6 @@ pub struct Manifest {
 
 impl Manifest {
     /// For a campaign that this program runs in blocks of that many runs.
-    #[must_use]
     pub fn new(campaign: &Campaign, block: u64) -> Self {
         let base = &campaign.base;
         Self {
@@ -86,13 +85,11 @@ impl Manifest {
     }
 
     /// Number of blocks.
-    #[must_use]
     pub fn n_blocks(&self) -> u64 {
         self.runs.div_ceil(self.block)
     }
 
     /// The runs of a block.
-    #[must_use]
     pub fn runs_of(&self, block: u64) -> std::ops::Range<u64> {
         let first = block * self.block;
         first..(first + self.block).min(self.runs)
@@ -198,7 +195,6 @@ impl Manifest {
     }
 
     /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
-    #[must_use]
     pub fn differences(&self, ours: &Self) -> Vec<String> {
         let key = |m: &Self| m.key.clone().unwrap_or_else(|| "none".to_string());
         let pairs = [

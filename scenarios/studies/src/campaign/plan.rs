@@ -64,31 +64,26 @@ impl Campaign {
     }
 
     /// Number of runs.
-    #[must_use]
     pub fn n_runs(&self) -> u64 {
         self.spec.n_runs()
     }
 
     /// Number of arms.
-    #[must_use]
     pub fn n_arms(&self) -> u64 {
         self.spec.n_arms()
     }
 
     /// Number of arms under each condition, times conditions.
-    #[must_use]
     pub fn n_cells(&self) -> u64 {
         self.spec.n_conditions() * self.n_arms()
     }
 
     /// The arm with an index.
-    #[must_use]
     pub fn arm(&self, arm: usize) -> &Arm {
         &self.spec.arms[arm]
     }
 
     /// Position of a run: arms of one seed are neighbours, then seeds, then conditions.
-    #[must_use]
     pub fn place(&self, run: u64) -> RunPlace {
         let (group, seeds) = (run / self.n_arms(), self.spec.seeds);
         let (condition, seed_index) = match &self.spec.until {
@@ -106,7 +101,6 @@ impl Campaign {
     }
 
     /// The paths and values that a condition sets.
-    #[must_use]
     pub fn condition(&self, condition: u64) -> Vec<(String, String)> {
         match &self.spec.conditions {
             Conditions::Single => Vec::new(),
@@ -132,7 +126,6 @@ impl Campaign {
     }
 
     /// The condition's name in rows of the table: `path=value; path=value`.
-    #[must_use]
     pub fn condition_name(&self, condition: u64) -> String {
         let set = self.condition(condition);
         let named: Vec<String> = set.iter().map(|(p, v)| format!("{p}={v}")).collect();

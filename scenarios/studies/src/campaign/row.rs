@@ -133,13 +133,11 @@ record! {
 
 impl DeclarationRow {
     /// Whether the vehicle has not rejected it.
-    #[must_use]
     pub fn stands(&self) -> bool {
         self.verdict != Verdict::Rejected.name()
     }
 
     /// Whether it says where a plume crosses a subregion's up-flow edge, not where a source is.
-    #[must_use]
     pub fn at_edge(&self) -> bool {
         self.rule == UP_FLOW_EDGE
     }

@@ -36,7 +36,6 @@ pub enum Seeds {
 
 impl Seeds {
     /// Number of seeds under each condition.
-    #[must_use]
     pub fn count(self) -> u64 {
         match self {
             Seeds::Literal { count, .. } | Seeds::Hashed { count, .. } => count,
@@ -44,7 +43,6 @@ impl Seeds {
     }
 
     /// The seed with an index, from 0, under a condition.
-    #[must_use]
     pub fn seed(self, condition: u64, index: u64) -> u64 {
         match self {
             Seeds::Literal { first, .. } => first + index,
@@ -53,7 +51,6 @@ impl Seeds {
     }
 
     /// The seeds in words.
-    #[must_use]
     pub fn describe(self) -> String {
         match self {
             Seeds::Literal { first, count: 1 } => format!("seed {first}"),

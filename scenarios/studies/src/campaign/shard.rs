@@ -40,7 +40,6 @@ impl FromStr for Shard {
 
 impl Shard {
     /// Whether this process has to do a block; blocks are assigned in turn.
-    #[must_use]
     pub fn has(self, block: u64) -> bool {
         block % self.count == self.index
     }

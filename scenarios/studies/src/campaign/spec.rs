@@ -59,7 +59,6 @@ pub struct Arm {
 
 impl Arm {
     /// What it sets, `path=value` joined by `; `.
-    #[must_use]
     pub fn describe(&self) -> String {
         let set: Vec<String> = self.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
         if set.is_empty() { "as it is".to_string() } else { set.join("; ") }
@@ -114,19 +113,16 @@ impl CampaignSpec {
     }
 
     /// Number of runs.
-    #[must_use]
     pub fn n_runs(&self) -> u64 {
         self.n_conditions() * self.seeds.count() * self.n_arms()
     }
 
     /// Number of arms.
-    #[must_use]
     pub fn n_arms(&self) -> u64 {
         self.arms.len() as u64
     }
 
     /// Number of conditions; at most 2^64 - 1.
-    #[must_use]
     pub fn n_conditions(&self) -> u64 {
         match &self.conditions {
             Conditions::Single => 1,

@@ -97,7 +97,6 @@ impl Status {
     }
 
     /// Whether every run that is wanted has its row.
-    #[must_use]
     pub fn complete(&self) -> bool {
         self.wanted.decided && self.missing == 0
     }

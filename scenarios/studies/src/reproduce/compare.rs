@@ -22,7 +22,6 @@ pub enum Standing {
 
 impl Standing {
     /// In words.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Standing::None => "-",
@@ -48,7 +47,6 @@ pub struct FigureComparison {
 }
 
 /// All figures of a row, from our runs of all its arms.
-#[must_use]
 pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<FigureComparison> {
     let ours = |f: &Figure| {
         let asked = |r: &&RunRow| {

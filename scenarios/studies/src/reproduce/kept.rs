@@ -76,7 +76,6 @@ impl Table {
     }
 
     /// Whether it holds no runs.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
@@ -117,7 +116,6 @@ impl Table {
     }
 
     /// The runs of consecutive seeds from `first` on for which all arms are there, at most `n` seeds.
-    #[must_use]
     pub fn from_seed(&self, first: u64, n: u64, reference: &Reference) -> Vec<RunRow> {
         let arms = reference.arms.len() as u64;
         let mut all = Vec::new();
@@ -136,7 +134,6 @@ impl Table {
     }
 
     /// All runs of a row's arms.
-    #[must_use]
     pub fn of_arms(&self, reference: &Reference) -> Vec<RunRow> {
         let asked = |arm: &String| reference.arms.iter().any(|(name, _)| name == arm);
         let all = self.runs.iter().filter(|((_, arm), _)| asked(arm));
@@ -145,7 +142,6 @@ impl Table {
 
     /// What shows that the program no longer gives these runs: another scenario, or another digest or measure when `n`
     /// of the seeds, drawn at random, are run again. `None` if nothing does.
-    #[must_use]
     pub fn stale(&self, reference: &Reference, n: usize) -> Option<String> {
         let (was, is) = (&self.hash, reference.loaded.hash());
         if *was != is {

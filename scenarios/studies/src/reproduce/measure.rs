@@ -56,7 +56,6 @@ fn said(r: &RunRow, k: u32, verdict: Verdict) -> Option<bool> {
 
 impl RunEvent {
     /// Whether it happened; `None` if the run cannot tell.
-    #[must_use]
     pub fn happened(self, r: &RunRow) -> Option<bool> {
         match self {
             RunEvent::Success => Some(r.success),
@@ -141,7 +140,6 @@ pub enum Measure {
 
 impl Measure {
     /// Its unit.
-    #[must_use]
     pub fn unit(self) -> Unit {
         match self {
             Measure::DeclaredS
@@ -160,13 +158,11 @@ impl Measure {
     }
 
     /// Whether it can be negative. The others are times, distances, speeds, shares and counts.
-    #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self, Measure::NearGainMS | Measure::OffsetGainM)
     }
 
     /// The value for a run; `None` if the run has none.
-    #[must_use]
     pub fn value(self, r: &RunRow) -> Option<f64> {
         let sound = |count: usize| r.error.is_none().then_some(count as f64);
         let less = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a - b);

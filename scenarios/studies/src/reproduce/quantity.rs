@@ -42,7 +42,6 @@ pub struct Estimate {
 
 impl Quantity {
     /// Its unit.
-    #[must_use]
     pub fn unit(self) -> Unit {
         match self {
             Quantity::Share(_) => Unit::Share,
@@ -51,7 +50,6 @@ impl Quantity {
     }
 
     /// From rows of runs. In a failed run, nothing happened and nothing was measured.
-    #[must_use]
     pub fn estimate(self, rows: &[RunRow]) -> Estimate {
         let quantile_of = |m: Measure, p: f64| {
             of_values(rows, m, |sorted| {

@@ -89,7 +89,6 @@ pub enum Paper {
 
 impl Paper {
     /// As a number in the quantity's unit.
-    #[must_use]
     pub fn value(self) -> f64 {
         match self {
             Paper::Value(v) | Paper::Run(v) => v,

@@ -45,7 +45,6 @@ pub struct RowResult {
 
 impl RowResult {
     /// A row without runs.
-    #[must_use]
     pub fn begin(reference: &Reference) -> Self {
         Self {
             row: reference.row.clone(),

@@ -36,7 +36,6 @@ pub struct TimeLeft {
 
 impl TimeLeft {
     /// For rows of so many planned runs; `jobs` as on the command line, 0 means one for each core.
-    #[must_use]
     pub fn new(planned: impl Iterator<Item = u64>, jobs: usize) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
         let of_row = |planned| RowProgress { planned, ..RowProgress::default() };
@@ -44,7 +43,6 @@ impl TimeLeft {
     }
 
     /// Runs at the same time.
-    #[must_use]
     pub fn threads(&self) -> u64 {
         self.threads as u64
     }
@@ -61,7 +59,6 @@ impl TimeLeft {
     }
 
     /// Time until all rows are done, in words; `None` as long as a row has not been measured.
-    #[must_use]
     pub fn describe(&self) -> Option<String> {
         let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         let left: Option<Vec<f64>> = rows.iter().map(|r| r.left_s()).collect();

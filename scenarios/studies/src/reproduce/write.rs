@@ -68,7 +68,6 @@ fn first_error(r: &RowResult) -> Option<String> {
 }
 
 /// The table of a row as plain text, in at most `columns` characters where there is such a limit.
-#[must_use]
 pub fn table(r: &RowResult, columns: Option<usize>) -> String {
     let line = |words: &str| wrapped(words, columns).trim_end().to_string();
     let mut out = line(&format!("{}: {}", r.row.id, r.row.what));

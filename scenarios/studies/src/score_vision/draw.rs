@@ -33,7 +33,6 @@ impl Content {
     }
 
     /// Its name in tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Content::Source => "source",
@@ -80,13 +79,11 @@ pub struct SceneDraw {
 }
 
 /// The range of visibility to which a scene belongs.
-#[must_use]
 pub fn bin(visibility_m: f64) -> usize {
     (BINS.iter().position(|(_, high)| visibility_m < *high)).unwrap_or(BINS.len() - 1)
 }
 
 /// Scene `n` of a seed; no scene depends on another.
-#[must_use]
 pub fn draw(seed: u64, n: u64) -> SceneDraw {
     let mut rng = Stream::new(seed, &format!("scene-{n}"), "score_vision");
     let mut even = |low: f64, high: f64| low + (high - low) * rng.uniform();

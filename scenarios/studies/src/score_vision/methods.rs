@@ -43,7 +43,6 @@ const DARKER: f64 = 0.6;
 
 impl Method {
     /// Its name in tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Method::AllPasses => "all passes",
@@ -56,7 +55,6 @@ impl Method {
     }
 
     /// Dye, body and the verdict on a picture.
-    #[must_use]
     pub fn look(self, picture: &RgbImage, spec: &VerifierSpec) -> (GrayImage, GrayImage, Sighting) {
         let edges = match self {
             Method::ClustersByReference => Edges::Reference,

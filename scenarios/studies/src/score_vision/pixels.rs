@@ -29,7 +29,6 @@ pub struct Counts {
 
 impl Counts {
     /// Compares found pixels with true pixels.
-    #[must_use]
     pub fn compare(found: &GrayImage, there: &GrayImage) -> Self {
         let mut counts = Self::default();
         for (f, t) in found.pixels().zip(there.pixels()) {
@@ -56,13 +55,11 @@ pub struct Ratio {
 }
 
 /// Share of the found pixels that are true, over all pictures.
-#[must_use]
 pub fn precision(counts: &[Counts], name: &str) -> Ratio {
     ratio(counts, name, |c| (c.hit, c.hit + c.false_alarm))
 }
 
 /// Share of the true pixels that are found, over all pictures.
-#[must_use]
 pub fn recall(counts: &[Counts], name: &str) -> Ratio {
     ratio(counts, name, |c| (c.hit, c.hit + c.missed))
 }

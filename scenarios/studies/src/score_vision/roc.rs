@@ -45,7 +45,6 @@ pub struct Roc {
 
 impl Roc {
     /// From some pictures; `name` separates the random numbers of different curves.
-    #[must_use]
     pub fn new(scored: &[ScoredPicture], name: &str) -> Self {
         let of = |source: bool| -> Vec<f64> { scored.iter().filter(|s| s.source == source).map(|s| s.score).collect() };
         let (mut with, mut without) = (of(true), of(false));

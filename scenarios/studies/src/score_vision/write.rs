@@ -12,7 +12,6 @@ use serde::Serialize;
 use world::files::Folder;
 
 /// The figures as a table, with 95 % intervals.
-#[must_use]
 pub fn table(rows: &[SceneRow]) -> String {
     let share = |(n, k): (u64, u64), i: &Interval| format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high);
     let area = |v: &Roc| match (v.area, &v.area_interval) {

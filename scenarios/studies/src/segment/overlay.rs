@@ -29,7 +29,6 @@ pub struct SegmentedPicture {
 
 impl SegmentedPicture {
     /// Analyses a picture and judges it.
-    #[must_use]
     pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
         let (parts, sighting) = Verifier::new(&spec).look(&picture);
         Self { name, picture, spec, parts, sighting }

@@ -53,7 +53,6 @@ pub enum PictureError {
 
 impl PictureError {
     /// How to solve the problem.
-    #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         match self {
             PictureError::NotAPicture { .. } => {

@@ -62,7 +62,6 @@ fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
 }
 
 /// The passes and the verdict as text.
-#[must_use]
 pub fn table(s: &SegmentedPicture) -> String {
     let (w, h) = s.picture.dimensions();
     let all = f64::from(w) * f64::from(h);

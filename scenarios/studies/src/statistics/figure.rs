@@ -20,13 +20,11 @@ pub struct PlumeFigure {
 
 impl PlumeFigure {
     /// Our value divided by the expected one.
-    #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         self.expected.map(|e| self.ours / e)
     }
 
     /// Whether the ratio lies outside 0.5 to 2.
-    #[must_use]
     pub fn flagged(&self) -> bool {
         self.ratio().is_some_and(|r| !(1.0 / FACTOR..=FACTOR).contains(&r))
     }

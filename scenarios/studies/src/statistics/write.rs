@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// The table: figure, ours, expected, ratio, source; `!` marks a ratio outside 0.5 to 2.
-#[must_use]
 pub fn table(statistics: &Statistics) -> String {
     let s = statistics;
     let mut out = format!("{}: plume statistics, seed {}, {} s after the spin-up\n\n", s.name, s.seed, s.watched_s);

@@ -13,7 +13,6 @@ const INK: &str = "#1f5fa8";
 const RUDDER: &str = "#b3541e";
 
 /// The trials of a vehicle, as SVG text.
-#[must_use]
 pub fn figure(vehicle: &str, trials: &[Trial]) -> String {
     let rows = trials.len().div_ceil(COLUMNS);
     let columns = trials.len().min(COLUMNS);

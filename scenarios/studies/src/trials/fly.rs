@@ -84,7 +84,6 @@ pub fn table(text: &str, drives: &[&str]) -> Result<Vec<(f64, Vec<f64>)>, String
 }
 
 /// The states at the beginning, at the end, and at whole multiples of `every_s`.
-#[must_use]
 pub fn fly(vehicle: &FolderVehicle, flight: &Flight) -> Vec<FlownState> {
     let mut vehicle = vehicle.clone();
     let [roll, pitch_up] = flight.tilt_rad;

@@ -23,7 +23,6 @@ pub struct Looks {
 const SIDES: [f64; 2] = [460.0, 320.0];
 
 /// The drawing, as SVG text.
-#[must_use]
 pub fn drawn(looks: &Looks) -> String {
     let mut c = Canvas::new(2.0 * SIDES[0] + 150.0, SIDES[1] + 130.0);
     c.bold([20.0, 28.0], 16.0, Anchor::Start, &looks.name);

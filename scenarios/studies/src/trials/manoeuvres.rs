@@ -19,7 +19,6 @@ use robots::guide::GuidanceSpec;
 use robots::vehicles::Vehicle;
 
 /// All trials that make sense for a vehicle. One without a rudder has no turning circle and no zigzag.
-#[must_use]
 pub fn trials(craft: &Vehicle) -> Vec<Trial> {
     let able = craft.capabilities(GuidanceSpec::default().tightest_turn_m());
     let mut all = Vec::new();
@@ -51,7 +50,6 @@ pub fn trials(craft: &Vehicle) -> Vec<Trial> {
 }
 
 /// Whether a vehicle has a rudder, which turning circle and zigzag need.
-#[must_use]
 pub fn has_rudder(craft: &Vehicle) -> bool {
     Rudder::fitted(craft).is_some()
 }

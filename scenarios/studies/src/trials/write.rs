@@ -6,7 +6,6 @@ use crate::campaign::report::{Table, TableColumn};
 use output::files::csv_text;
 
 /// What the trials found.
-#[must_use]
 pub fn numbers_csv(trials: &[Trial]) -> String {
     let columns: [TableColumn<'_, (&Trial, &TrialNumber)>; 4] = [
         ("trial", &|(trial, _)| trial.name.to_string()),
@@ -18,7 +17,6 @@ pub fn numbers_csv(trials: &[Trial]) -> String {
 }
 
 /// Heading and rudder over time of the trials by rudder.
-#[must_use]
 pub fn steering_csv(trials: &[Trial]) -> String {
     let columns: [TableColumn<'_, (&Trial, &SteeringRow)>; 7] = [
         ("trial", &|(trial, _)| trial.name.to_string()),
@@ -33,7 +31,6 @@ pub fn steering_csv(trials: &[Trial]) -> String {
 }
 
 /// The states of a flight; `links` are the names of the drives.
-#[must_use]
 pub fn flown_csv(rows: &[FlownState], links: &[&str]) -> String {
     let own =
         "t_s,east_m,north_m,up_m,q_w,q_x,q_y,q_z,ahead_m_s,left_m_s,up_m_s,roll_rad_s,pitch_down_rad_s,yaw_port_rad_s";

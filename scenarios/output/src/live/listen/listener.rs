@@ -98,13 +98,11 @@ impl Listener {
     }
 
     /// Where it looks for runs, in words.
-    #[must_use]
     pub fn place(&self) -> &str {
         &self.place
     }
 
     /// A line for the user, if necessary: that no topic has the key.
-    #[must_use]
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
     }

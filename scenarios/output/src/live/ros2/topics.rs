@@ -17,7 +17,6 @@ pub enum Qos {
 
 impl Qos {
     /// In words.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Qos::Clock => "best effort, depth 1",
@@ -29,7 +28,6 @@ impl Qos {
 
     /// As rmw_zenoh writes it into tokens: reliability, durability, history with its depth, deadline, lifespan,
     /// liveliness; what has its default is empty.
-    #[must_use]
     pub fn chunk(self) -> &'static str {
         match self {
             Qos::Clock => "2::,1:,:,:,,",
@@ -54,7 +52,6 @@ pub struct RosTopic {
 }
 
 /// All topics, in the order in which `rheotaxis topics --ros2` lists them.
-#[must_use]
 pub fn ros_topics() -> &'static [RosTopic] {
     ALL
 }

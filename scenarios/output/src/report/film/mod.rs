@@ -20,14 +20,12 @@ const SCRIPTS: [&str; 4] = [
 ];
 
 /// The data of the animation as JSON, for [`Page::film`](super::Page::film), that is safe inside a page; `None` for a run in which nothing moved.
-#[must_use]
 pub fn film(run: &RunReport<'_>) -> Option<String> {
     data::film_data(run).map(|data| in_page(&data.to_string()))
 }
 
 /// A section of the page with an animation and its heading; the data are those of [`film`]. The page needs
 /// [`FILM_STYLE`] and, once after all animations, [`film_script`].
-#[must_use]
 pub(super) fn film_section(title: &str, film: &str) -> String {
     let title = crate::charts::escaped(title);
     format!(
@@ -37,7 +35,6 @@ pub(super) fn film_section(title: &str, film: &str) -> String {
 }
 
 /// The script that brings all animations of a page to life.
-#[must_use]
 pub(super) fn film_script() -> String {
     format!("<script>\n(() => {{\n\"use strict\";\n{}}})();\n</script>\n", SCRIPTS.concat())
 }

@@ -42,7 +42,6 @@ impl Outline {
     }
 
     /// A mistake at the place of its path; errors call the text `name`.
-    #[must_use]
     pub fn located(&self, name: &str, text: &str, found: UnplacedFault) -> Fault {
         let span = self.find(&found.path).map_or(0..0, |n| n.whole.clone());
         Fault::new(name, text, span, found)

@@ -24,7 +24,6 @@ impl ArmMeasure {
     pub const ALL: [ArmMeasure; 3] = [ArmMeasure::Time, ArmMeasure::Path, ArmMeasure::Error];
 
     /// Its name for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             ArmMeasure::Time => "time to declaration",
@@ -34,7 +33,6 @@ impl ArmMeasure {
     }
 
     /// Its unit.
-    #[must_use]
     pub fn unit(self) -> Unit {
         match self {
             ArmMeasure::Time => Unit::Seconds,
@@ -43,7 +41,6 @@ impl ArmMeasure {
     }
 
     /// The value for one run; `None` if there is nothing to measure.
-    #[must_use]
     pub fn value(self, row: &RunRow) -> Option<f64> {
         match self {
             ArmMeasure::Time => row.declared_s,

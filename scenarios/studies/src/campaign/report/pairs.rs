@@ -32,7 +32,6 @@ impl Compares {
     ];
 
     /// Its name for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Compares::Success => "success",
@@ -42,7 +41,6 @@ impl Compares {
     }
 
     /// Unit of the difference.
-    #[must_use]
     pub fn unit(self) -> Unit {
         match self {
             Compares::Success => Unit::Share,

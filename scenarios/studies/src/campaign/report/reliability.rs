@@ -28,7 +28,6 @@ impl StatedEvent {
     pub const ALL: [StatedEvent; 2] = [StatedEvent::Cell, StatedEvent::Near];
 
     /// In words.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             StatedEvent::Cell => "best cell",
@@ -74,13 +73,11 @@ impl Bin {
     }
 
     /// The share that was true.
-    #[must_use]
     pub fn share(&self) -> f64 {
         self.count as f64 / self.n as f64
     }
 
     /// Its interval.
-    #[must_use]
     pub fn interval(&self) -> Interval {
         wilson(self.count, self.n)
     }

@@ -30,7 +30,6 @@ pub enum Rank {
 
 impl Rank {
     /// Its name for people.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Self::Best => "best",
@@ -60,7 +59,6 @@ pub struct RemadeRun {
 
 /// The runs to show: of each of the first arms at most three, none of them twice. `arms` gives the order of the arms;
 /// others follow in the order of their rows.
-#[must_use]
 pub fn picks(arms: &[String], rows: &[RunRow]) -> Vec<Pick> {
     let names = arm_names(arms, rows);
     let shown = names.iter().take(MOST_ARMS);

@@ -19,7 +19,6 @@ pub enum Unit {
 
 impl Unit {
     /// The scale in which some values are shown together: their largest decides.
-    #[must_use]
     pub fn scale(self, values: impl IntoIterator<Item = f64>) -> Scale {
         let sizes = values.into_iter().map(f64::abs);
         let sizes = sizes.filter(|v| v.is_finite() && *v > 0.0);
@@ -52,7 +51,6 @@ pub struct Scale {
 
 impl Scale {
     /// A value without its unit.
-    #[must_use]
     pub fn number(&self, value: f64) -> String {
         let text = format!("{:.*}", self.decimals, self.factor * value);
         match text.strip_prefix('-') {
@@ -63,25 +61,21 @@ impl Scale {
     }
 
     /// A value with its unit.
-    #[must_use]
     pub fn show(&self, value: f64) -> String {
         format!("{} {}", self.number(value), self.name).trim_end().to_string()
     }
 
     /// An interval without its unit.
-    #[must_use]
     pub fn numbers(&self, i: Interval) -> String {
         format!("{} to {}", self.number(i.low), self.number(i.high))
     }
 
     /// An interval with its unit.
-    #[must_use]
     pub fn show_interval(&self, i: Interval) -> String {
         format!("{} to {}", self.number(i.low), self.show(i.high))
     }
 
     /// The head of a column: what it is, and its unit.
-    #[must_use]
     pub fn head(&self, what: &str) -> String {
         match self.name {
             "" => what.to_string(),

@@ -12,7 +12,6 @@ const FIRST: u64 = 20;
 
 /// The next number of runs, given the successes of `n` runs; `None` if the half width is small enough or `n_max` is
 /// reached. It depends on counts only, so every machine takes the same steps.
-#[must_use]
 pub fn next_n(successes: u64, n: u64, half_width: f64, n_max: u64) -> Option<u64> {
     if n >= n_max || (n > 0 && wilson(successes, n).half_width() <= half_width) {
         return None;

@@ -21,7 +21,6 @@ pub const RESAMPLES: usize = 4000;
 
 /// 95 % bootstrap interval of the `p` quantile of sorted values; `None` if there are none. `name` separates the random
 /// numbers of different quantities.
-#[must_use]
 pub fn quantile_interval(sorted: &[f64], p: f64, seed: u64, name: &str) -> Option<Interval> {
     let last = sorted.len().checked_sub(1)?;
     let mut rng = Stream::new(seed, name, "bootstrap");

@@ -17,7 +17,6 @@ pub struct Ecdf {
 
 impl Ecdf {
     /// From the finite values of a sample, out of `n` trials.
-    #[must_use]
     pub fn new(values: impl IntoIterator<Item = f64>, n: u64) -> Self {
         let sorted = finite_sorted(values);
         let n = n.max(sorted.len() as u64);
@@ -25,26 +24,22 @@ impl Ecdf {
     }
 
     /// Sorted values.
-    #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.sorted
     }
 
     /// Number of trials.
-    #[must_use]
     pub fn n(&self) -> u64 {
         self.n
     }
 
     /// Share of trials at or below `x`, with its interval; 0 if there are no trials.
-    #[must_use]
     pub fn share_at(&self, x: f64) -> (f64, Interval) {
         let k = self.sorted.partition_point(|v| *v <= x) as u64;
         (k as f64 / self.n.max(1) as f64, wilson(k, self.n))
     }
 
     /// Each distinct value with the share and interval there.
-    #[must_use]
     pub fn steps(&self) -> Vec<(f64, f64, Interval)> {
         let mut values = self.sorted.clone();
         values.dedup();

@@ -13,13 +13,11 @@ pub struct Interval {
 
 impl Interval {
     /// Whether a value lies in it, ends included.
-    #[must_use]
     pub fn contains(&self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
     /// Half of its length.
-    #[must_use]
     pub fn half_width(&self) -> f64 {
         (self.high - self.low) / 2.0
     }

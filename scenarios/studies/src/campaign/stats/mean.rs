@@ -13,14 +13,12 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use world::math;
 
 /// 95 % interval of the mean of a quantity of either sign; `None` for fewer than [`LEAST_VALUES`] values.
-#[must_use]
 pub fn mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
     Some(Interval { low: mean - half, high: mean + half })
 }
 
 /// 95 % interval of the mean of a quantity that cannot be negative; `None` for fewer than [`LEAST_VALUES`] values.
-#[must_use]
 pub fn positive_mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
     // If all of them are 0, there is no spread.

@@ -35,7 +35,6 @@ pub enum Separation {
 
 impl Separation {
     /// The verdict in words.
-    #[must_use]
     pub fn label(self) -> &'static str {
         match self {
             Separation::Better => "better",
@@ -80,7 +79,6 @@ impl Difference {
 }
 
 /// Difference of two shares from pairs of (first, second); `None` if there are no pairs.
-#[must_use]
 pub fn paired_share(pairs: impl IntoIterator<Item = (bool, bool)>, better: Better) -> Option<Difference> {
     let (mut n, mut first, mut second) = (0_usize, 0.0, 0.0);
     for (a, b) in pairs {
@@ -100,7 +98,6 @@ pub fn paired_share(pairs: impl IntoIterator<Item = (bool, bool)>, better: Bette
 
 /// Median of the differences within pairs of (first, second). Pairs with a value that is not finite are left out;
 /// `None` if there are no pairs.
-#[must_use]
 pub fn paired_median(
     pairs: impl IntoIterator<Item = (f64, f64)>,
     better: Better,
@@ -115,7 +112,6 @@ pub fn paired_median(
 
 /// Mean of the differences within pairs of (first, second). Pairs with a value that is not finite are left out. If
 /// there are fewer pairs than an interval needs, the interval is infinite.
-#[must_use]
 pub fn paired_mean(pairs: impl IntoIterator<Item = (f64, f64)>, better: Better) -> Option<Difference> {
     let values = finite_sorted(pairs.into_iter().map(|(a, b)| a - b));
     if values.is_empty() {

@@ -9,7 +9,6 @@
 use super::Interval;
 
 /// The finite values, sorted.
-#[must_use]
 pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -17,7 +16,6 @@ pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
 }
 
 /// The `p` quantile of sorted values; `None` if there are none.
-#[must_use]
 pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let (k, share) = place(last, p);
@@ -25,7 +23,6 @@ pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
 }
 
 /// Where 95 % of sorted values lie, from their 2.5 % quantile to that of 97.5 %; `None` if there are none.
-#[must_use]
 pub fn middle(sorted: &[f64]) -> Option<Interval> {
     Some(Interval { low: quantile(sorted, 0.025)?, high: quantile(sorted, 0.975)? })
 }

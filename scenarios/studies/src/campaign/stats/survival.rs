@@ -40,7 +40,6 @@ pub struct Survival {
 impl Survival {
     /// From pairs (time, event): `true` for the event at that time, `false` for a trial that ended then without it.
     /// Times that are not finite are left out. An event counts before the end of a trial at the same time.
-    #[must_use]
     pub fn new(trials: impl IntoIterator<Item = (f64, bool)>) -> Self {
         let mut trials: Vec<(f64, bool)> = (trials.into_iter()).filter(|(t, _)| t.is_finite()).collect();
         trials.sort_by(|a, b| a.0.total_cmp(&b.0));

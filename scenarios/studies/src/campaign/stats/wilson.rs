@@ -12,7 +12,6 @@ use super::Interval;
 pub const Z95: f64 = 1.959_963_984_540_054;
 
 /// 95 % score interval of the true share, given `successes` of `n`.
-#[must_use]
 pub fn wilson(successes: u64, n: u64) -> Interval {
     assert!(successes <= n, "{successes} successes of {n} trials: count again");
     if n == 0 {
