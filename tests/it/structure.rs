@@ -155,7 +155,7 @@ fn each_engine_stays_in_its_room() {
         ("pyo3", &["scenarios/python/src"]),
         ("zenoh", &["scenarios/output/src/live", "tests/it"]),
         // What is chosen by name is read from RON alone.
-        ("ron", &["world/src/registry/read.rs", "scenarios/simulation/src", "scenarios/studies/src", "tests/it"]),
+        ("ron", &["world/src/registry", "scenarios/simulation/src", "scenarios/studies/src", "tests/it"]),
     ];
     for folder in SOURCES {
         for (file, text) in sources(folder) {
