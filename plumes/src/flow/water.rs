@@ -3,8 +3,8 @@
 //! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic condition
 //! w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
 //!
-//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers set it),
-//! `blockage` (absent: the currents pass through obstacles).
+//! *Parameters*: [`WaterSpec`](super::WaterSpec): `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers
+//! set it), `blockage` (absent: the currents pass through obstacles).
 //!
 //! *Deviations*: the horizontal current is (uniform + tide + meander + layer) times the bed's log law, plus that of an
 //! open channel, which has its own (files `channel`, `eddies`). The vertical current follows the surfaces that lie

@@ -33,7 +33,7 @@ pub struct BodySpec {
     pub without_momentum: bool,
 }
 
-/// Identifies a body of one [`Physics`].
+/// Identifies a body of one [`Physics`](super::Physics).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BodyId(pub(super) usize);
 

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use rapier3d::prelude as r;
 
-/// Identifies a gantry of one [`Physics`].
+/// Identifies a gantry of one [`Physics`](super::Physics).
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GantryId(pub(super) usize);
 
@@ -87,7 +87,7 @@ impl Gantry {
     }
 }
 
-/// Something solid of one [`Physics`].
+/// Something solid of one [`Physics`](super::Physics).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solid {
     /// A fixed thing, by the order in which the fixed things were added.
