@@ -15,6 +15,7 @@ use super::store::arrays::Store;
 use super::store::bands::Bands;
 use super::store::folded::folded;
 use super::walls::side_walls::{carry, fold, keep_between};
+use super::water::fetch::BLOCK;
 use super::water::lookup::Lookup;
 use crate::flow::grid::LogLaw;
 use std::ops::Range;
@@ -277,8 +278,19 @@ impl Plume {
         let all = self.carrier.is_some() || flow.walls().is_some();
         self.sampled.renew(&mut self.grid, t0_s + ahead_s, all);
         for store in &self.stores {
-            for (x, y) in store.x.iter().zip(&store.y) {
-                self.sampled.note(self.cells.column(*x, *y).at);
+            let mut columns = [0; BLOCK];
+            for (x, y) in store.x.chunks(BLOCK).zip(store.y.chunks(BLOCK)) {
+                self.path.run(
+                    #[inline(always)]
+                    || {
+                        for ((column, x), y) in columns.iter_mut().zip(x).zip(y) {
+                            *column = self.cells.column(*x, *y).at;
+                        }
+                    },
+                );
+                for column in &columns[..x.len()] {
+                    self.sampled.note(*column);
+                }
             }
         }
         for source in &self.sources {

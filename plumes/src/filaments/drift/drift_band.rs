@@ -144,8 +144,13 @@ impl DriftContext<'_> {
             b.bed[..n].copy_from_slice(&c.bed[from..from + n]);
             b.number[..n].copy_from_slice(&c.number[from..from + n]);
             let born_s = &c.born_s[from..from + n];
-            for (dt, born) in b.dt.iter_mut().zip(born_s) {
-                *dt = (to_s - born.max(from_s)) as f32;
+            b.dt[..n].fill((to_s - from_s) as f32);
+            // The newest filaments come last.
+            for (dt, born) in b.dt[..n].iter_mut().zip(born_s).rev() {
+                if *born <= from_s {
+                    break;
+                }
+                *dt = (to_s - born) as f32;
             }
             if c.size.shares() {
                 for ((kicked, dt), born) in b.kicked.iter_mut().zip(&b.dt).zip(born_s) {
@@ -157,7 +162,7 @@ impl DriftContext<'_> {
                 carrier.carry(self.path, self.cells, self.grid, b, pollock_scratch);
             }
             // Copied only where there are solids.
-            let carried = self.room.has_solids().then_some([b.x, b.y, b.z]);
+            let carried = self.room.has_solids().then(|| [b.x, b.y, b.z]);
             kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&pollock_scratch.gone) {
@@ -169,9 +174,13 @@ impl DriftContext<'_> {
             }
             self.note(b, &mut c.swept.columns);
             // Those between two that leave are put down together.
+            let all_stay = b.outside[..n].iter().fold(0, |any, out| any | out) == 0;
             let mut l = 0;
             while l < n {
-                let stay = b.outside[l..n].iter().take_while(|o| **o == 0).count();
+                let stay = match all_stay {
+                    true => n,
+                    false => b.outside[l..n].iter().take_while(|o| **o == 0).count(),
+                };
                 c.store(b, l, from + l, to, stay);
                 (l, to) = (l + stay, to + stay);
                 if l < n {
@@ -186,8 +195,21 @@ impl DriftContext<'_> {
     /// Notes the columns of the cells in which filaments of a block have arrived. The cells in which they started were
     /// noted before.
     fn note(&self, b: &Block, columns: &mut Vec<u32>) {
-        let moved = (0..b.used).filter(|l| b.moved[*l] != 0);
-        columns.extend(moved.map(|l| self.cells.column(b.x[l], b.y[l]).at));
+        for (n, some) in b.moved.as_chunks::<32>().0.iter().enumerate() {
+            // Few have moved to another column; a word tells which without a look at each.
+            let mut bits = 0;
+            for (l, moved) in some.iter().enumerate() {
+                bits |= moved.wrapping_neg() & (1 << l);
+            }
+            while bits != 0 {
+                let l = 32 * n + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                if l >= b.used {
+                    return;
+                }
+                columns.push(self.cells.column(b.x[l], b.y[l]).at);
+            }
+        }
     }
 
     /// Reflects filaments of a block at walls through which their kicks led. Returns their number.

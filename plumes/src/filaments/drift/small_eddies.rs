@@ -11,6 +11,9 @@ use crate::filaments::store::bands::Span;
 use crate::filaments::store::eddy_coordinates::EddyCoordinates;
 use crate::flow::eddies::{Life, Small, Weights};
 use crate::simd::dispatch::InstructionSet;
+#[cfg(target_arch = "x86_64")]
+use crate::simd::f32x4::AvxPair;
+use crate::simd::f32x4::{F32x4, Pair};
 use nalgebra::Vector3;
 use std::ops::Range;
 use world::fields::Flow;
@@ -29,17 +32,34 @@ pub(crate) fn carry(
     let Some(mut labels) = store.labels.take() else {
         return;
     };
-    path.run(
+    path.run_known(
         #[inline(always)]
-        || moved(&mut labels, small, store, range, span),
+        |path| match path {
+            // SAFETY: a pair that every machine of the target has.
+            InstructionSet::Portable => unsafe { moved::<[F32x4; 2]>(&mut labels, small, store, range, span) },
+            // SAFETY: the pair needs AVX, which is part of both versions.
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unsafe {
+                moved::<AvxPair>(&mut labels, small, store, range, span);
+            },
+        },
     );
     labels.pass_source(small, flow, source, span.to_s);
     store.labels = Some(labels);
 }
 
 /// Moves filaments and their rows.
+///
+/// # Safety
+/// The machine must have the instructions of `P`.
 #[inline(always)]
-fn moved(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: Range<usize>, span: Span) {
+unsafe fn moved<P: Pair>(
+    labels: &mut EddyCoordinates,
+    small: &Small,
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
     let middle = (middle_s, &*lives);
@@ -57,14 +77,16 @@ fn moved(labels: &mut EddyCoordinates, small: &Small, store: &mut Store, range: 
         let place = [store.x[n], store.y[n], store.z[n]];
         let row = labels.present_row(n);
         // Half the step ahead first, so that an even cloud stays even to second order.
-        let v = small.velocity(&lives, place[2], &weights, row);
+        // SAFETY: here and below, as the caller promises.
+        let v = unsafe { small.velocity::<P>(&lives, place[2], &weights, row) };
         let half = v.map(|v| 0.5 * dt * v);
         let mut ahead = [[0.0; 3]; MOST];
         for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
             *ahead = std::array::from_fn(|d| at[d] + half[d]);
         }
         let ahead = &ahead[..row.len()];
-        let v = small.velocity(&lives, place[2] + half[2], &weights, ahead);
+        // SAFETY: as above.
+        let v = unsafe { small.velocity::<P>(&lives, place[2] + half[2], &weights, ahead) };
         let way = v.map(|v| dt * v);
         for at in row {
             for d in 0..3 {

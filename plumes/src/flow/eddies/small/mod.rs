@@ -25,6 +25,7 @@ pub(crate) mod tests;
 
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
+use crate::simd::f32x4::Pair;
 use nalgebra::Vector2;
 pub(crate) use octave::{Life, Octave};
 use schemars::JsonSchema;
@@ -145,8 +146,17 @@ impl Small {
     }
 
     /// Velocity (east, north, up) at a height where the coordinates in the patterns are `labels`, m/s.
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(crate) fn velocity(&self, lives: &[Life], z: f32, weights: &Weights, labels: &[[f32; 3]]) -> [f32; 3] {
+    pub(crate) unsafe fn velocity<P: Pair>(
+        &self,
+        lives: &[Life],
+        z: f32,
+        weights: &Weights,
+        labels: &[[f32; 3]],
+    ) -> [f32; 3] {
         let table = table::table();
         let mut sum = [0.0_f32; 3];
         let level = octave::level(z, self.depth_m);
@@ -156,7 +166,8 @@ impl Small {
                 continue;
             }
             for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
-                let v = octave.velocity(table, life, &level, *label);
+                // SAFETY: as the caller promises.
+                let v = unsafe { octave.velocity::<P>(table, life, &level, *label) };
                 let drawn_out = shear * life.age_s * v[2];
                 let by = [v[0] + drawn_out * self.along.x, v[1] + drawn_out * self.along.y, v[2]];
                 for d in 0..3 {

@@ -5,6 +5,7 @@
 use super::super::overlapping;
 use super::table::{LONGEST, Table};
 use crate::flow::channel::Channel;
+use crate::simd::f32x4::Pair;
 use std::f64::consts::{PI, SQRT_2, TAU};
 use world::math;
 use world::seeds::Stream;
@@ -109,9 +110,19 @@ impl Octave {
 
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
     /// potential.
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(super) fn velocity(&self, table: &Table, life: &Life, level: &Level, label: [f32; 3]) -> [f32; 3] {
-        let (v, a) = table.interpolate(self.in_table(life, label));
+    pub(super) unsafe fn velocity<P: Pair>(
+        &self,
+        table: &Table,
+        life: &Life,
+        level: &Level,
+        label: [f32; 3],
+    ) -> [f32; 3] {
+        // SAFETY: as the caller promises.
+        let (v, a) = unsafe { table.interpolate::<P>(self.in_table(life, label)) };
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

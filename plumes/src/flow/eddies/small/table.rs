@@ -9,7 +9,7 @@
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::{Four, Fourier};
-use crate::simd::f32x4::{F32x4, fetch_soon};
+use crate::simd::f32x4::{F32x4, Pair, fetch_soon};
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 use world::math;
@@ -86,18 +86,21 @@ impl Table {
     }
 
     /// Velocity and potential at a place in sides of the box.
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
     #[inline(always)]
-    pub(super) fn interpolate(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+    pub(super) unsafe fn interpolate<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         let Cell { near, far, part } = Cell::locate(q);
-        let [mut velocity, mut potential] = [F32x4::new(&[0.0; 4]); 2];
+        // SAFETY: here and below, as the caller promises.
+        let mut both = unsafe { P::new(&[0.0; 4], &[0.0; 4]) };
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
             for (j, wj) in [(near[1], 1.0 - part[1]), (far[1], part[1])] {
                 let line = (i * NODES + j) * NODES;
                 for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
                     let [v, a] = &self.nodes[line + k].0;
-                    let weight = wi * wj * wk;
-                    velocity = velocity.add(F32x4::new(v).times(weight));
-                    potential = potential.add(F32x4::new(a).times(weight));
+                    // SAFETY: as above.
+                    both = both.add(unsafe { P::new(v, a) }.times(wi * wj * wk));
                 }
             }
         }
@@ -105,6 +108,7 @@ impl Table {
             let [x, y, z, _] = q.array();
             [x, y, z]
         };
+        let [velocity, potential] = both.apart();
         (three(velocity), three(potential))
     }
 
@@ -172,7 +176,8 @@ mod tests {
     use super::*;
 
     fn at(table: &Table, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
-        table.interpolate(q)
+        // SAFETY: a pair that every machine of the target has.
+        unsafe { table.interpolate::<[F32x4; 2]>(q) }
     }
 
     /// At the nodes' centres, where the interpolation is smoothest: the curl of the potential is the velocity, and the

@@ -7,6 +7,7 @@ use crate::flow::eddies::EddiesSpec;
 use crate::flow::eddies::tests_eddies::{BED, channel_spec, flume};
 use crate::flow::open_channel::OpenChannelSpec;
 use crate::flow::{Water, WaterSpec};
+use crate::simd::f32x4::F32x4;
 use world::math;
 use world::ranges::Positive;
 use world::seeds::Stream;
@@ -36,7 +37,8 @@ fn velocity(small: &Small, t_s: f64, shear: f32, p: [f32; 3]) -> [f32; 3] {
     let label = |life: &super::Life| [p[0] - shear * life.age_s * (p[2] + 0.1), p[1], p[2]];
     let labels: Vec<[f32; 3]> = lives.iter().map(label).collect();
     let weights = small.weights(0.0, false);
-    small.velocity(&lives, p[2], &weights, &labels)
+    // SAFETY: a pair that every machine of the target has.
+    unsafe { small.velocity::<[F32x4; 2]>(&lives, p[2], &weights, &labels) }
 }
 
 #[test]
@@ -131,7 +133,8 @@ fn kernels_feel_only_what_is_larger() {
             let lives = small.lives(2.0);
             let labels = vec![[x, 0.3 * x, -0.1]; lives.len()];
             let weights = small.weights(size, false);
-            let v = small.velocity(&lives, -0.1, &weights, &labels);
+            // SAFETY: a pair that every machine of the target has.
+            let v = unsafe { small.velocity::<[F32x4; 2]>(&lives, -0.1, &weights, &labels) };
             sum += v.iter().map(|v| v * v).sum::<f32>();
         }
         sum.sqrt()
