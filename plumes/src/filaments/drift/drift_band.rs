@@ -162,7 +162,10 @@ impl DriftContext<'_> {
                 carrier.carry(self.path, self.cells, self.grid, b, pollock_scratch);
             }
             // Copied only where there are solids.
-            let carried = self.room.has_solids().then(|| [b.x, b.y, b.z]);
+            let carried = match self.room.has_solids() {
+                true => Some([b.x, b.y, b.z]),
+                false => None,
+            };
             kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&pollock_scratch.gone) {
