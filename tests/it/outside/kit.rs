@@ -132,14 +132,12 @@ pub(super) fn patience_ms() -> u128 {
     PATIENCE.as_millis()
 }
 
-/// A client that waits for the run. The run does not give it up for being stopped or slow: on a busy machine either may
-/// last.
+/// A client that waits for the run.
 pub(super) fn client(endpoint: &str) -> Session {
     let timeout_ms = patience_ms();
     let config = format!(
         r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ timeout_ms: {timeout_ms},
-             endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }},
-             transport: {{ link: {{ tx: {{ lease: {timeout_ms} }} }} }} }}"#
+             endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
     );
     opened(Config::from_json5(&config).expect("legal"))
 }

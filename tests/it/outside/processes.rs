@@ -85,6 +85,7 @@ fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
 
 #[test]
 fn a_stopped_controller_is_late_until_it_goes_on() {
+    // The pace leaves time to come back where zenoh has given up a stopped process.
     let asks = "External(period_s: 1, deadline_s: 2, on_late: Hold)";
     let run = Run::start(&channel(asks, ENDLESS_S), &["--allow-control", "--speed", "4"]);
     let session = client(&run.endpoint);
