@@ -7,7 +7,7 @@
 
 The run asks once a period and waits; docs/doors.md has the fields of a question and of an answer.
 """
-import json, math, sys
+import json, math, sys, time
 import zenoh
 
 # Where runs listen: the first of these ports that is free when they start.
@@ -47,11 +47,15 @@ config = zenoh.Config.from_json5(f"""{{ mode: "peer", listen: {{ endpoints: [] }
 with zenoh.open(config) as session:
     asked = session.declare_queryable("rheotaxis/*/ask/*", answer)
     runs = session.liveliness().declare_subscriber("rheotaxis/*/@live/sim", history=True)
-    there = set()
-    for run in runs:
-        if run.kind == zenoh.SampleKind.PUT:
+    there, left_s = set(), math.inf  # how long it waits for another run, or for one that was only out of reach
+    while left_s > 0:
+        run = runs.try_recv()
+        if run is None:
+            time.sleep(0.1)
+            left_s -= 0.1
+        elif run.kind == zenoh.SampleKind.PUT:
             there.add(str(run.key_expr))
+            left_s = math.inf
         else:
             there.discard(str(run.key_expr))
-            if not there:
-                break
+            left_s = math.inf if there else 2.0
