@@ -170,12 +170,12 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
         let mut p = plume(100.0, &Terrain::Level { depth_m: 40.0 });
         p.pace(0.0, f64::INFINITY, longest_s);
         let mut across = Vec::new();
-        for k in 0..20 {
+        for k in 0..40 {
             p.advance(&water, 500.0 + 13.7 * f64::from(k));
             let slice = p.iter().filter(|f| (f[0] + 30.0).abs() < 5.0);
             across.extend(slice.map(|f| f[1]));
         }
-        // 60 m down-stream, 300 s old: variance 2·0.02·300 = 12 m². Each of some 1000 independent filaments counts
+        // 60 m down-stream, 300 s old: variance 2·0.02·300 = 12 m². Each of some 2000 independent filaments counts
         // about three times.
         let n = across.len() as f64 / 3.0;
         let (_, v) = moments(across.into_iter());

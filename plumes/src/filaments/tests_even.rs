@@ -256,7 +256,7 @@ fn in_still_water() {
 }
 
 /// A meander, a log law, a sloping bed (1 in 9) and a block that the stream passes over. 40 filaments per m³, pooled
-/// over the open ones of 2 x 2 columns and 2 levels, six times 8 s apart: 1 % and less.
+/// over the open ones of 2 x 2 columns and 2 levels, twelve times 8 s apart: 1 % and less.
 #[test]
 fn in_unsteady_water_over_a_slope() {
     let area = area(36.0, 36.0, 70.0);
@@ -273,5 +273,5 @@ fn in_unsteady_water_over_a_slope() {
     spec.bed = Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) });
     mixing(&mut spec, 0.01, 1e-3);
     let scene = Scene::new(&spec, &area, &bed, &solids, 40.0, 2);
-    stays_even(scene, 1.0, Shots { first: 40, then: 8, count: 6 }, blocks_of(2, 2), 90);
+    stays_even(scene, 1.0, Shots { first: 40, then: 8, count: 12 }, blocks_of(2, 2), 90);
 }

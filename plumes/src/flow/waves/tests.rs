@@ -166,7 +166,7 @@ fn mixing_is_that_of_the_wave_height() {
 #[test]
 fn the_surface_has_the_variance_of_its_significant_height() {
     let spec = WavesSpec { trains: vec![], ..wind_sea() };
-    let n = 1000;
+    let n = 3000;
     let mut sum = 0.0;
     for seed in 0..n {
         let waves = spec.build("w", DEPTH, seed).unwrap();
