@@ -87,9 +87,11 @@ fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
 
 #[test]
 fn a_stopped_controller_is_late_until_it_goes_on() {
-    // zenoh gives up a process that is stopped for many seconds, which then connects anew.
+    // On a slow machine it is stopped for long: zenoh then gives it up, and it connects anew. Meanwhile the vehicle goes
+    // straight on, and must not leave the area.
     let asks = "External(period_s: 1, deadline_s: 2, on_late: Hold)";
-    let run = Run::start(&channel(asks, ENDLESS_S), &["--allow-control", "--speed", "4"]);
+    let wide = channel(asks, ENDLESS_S).replace("length_m: 400", "length_m: 8000");
+    let run = Run::start(&wide, &["--allow-control", "--speed", "4"]);
     let session = client(&run.endpoint);
     let mut process = Process::start(&run.endpoint);
     process.wait_for(HELD);
