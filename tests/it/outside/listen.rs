@@ -1,7 +1,7 @@
 //! `rheotaxis listen` beside real runs: it comes first or late, needs a password, ends with the run, at a count, at Ctrl-C
 //! and when nobody reads.
 
-use super::kit::{ENDLESS_S, Run, channel};
+use super::kit::{Run, channel, endless};
 use crate::common::{command, rheotaxis, root};
 use crate::waits::{INT, Process, until};
 use serde_json::Value;
@@ -68,7 +68,7 @@ fn who_listens_before_a_run_sees_its_state_and_ends_with_it() {
 #[test]
 fn a_listener_ends_at_a_count_at_ctrl_c_and_when_nobody_reads() {
     // Slow enough that the source is found long after a test has ended it.
-    let run = Run::start(&channel(AMP, ENDLESS_S), &["--speed", "0.5"]);
+    let run = Run::start(&endless(AMP), &["--speed", "0.5"]);
     let at = |args: &[&str]| listen(&[args, &["--connect", &run.endpoint]].concat());
     let out = at(&["auv/*/truth", "--count", "3"]).output();
     let (lines, said) = lines(&out);
@@ -97,7 +97,7 @@ fn a_listener_ends_at_a_count_at_ctrl_c_and_when_nobody_reads() {
 fn a_listener_with_the_password_is_let_in_and_one_without_waits() {
     let config = root().join("docs/zenoh/users.json5");
     let args = ["--speed", "10", "--zenoh-config", config.to_str().unwrap()];
-    let text = channel(AMP, ENDLESS_S);
+    let text = endless(AMP);
     let run = Run::at("tcp/127.0.0.1", &text, &args, |dir| {
         fs::write(dir.join("users.txt"), "watcher:to look\n").expect("the folder is ours");
     });

@@ -1,6 +1,6 @@
 //! The control plane of a run: pause, step, speed, stop; and its refusal.
 
-use super::kit::{ENDLESS_S, Run, channel, client};
+use super::kit::{Run, client, endless};
 use crate::waits::{PATIENCE, until};
 use serde_json::{Value, json};
 use zenoh::{Session, Wait};
@@ -37,7 +37,7 @@ fn held(session: &Session) -> f64 {
 
 #[test]
 fn a_run_pauses_steps_and_stops_when_told() {
-    let run = Run::start(&channel(AMP, ENDLESS_S), &["--allow-control", "--speed", "5"]);
+    let run = Run::start(&endless(AMP), &["--allow-control", "--speed", "5"]);
     let session = client(&run.endpoint);
     command(&session, "pause").unwrap();
     let t_s = held(&session);
@@ -77,7 +77,7 @@ fn a_run_pauses_steps_and_stops_when_told() {
 
 #[test]
 fn a_run_that_does_not_allow_it_only_tells_how_it_stands() {
-    let run = Run::start(&channel(AMP, ENDLESS_S), &["--speed", "0.5"]);
+    let run = Run::start(&endless(AMP), &["--speed", "0.5"]);
     let session = client(&run.endpoint);
     let status = || command(&session, "status").unwrap();
     assert_eq!(status()["controllable"], false);

@@ -1,6 +1,6 @@
 //! Controllers that are not there, die, stall, talk nonsense or flood: the run goes on as its scenario says.
 
-use super::kit::{ENDLESS_S, KEYS, Run, channel, client, controller, external};
+use super::kit::{KEYS, Run, channel, client, controller, endless, external};
 use super::plane::command;
 use crate::common;
 use crate::waits::until;
@@ -87,11 +87,9 @@ fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
 
 #[test]
 fn a_stopped_controller_is_late_until_it_goes_on() {
-    // On a slow machine it is stopped for long: zenoh then gives it up, and it connects anew. Meanwhile the vehicle goes
-    // straight on, and must not leave the area.
+    // On a slow machine it is stopped for long: zenoh then gives it up, and it connects anew.
     let asks = "External(period_s: 1, deadline_s: 2, on_late: Hold)";
-    let wide = channel(asks, ENDLESS_S).replace("length_m: 400", "length_m: 8000");
-    let run = Run::start(&wide, &["--allow-control", "--speed", "4"]);
+    let run = Run::start(&endless(asks), &["--allow-control", "--speed", "4"]);
     let session = client(&run.endpoint);
     let mut process = Process::start(&run.endpoint);
     process.wait_for(HELD);

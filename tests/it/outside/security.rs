@@ -1,7 +1,7 @@
 //! Who may do what on the wire: the configurations of `docs/zenoh`, each with a real run and real sessions.
 
 use super::certificates::Authority;
-use super::kit::{ENDLESS_S, Run, channel, client, controller, external, opened, patience_ms};
+use super::kit::{Run, channel, client, controller, endless, external, opened, patience_ms};
 use super::plane::command;
 use super::rogue::{Rogue, Watcher, samples};
 use crate::common::root;
@@ -19,8 +19,8 @@ const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 const LOOPBACK: &str = "tcp/127.0.0.1";
 
 /// A run that asks and, if nobody answers, goes on until a test ends it.
-fn asks(limit_s: f64) -> String {
-    channel(&external("Hold"), limit_s)
+fn asks() -> String {
+    endless(&external("Hold"))
 }
 
 fn example(name: &str) -> PathBuf {
@@ -70,7 +70,7 @@ fn counted(session: &Session) -> (Queryable<()>, Arc<AtomicU64>) {
 #[test]
 fn watchers_see_a_run_that_nobody_can_touch() {
     let nobody = ["--allow-control", "--control-wait", "0", "--speed", "3"];
-    let run = secured("watchers.json5", LOOPBACK, &asks(ENDLESS_S), &nobody, |_| {});
+    let run = secured("watchers.json5", LOOPBACK, &asks(), &nobody, |_| {});
     let watcher = Watcher::new(client(&run.endpoint));
     let rogues = ["client", "peer", "router"].map(|mode| Rogue::at(&run.endpoint, mode));
     let [replies, forged] = watcher.asks();
@@ -91,7 +91,7 @@ fn watchers_see_a_run_that_nobody_can_touch() {
 #[test]
 fn without_a_configuration_a_rogue_is_heard_but_changes_nothing_by_publishing() {
     // Slow enough that the source is found long after a test has ended it.
-    let run = Run::start(&channel(AMP, ENDLESS_S), &["--speed", "0.5"]);
+    let run = Run::start(&endless(AMP), &["--speed", "0.5"]);
     let watcher = Watcher::new(client(&run.endpoint));
     let rogue = Rogue::at(&run.endpoint, "client");
     let [replies, forged] = watcher.asks();
@@ -104,7 +104,7 @@ fn without_a_configuration_a_rogue_is_heard_but_changes_nothing_by_publishing() 
     end.run_again();
     rogue.leave();
 
-    let run = Run::controlled(&asks(10.0));
+    let run = Run::controlled(&channel(&external("Hold"), 10.0));
     let session = client(&run.endpoint);
     let (_answers, asked) = counted(&session);
     let end = run.end();
@@ -155,7 +155,7 @@ fn pilots_steer_and_watchers_watch(run: Run, pilot: &Session, watcher: Session) 
 fn users_need_their_password_and_only_the_pilot_steers() {
     let passwords = "pilot:to steer\nwatcher:to look\nstranger:let in\n";
     let steered = ["--allow-control", "--speed", "10"];
-    let run = secured("users.json5", LOOPBACK, &asks(ENDLESS_S), &steered, |dir| {
+    let run = secured("users.json5", LOOPBACK, &asks(), &steered, |dir| {
         fs::write(dir.join("users.txt"), passwords).expect("the folder is ours");
     });
     let user = |name: &str, password: &str, patient: bool| {
@@ -211,7 +211,7 @@ fn over_tls_only_who_trusts_the_authority_connects() {
     let dir = tempfile::tempdir().unwrap();
     certificates(dir.path(), &[]);
     let steered = ["--allow-control", "--control-wait", "0", "--speed", "10"];
-    let run = secured("tls.json5", "tls/127.0.0.1", &asks(ENDLESS_S), &steered, |to| {
+    let run = secured("tls.json5", "tls/127.0.0.1", &asks(), &steered, |to| {
         for file in ["run.pem", "run.key"] {
             fs::copy(dir.path().join(file), to.join(file)).unwrap();
         }
@@ -237,7 +237,7 @@ fn certificates_of_clients_say_who_steers() {
     Authority::new("authority").sign(other.path(), "pilot");
     fs::copy(dir.path().join("authority.pem"), other.path().join("authority.pem")).unwrap();
     let steered = ["--allow-control", "--speed", "10"];
-    let run = secured("mutual_tls.json5", "tls/127.0.0.1", &asks(ENDLESS_S), &steered, |to| {
+    let run = secured("mutual_tls.json5", "tls/127.0.0.1", &asks(), &steered, |to| {
         for file in ["run.pem", "run.key", "authority.pem"] {
             fs::copy(dir.path().join(file), to.join(file)).unwrap();
         }

@@ -19,6 +19,8 @@ use check::check;
 use outline::Outline;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
+use std::any::TypeId;
+use std::sync::{Arc, Mutex, PoisonError};
 use tree::{PlacedMistake, Tree};
 use world::registry::{ReadError, Registry};
 
@@ -30,7 +32,7 @@ const MOST: usize = 200;
 ///
 /// # Errors
 /// All mistakes of form or, if there are none, all of meaning, in the order of the text.
-pub fn read<T: DeserializeOwned + JsonSchema>(
+pub fn read<T: DeserializeOwned + JsonSchema + 'static>(
     registry: &Registry,
     name: &str,
     text: &str,
@@ -48,7 +50,7 @@ pub fn read<T: DeserializeOwned + JsonSchema>(
         }
         Err(error) => error,
     };
-    let mut found = mistakes(text, || Reference::from_schema(&schema::<T>(registry, &[])));
+    let mut found = mistakes(text, || legal::<T>(registry));
     if found.is_empty() {
         found.push(unread(text, error));
     }
@@ -56,7 +58,22 @@ pub fn read<T: DeserializeOwned + JsonSchema>(
     Err(ScenarioError::from_faults(name, faults.collect()))
 }
 
-fn mistakes(text: &str, legal: impl FnOnce() -> Reference) -> Vec<PlacedMistake> {
+/// What may stand in a file that is read as a `T`. Making it takes as long as checking some hundred texts, and whoever
+/// mends a file, or reads many, asks for the same one again.
+fn legal<T: JsonSchema + 'static>(registry: &Registry) -> Arc<Reference> {
+    static LAST: Mutex<Option<(TypeId, Registry, Arc<Reference>)>> = Mutex::new(None);
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*last {
+        Some((of, with, made)) if *of == TypeId::of::<T>() && with == registry => Arc::clone(made),
+        _ => {
+            let made = Arc::new(Reference::from_schema(&schema::<T>(registry, &[])));
+            *last = Some((TypeId::of::<T>(), registry.clone(), Arc::clone(&made)));
+            made
+        }
+    }
+}
+
+fn mistakes(text: &str, legal: impl FnOnce() -> Arc<Reference>) -> Vec<PlacedMistake> {
     let Some(mut tree) = Tree::parse(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, UnplacedFault::error("", problem))];
