@@ -39,17 +39,17 @@ impl VehicleFile {
     pub(in crate::vehicles) fn has_only_terms(&self) -> Result<(), String> {
         let h = &self.hydrodynamics;
         let blocks = [&h.added_mass, &h.linear_damping, &h.quadratic_damping, &h.forward_damping];
-        for (given, field) in [
-            (blocks.into_iter().any(Option::is_some), "hydrodynamics: blocks"),
-            (h.from_urdf, "hydrodynamics.from_urdf"),
-            (h.volume_m3.is_some(), "hydrodynamics.volume_m3"),
-            (h.centre_of_buoyancy_m.is_some(), "hydrodynamics.centre_of_buoyancy_m"),
-            (h.floats, "hydrodynamics.floats"),
-            (!self.drives.is_empty(), "drives"),
-            (self.autopilot.is_some(), "autopilot"),
-        ] {
-            ensure(!given, || format!("{field}: must be left out, because hydrodynamics.terms has its own"))?;
-        }
-        Ok(())
+        let given = blocks.into_iter().any(Option::is_some)
+            || h.from_urdf
+            || h.floats
+            || h.volume_m3.is_some()
+            || h.centre_of_buoyancy_m.is_some()
+            || !self.drives.is_empty()
+            || self.autopilot.is_some();
+        ensure(!given, || {
+            "blocks, from_urdf, floats, volume and centre of buoyancy, drives and autopilot: must be left out, because \
+             hydrodynamics.terms has its own"
+                .into()
+        })
     }
 }

@@ -75,12 +75,8 @@ pub struct Coefficients {
     pub cross_flow: f64,
     /// Stations of the cross-flow integral: x (m), length dx (m), the same for all.
     pub stations_m: (Vec<f64>, f64),
-    /// Area of a pair of fins, m².
-    pub fin_area_m2: f64,
     /// Place of the fins along the hull, x, m.
     pub fin_x_m: f64,
-    /// Lift slopes of rudder and stern plane, 1/rad.
-    pub fin_slope: [f64; 2],
     /// Greatest fin deflection, rad.
     pub fin_limit_rad: f64,
     /// Thrust coefficient at rest and its slope by advance ratio.
@@ -95,7 +91,7 @@ impl Coefficients {
     /// From a vehicle's file: the numbers of its hull, the density of the water for which it is ballasted, and gravity.
     ///
     /// # Errors
-    /// If it is no longer than thick.
+    /// If it is no longer than thick, or if its motion is too quick for the steps of a mission.
     pub fn new(spec: &TorpedoHullSpec, density_kg_m3: f64, gravity_m_s2: f64) -> Result<Self, String> {
         use std::f64::consts::PI;
         let (length_m, diameter_m, rho) = (spec.length_m.get(), spec.diameter_m.get(), density_kg_m3);
@@ -132,6 +128,15 @@ impl Coefficients {
             iy + added[5],
         ];
         let swing = |inertia: f64| (weight * z_g_m / inertia).sqrt();
+        let times = [spec.surge_s, spec.sway_s, spec.fins.lag_s, spec.propeller.lag_s].map(Positive::get);
+        let swings = [m[3], m[4]].map(|inertia| 1.0 / swing(inertia));
+        let quickest_s = times.into_iter().chain(swings).fold(f64::INFINITY, f64::min);
+        ensure(quickest_s >= QUICKEST_S, || {
+            format!(
+                "hydrodynamics.terms: lags, time constants and swings must take {QUICKEST_S} s at least, for steps of 0.1 s \
+                 follow nothing quicker; one takes {quickest_s:.1e} s"
+            )
+        })?;
         let damping = [
             m[0] / spec.surge_s.get(),
             m[1] / spec.sway_s.get(),
@@ -168,9 +173,7 @@ impl Coefficients {
             induced: PI * spec.span_efficiency.get() * aspect,
             cross_flow: if spec.published { HOERNER_AT_HALF } else { spec.cross_flow.get() },
             stations_m: (stations, dx),
-            fin_area_m2: 2.0 * spec.fins.area_m2.get(),
             fin_x_m: -a,
-            fin_slope: [spec.fins.rudder_slope.get(), spec.fins.stern_slope.get()],
             fin_limit_rad: spec.fins.limit_deg.get().to_radians(),
             thrust: curve(spec.propeller.thrust),
             torque: curve(spec.propeller.torque),
@@ -207,6 +210,8 @@ impl Coefficients {
 /// Cross-flow drag coefficient interpolated in Hoerner's table for surface hulls at B/2T = 0.5, with the digits that the
 /// published derivatives contain.
 const HOERNER_AT_HALF: f64 = 1.197_728_834_355_83;
+/// Shortest time constant, s: Runge-Kutta's fourth order is stable in steps of 2.8 of them, and steps have up to 0.1 s.
+const QUICKEST_S: f64 = 0.04;
 /// Time constant of the published linear damping in yaw, s.
 const PUBLISHED_YAW_S: f64 = 1.0;
 

@@ -21,7 +21,7 @@ use crate::vehicles::urdf::Shell;
 use nalgebra::{Matrix3, Vector3};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
-use world::ranges::Finite;
+use world::ranges::{Finite, Positive};
 use world::units::{Heading, SEA_WATER_KG_M3};
 
 /// Time from rest to a steady speed, s: some ten times a hull's time constant.
@@ -34,6 +34,7 @@ const STEP_S: f64 = 0.02;
 pub(in crate::vehicles) struct TorpedoHull {
     c: Coefficients,
     equation: Equation,
+    propeller: DriveEffect,
     actuators: Actuators,
     /// State, velocity (ENU) and density of the water at the beginning of the last step.
     last: Option<(Truth, Vector3<f64>, f64)>,
@@ -58,8 +59,9 @@ impl TorpedoHull {
         }
         let (c, differs) = shell.ballast.put_into(&shell.body, &c).map_err(fault)?;
         told.extend(differs);
+        let propeller = propeller(&c).map_err(|e| opened.wrong(format!("hydrodynamics.terms.propeller: {e}")))?;
         let equation = Equation::new(c.body()).expect("its mass is near that of a spheroid in water");
-        Ok(Self { c, equation, actuators: Actuators::default(), last: None })
+        Ok(Self { c, equation, propeller, actuators: Actuators::default(), last: None })
     }
 
     fn sail(&mut self, truth: &Truth, water: &WaterSample, command: &ActuatorCommand, dt_s: f64) -> Truth {
@@ -69,18 +71,17 @@ impl TorpedoHull {
         self.last = Some((*truth, water.velocity, water.density_kg_m3));
         free
     }
+}
 
-    /// Thrust in still water by rpm, and the moment of the shaft for each N.
-    fn propeller(&self) -> DriveEffect {
-        let (c, p) = (&self.c, &self.c.spec.propeller);
-        let (d, most) = (p.diameter_m.get(), p.limit_rpm.get());
-        let newtons = p.thrust_share.get() * c.ballast_density_kg_m3 * d * d * d * d * c.thrust[0] / 3600.0;
-        let [newtons, none, least, most] = [newtons, 0.0, -most, most].map(Finite::new);
-        let curve = CurveSpec::Polynomial((newtons, none, least, most));
-        let torque_m = p.torque_share.get() * d * c.torque[0] / (p.thrust_share.get() * c.thrust[0]);
-        let arm = wrench((Vector3::x(), Vector3::x() * torque_m));
-        DriveEffect::Pushes(arm, table(&curve).expect("a rising curve"))
-    }
+/// Thrust of the propeller in still water by rpm, and the moment of its shaft for each N.
+fn propeller(c: &Coefficients) -> Result<DriveEffect, String> {
+    let p = &c.spec.propeller;
+    let (d, most) = (p.diameter_m.get(), p.limit_rpm.get());
+    let newtons = p.thrust_share.get() * c.ballast_density_kg_m3 * d * d * d * d * c.thrust[0] / 3600.0;
+    let rpm = |v: f64| Finite::new(v);
+    let curve = table(&CurveSpec::Polynomial((Finite::try_from(newtons)?, rpm(0.0), rpm(-most), rpm(most))))?;
+    let torque_m = p.torque_share.get() * d * c.torque[0] / (p.thrust_share.get() * c.thrust[0]);
+    Ok(DriveEffect::Pushes(wrench((Vector3::x(), Vector3::x() * torque_m)), curve))
 }
 
 impl Motion for TorpedoHull {
@@ -127,15 +128,15 @@ impl Motion for TorpedoHull {
     fn drives(&self) -> Vec<FittedDrive> {
         let c = &self.c;
         // Force of 1 rad at 1 m/s and 1 kg/m³: a positive rudder pushes the tail to port, a stern plane pushes it up.
-        let lifts = |k: usize, way: Vector3<f64>| {
-            let force = way * (0.5 * c.fin_area_m2 * c.fin_slope[k]);
+        let lifts = |slope: Positive, way: Vector3<f64>| {
+            let force = way * (c.spec.fins.area_m2.get() * slope.get());
             DriveEffect::Lifts(wrench((force, Vector3::new(c.fin_x_m, 0.0, 0.0).cross(&force))))
         };
         let (fin, rpm) = (c.fin_limit_rad, c.spec.propeller.limit_rpm.get());
         let fitted = [
-            (fin, Vector3::y(), lifts(0, -Vector3::y())),
-            (fin, Vector3::z(), lifts(1, -Vector3::z())),
-            (rpm, Vector3::x(), self.propeller()),
+            (fin, Vector3::y(), lifts(c.spec.fins.rudder_slope, -Vector3::y())),
+            (fin, Vector3::z(), lifts(c.spec.fins.stern_slope, -Vector3::z())),
+            (rpm, Vector3::x(), self.propeller.clone()),
         ];
         let drive = |(named, (most, way, does)): (NamedDrive, (f64, Vector3<f64>, DriveEffect))| FittedDrive {
             named,
@@ -224,8 +225,14 @@ mod tests {
         assert!((slow.top_speed_m_s(f64::MAX) - 1.674).abs() < 0.05);
         for (from, to, why) in [
             ("diameter_m: 0.19", "diameter_m: 1.6", "hydrodynamics.terms.diameter_m: must be less than the length"),
-            ("density_kg_m3: 1026,", "density_kg_m3: 1026, floats: true,", "hydrodynamics.floats: must be left out"),
-            ("urdf:", "autopilot: Torpedo(), urdf:", "autopilot: must be left out"),
+            (
+                "density_kg_m3: 1026,",
+                "density_kg_m3: 1026, floats: true,",
+                "must be left out, because hydrodynamics.terms has its own",
+            ),
+            ("urdf:", "autopilot: Torpedo(), urdf:", "must be left out, because hydrodynamics.terms has its own"),
+            ("lag_s: 0.1", "lag_s: 0.001", "must take 0.04 s at least, for steps of 0.1 s follow nothing quicker"),
+            ("diameter_m: 0.14", "diameter_m: 1e6", "hydrodynamics.terms.propeller: must be from -1e18 to 1e18"),
             ("length_m: 1.6", "length_m: 1.7", "link \"base_link\": <mass> is 31.029385 kg"),
             ("terms: Torpedo(", "terms: Blocks, volume_m3: 1, other: (", "other"),
         ] {

@@ -26,9 +26,9 @@ pub struct TorpedoHullSpec {
     /// Time constant T_2 of linear damping in sway and heave, s.
     pub sway_s: Positive,
     /// Damping ratio ζ_4 of the swing in roll.
-    pub roll_damping: NonNegative,
+    pub roll_damping: Fraction,
     /// Damping ratio ζ_5 of the swing in pitch.
-    pub pitch_damping: NonNegative,
+    pub pitch_damping: Fraction,
     /// Drag coefficient without incidence, on the frontal area.
     pub frontal_drag: Positive,
     /// Reference area of lift and induced drag, as a share of length times diameter.
@@ -41,7 +41,8 @@ pub struct TorpedoHullSpec {
     pub fins: TorpedoFinsSpec,
     /// The propeller.
     pub propeller: TorpedoPropellerSpec,
-    /// With the quirks of the published code, to compare with its trajectories: see the table in the REMUS's source.
+    /// With the quirks of the published code, to compare with its trajectories: among others, the current is turned by yaw
+    /// only, cross-flow drags in sway only, and fins do not feel the incidence of the water.
     #[serde(default)]
     pub published: bool,
 }

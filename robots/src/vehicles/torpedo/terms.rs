@@ -147,9 +147,9 @@ impl TorpedoTerms<'_> {
         rho: f64,
         actuators: &Actuators,
     ) -> (Vector3<f64>, Vector3<f64>) {
-        let c = self.c;
-        let k = 0.5 * rho * c.fin_area_m2;
-        let (kr, ks) = (k * c.fin_slope[0], k * c.fin_slope[1]);
+        let (c, fins) = (self.c, &self.c.spec.fins);
+        let k = 0.5 * rho * (2.0 * fins.area_m2.get());
+        let (kr, ks) = (k * fins.rudder_slope.get(), k * fins.stern_slope.get());
         let (dr, ds) = (actuators.rudder_rad, actuators.stern_rad);
         let (normal_r, normal_s) = if c.spec.published {
             ((v.x * v.x + v.y * v.y) * dr, (v.x * v.x + v.z * v.z) * ds)

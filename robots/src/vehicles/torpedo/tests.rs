@@ -114,7 +114,9 @@ fn known_force_gives_known_acceleration() {
 
 #[test]
 fn planes_of_the_shipped_set_are_alike() {
-    let hull = Hydrodynamics::new(Coefficients { fin_slope: [0.5, 0.5], ..remus100(false) });
+    let mut c = remus100(false);
+    c.spec.fins.stern_slope = c.spec.fins.rudder_slope;
+    let hull = Hydrodynamics::new(c);
     let none = Vector3::zeros();
     let f = |v, w| {
         let at = Relative { v_ground: v, v, w, along: none, rho: 1026.0, down: Vector3::z(), z_m: -10.0, wet: 1.0 };
