@@ -11,7 +11,6 @@ use crate::error::RobotError;
 use crate::handoff::Actuation;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Deref, DerefMut};
-use std::path::Path;
 use world::fields::{Flow, WaterSample};
 use world::frames::{Pose, Truth};
 use world::physics::{BodySpec, Shape};
@@ -44,8 +43,8 @@ impl Vehicle {
     ///
     /// # Errors
     /// If a file cannot be read, or if the vehicle cannot be one.
-    pub fn of_file(folder: &Path, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
-        Self::build(&Opened::in_folder(folder, file.clone(), files)?)
+    pub fn of_file(folder: &str, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
+        Self::build(&Opened::in_folder(folder.as_ref(), file.clone(), files)?)
     }
 
     fn build(opened: &Opened) -> Result<Self, RobotError> {

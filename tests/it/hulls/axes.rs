@@ -59,7 +59,7 @@ fn boxed(kind: &str, axis: &str) -> Vehicle {
 
 fn refused(file: &VehicleFile, urdf: &str) -> String {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    let loaded = Vehicle::of_file(Path::new("it"), file, &files);
+    let loaded = Vehicle::of_file("it", file, &files);
     loaded.expect_err("it cannot be a vehicle").to_string()
 }
 

@@ -23,7 +23,7 @@ pub(super) fn shipped(name: &str) -> (VehicleFile, String) {
 /// The vehicle of a file and a URDF.
 pub(super) fn built(file: &VehicleFile, urdf: &str) -> Vehicle {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    Vehicle::of_file(Path::new("it"), file, &files).unwrap_or_else(|e| panic!("{e}"))
+    Vehicle::of_file("it", file, &files).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Set-points of a vehicle with drives.
