@@ -3,8 +3,8 @@
 
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};
-use robots::handoff::{ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
-use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, Remus100, RemusSpec};
+use robots::handoff::{Actuation, ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
+use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -33,12 +33,12 @@ fn start() -> Truth {
     Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -4.0), Heading::from_deg(70.0)))
 }
 
-fn auv(parameters: ParameterSet) -> Remus100 {
-    let spec = RemusSpec { parameters, ..RemusSpec::default() };
-    Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle")
+fn auv(parameters: ParameterSet) -> Vehicle {
+    let spec = VehicleSpec::Remus100(RemusSpec { parameters, ..RemusSpec::default() });
+    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
-const TURN: ActuatorCommand = ActuatorCommand { rudder_rad: 0.1, stern_rad: 0.0, rpm: 1200.0 };
+const TURN: Actuation = Actuation::Fins(ActuatorCommand { rudder_rad: 0.1, stern_rad: 0.0, rpm: 1200.0 });
 
 /// 1000 steps of the equation of motion only.
 #[divan::bench(args = [ParameterSet::Remus100, ParameterSet::Reference])]
@@ -47,7 +47,7 @@ fn equation_only(bencher: Bencher, set: ParameterSet) {
     let mut truth = start();
     bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
         for _ in 0..STEPS {
-            truth = vehicle.step(&truth, &water(), &TURN, STEP_S);
+            truth = vehicle.step_in(&truth, &water(), &TURN, STEP_S);
         }
     });
 }
@@ -66,7 +66,7 @@ fn with_physics(bencher: Bencher, solver: Solver) {
     bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
         physics.set_truth(id, start());
         for _ in 0..STEPS {
-            let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
+            let free = vehicle.step_in(&physics.truth(id), &level, &TURN, STEP_S);
             physics.push(id, free);
             physics.step();
         }

@@ -1,12 +1,7 @@
-//! Places in the operating area: distances to its edges, and moving a point inside.
+//! Places in the operating area: moving a point inside.
 
 use nalgebra::Vector2;
 use world::area::Area;
-
-/// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
-pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
-    area.sides().edges(p)
-}
 
 /// Distance from the area's edge, m, within which no destination is placed: twice the 5 m of the cage's edge.
 pub const MARGIN_M: f64 = 10.0;
@@ -45,7 +40,7 @@ mod tests {
             if area.edge_distance(p).0 >= 10.0 {
                 prop_assert_eq!(p, q);
             }
-            let nearest = edges(&area, q).iter().map(|e| e.0).fold(f64::INFINITY, f64::min);
+            let nearest = area.sides().edges(q).iter().map(|e| e.0).fold(f64::INFINITY, f64::min);
             prop_assert!((nearest - area.edge_distance(q).0).abs() < 1e-9);
         }
     }

@@ -25,7 +25,8 @@ class Base:
         self.campaigns = {p.stem: p.read_text() for p in sorted((CATALOG / "campaigns").glob("*.ron"))}
         self.rows = {p.stem: p.read_text() for p in sorted((ROOT / "tests/reference/rows").glob("*.ron"))}
         self.files = {p.name: p.read_bytes() for p in (CATALOG / "meshes").iterdir()}
-        self.files |= {p.name: p.read_bytes() for p in (ROOT / "robots/urdf").glob("*.urdf")}
+        urdfs = [ROOT / "robots/urdf/crab_gantry.urdf", ROOT / "robots/vehicles/remus100/remus100.urdf"]
+        self.files |= {p.name: p.read_bytes() for p in urdfs}
         self.vehicles = {p.name: p for p in sorted((ROOT / "robots/vehicles").iterdir()) if (p / "vehicle.ron").is_file()}
         self.pictures = pictures.whole()
         self.campaign = folder / "campaign"

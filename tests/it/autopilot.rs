@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::actuate::{Autopilot, AutopilotSpec};
-use robots::handoff::{Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
-use robots::vehicles::{InMemory, Remus100, RemusSpec};
+use robots::handoff::{Actuation, Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
+use robots::vehicles::{InMemory, Vehicle, VehicleSpec};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -17,7 +17,7 @@ const STEP_S: f64 = 0.02;
 struct Run {
     physics: Physics,
     id: BodyId,
-    vehicle: Remus100,
+    vehicle: Vehicle,
     pilot: Autopilot,
     bed: Terrain,
     current: Vector3<f64>,
@@ -28,7 +28,7 @@ impl Run {
     fn new(heading_deg: f64, depth_m: f64, current: Vector3<f64>) -> Self {
         let area = Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+        let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
         let pose = Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(heading_deg));
@@ -79,7 +79,7 @@ impl Run {
                 Command::Steer(Setpoint { heading: Heading::from_deg(heading_deg), water_speed_m_s: 2.0, vertical });
             let set = self.pilot.step(&command, &self.estimate(), STEP_S);
             let truth = self.physics.truth(self.id);
-            let free = self.vehicle.step(&truth, &water, &set, STEP_S);
+            let free = self.vehicle.step_in(&truth, &water, &Actuation::Fins(set), STEP_S);
             self.physics.push(self.id, free);
             self.physics.step();
             self.steps += 1;

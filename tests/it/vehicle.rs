@@ -5,8 +5,8 @@
 use crate::common::root;
 use crate::rapier_alone::RapierAlone;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, Remus100, RemusSpec};
+use robots::handoff::{Actuation, ActuatorCommand};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics, Solver};
@@ -14,9 +14,9 @@ use world::units::Heading;
 
 const STEP_S: f64 = 0.02;
 
-fn vehicle(parameters: ParameterSet) -> Remus100 {
-    let spec = RemusSpec { parameters, ..RemusSpec::default() };
-    Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle")
+fn vehicle(parameters: ParameterSet) -> Vehicle {
+    let spec = VehicleSpec::Remus100(RemusSpec { parameters, ..RemusSpec::default() });
+    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 fn water(velocity: Vector3<f64>) -> WaterSample {
@@ -40,7 +40,7 @@ enum Mover {
 /// A vehicle alone in the water.
 struct Alone {
     moved: Moved,
-    vehicle: Remus100,
+    vehicle: Vehicle,
     water: WaterSample,
     step_s: f64,
     steps: u64,
@@ -82,7 +82,8 @@ impl Alone {
     }
 
     fn step(&mut self, command: &ActuatorCommand) {
-        let free = self.vehicle.step(&self.truth(), &self.water, command, self.step_s);
+        let truth = self.truth();
+        let free = self.vehicle.step_in(&truth, &self.water, &Actuation::Fins(*command), self.step_s);
         match &mut self.moved {
             Moved::Ours(physics, id) => {
                 physics.push(*id, free);

@@ -1,8 +1,8 @@
 //! Single effects of the REMUS under physics: one cause, one known answer.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
-use robots::handoff::ActuatorCommand;
-use robots::vehicles::{Actuators, InMemory, ParameterSet, Remus100, RemusSpec};
+use robots::handoff::{Actuation, ActuatorCommand};
+use robots::vehicles::{Coefficients, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
 use world::fields::WaterSample;
@@ -19,7 +19,7 @@ const BOTH: [ParameterSet; 2] = [ParameterSet::Reference, ParameterSet::Remus100
 struct Auv {
     physics: Physics,
     id: BodyId,
-    vehicle: Remus100,
+    vehicle: Vehicle,
     water: WaterSample,
 }
 
@@ -29,8 +29,8 @@ impl Auv {
     }
 
     fn under(mut physics: Physics, parameters: ParameterSet, start: Truth) -> Self {
-        let spec = RemusSpec { parameters, ..RemusSpec::default() };
-        let vehicle = Remus100::load(&spec, &InMemory::default()).expect("built-in vehicle");
+        let spec = VehicleSpec::Remus100(RemusSpec { parameters, ..RemusSpec::default() });
+        let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
         let id = physics.add_body(vehicle.body_spec("auv", start));
         let water = WaterSample {
             velocity: Vector3::zeros(),
@@ -41,12 +41,17 @@ impl Auv {
         Self { physics, id, vehicle, water }
     }
 
+    fn coefficients(&self) -> &Coefficients {
+        self.vehicle.coefficients().expect("terms of its own")
+    }
+
     fn truth(&self) -> Truth {
         self.physics.truth(self.id)
     }
 
     fn step(&mut self, command: &ActuatorCommand) -> Truth {
-        let free = self.vehicle.step(&self.truth(), &self.water, command, STEP_S);
+        let truth = self.truth();
+        let free = self.vehicle.step_in(&truth, &self.water, &Actuation::Fins(*command), STEP_S);
         self.physics.push(self.id, free);
         self.physics.step();
         self.truth()
@@ -61,7 +66,7 @@ impl Auv {
 
     /// Kinetic energy with the water's, and that of the low centre of gravity, J.
     fn energy(&self) -> f64 {
-        let (t, c) = (self.truth(), self.vehicle.coefficients());
+        let (t, c) = (self.truth(), self.coefficients());
         let (v, w) = (t.v_WB_B, t.w_WB_B);
         let nu = Vector6::new(v.x, -v.y, -v.z, w.x, -w.y, -w.z);
         let upright = (t.pose.R_WB * Vector3::z()).z;
@@ -84,8 +89,11 @@ const DEAD: ActuatorCommand = ActuatorCommand { rudder_rad: 0.0, stern_rad: 0.0,
 fn known_thrust_gives_known_acceleration() {
     for set in BOTH {
         let mut auv = Auv::new(set, at(50.0));
-        auv.vehicle.set_actuators(Actuators { rpm: 600.0, ..Actuators::default() });
-        let c = auv.vehicle.coefficients();
+        // Held in its place until the propeller turns.
+        for _ in 0..2000 {
+            auv.vehicle.step_in(&at(50.0), &auv.water, &Actuation::Fins(command(0.0, 0.0, 600.0)), STEP_S);
+        }
+        let c = auv.coefficients();
         let m = c.rigid_mass() + c.added_mass();
         let thrust = 0.9 * 1026.0 * 0.14f64.powi(4) * 0.4566 * 100.0;
         let det = m[(0, 0)] * m[(4, 4)] - m[(0, 4)] * m[(0, 4)];
@@ -312,7 +320,7 @@ fn does_not_fly() {
 #[test]
 fn explicit_lag_diverges() {
     let auv = Auv::new(ParameterSet::Remus100, at(50.0));
-    let c = auv.vehicle.coefficients();
+    let c = auv.coefficients();
     let (rigid, added) = (c.rigid_mass(), c.added_mass());
     let push = Vector6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0);
     let inverse = rigid.try_inverse().expect("masses are positive");

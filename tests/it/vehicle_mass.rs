@@ -4,7 +4,7 @@ use rheotaxis::scenario::{check, parse, template};
 
 #[test]
 fn check_tells_that_the_mass_of_a_urdf_is_used() {
-    let built_in = include_str!("../../robots/urdf/remus100.urdf");
+    let built_in = include_str!("../../robots/vehicles/remus100/remus100.urdf");
     let dir = std::env::temp_dir().join(format!("rheotaxis-mass-{}", std::process::id()));
     std::fs::create_dir_all(&dir).unwrap();
     let text = template("remus_dive").expect("in the catalogue").text;

@@ -2,8 +2,8 @@
 //! NED, FRD, Euler angles. Above all: what it does at rest in a current.
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
-use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, Remus100, RemusSpec};
+use robots::handoff::{Actuation, ActuatorCommand};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::f64::consts::PI;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -188,11 +188,8 @@ fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, s
     let [phi, theta, psi] = attitude_deg.map(f64::to_radians);
     let mut theirs =
         State { eta: Vector6::new(0.0, 0.0, 100.0, phi, theta, psi), nu: Vector6::zeros(), act: Vector3::zeros() };
-    let mut vehicle = Remus100::load(
-        &RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() },
-        &InMemory::default(),
-    )
-    .expect("built in");
+    let spec = RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() };
+    let mut vehicle = Vehicle::load(&VehicleSpec::Remus100(spec), &InMemory::default()).expect("built in");
     let mut ours = Truth::at_rest(Pose {
         p_WB: Vector3::new(0.0, 0.0, -100.0),
         R_WB: UnitQuaternion::from_euler_angles(phi, -theta, Heading::from_rad(psi).yaw()),
@@ -204,10 +201,10 @@ fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, s
         rate: Vector3::zeros(),
         density_kg_m3: 1026.0,
     };
-    let command = ActuatorCommand { rudder_rad: asked[0], stern_rad: asked[1], rpm: asked[2] };
+    let command = Actuation::Fins(ActuatorCommand { rudder_rad: asked[0], stern_rad: asked[1], rpm: asked[2] });
     let mut worst: f64 = 0.0;
     for _ in 0..(seconds / STEP_S).round() as u64 {
-        ours = vehicle.step(&ours, &water, &command, STEP_S);
+        ours = vehicle.step_in(&ours, &water, &command, STEP_S);
         theirs = published.step(&theirs, &asked, STEP_S);
         let e = &theirs.eta;
         let there = Vector3::new(e[1], e[0], -e[2]);

@@ -9,7 +9,7 @@
 mod narrow;
 
 pub use crate::ranges::shown;
-pub use narrow::UNIT;
+pub use narrow::{Range, UNIT};
 
 use crate::ranges::{Finite, Fraction, NonNegative, Positive};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -27,22 +27,6 @@ pub trait LimitedValue: Sized {
     /// # Errors
     /// States the range and the number that is outside. For a wrong sign or NaN, the error of the number's own type.
     fn limited(raw: Self::Raw, range: &Range) -> Result<Self, String>;
-}
-
-/// A legal range, ends included, with its unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range(pub f64, pub f64, pub &'static str);
-
-impl Range {
-    fn refuses(&self, v: f64) -> Option<String> {
-        let Range(low, high, unit) = self;
-        // Not `v < low || v > high`, which would accept NaN.
-        if v >= *low && v <= *high {
-            return None;
-        }
-        let space = if unit.is_empty() { "" } else { " " };
-        Some(format!("must be from {} to {}{space}{unit}, got {}", shown(*low), shown(*high), shown(v)))
-    }
 }
 
 macro_rules! one {

@@ -20,7 +20,7 @@ use super::{Behave, Stride};
 use crate::error::{RobotError, require};
 use crate::handoff::{Manoeuvre, Observation};
 use crate::memory::PlumeMemory;
-use crate::places::{edges, inside};
+use crate::places::inside;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -127,7 +127,7 @@ impl ZigZag {
     /// so that opposite edges are never reached together.
     fn reached(&self, area: &Area, p: Vector2<f64>) -> Vec<Vector2<f64>> {
         let reach_m = self.edge_m.min(area.length_m.min(area.width_m) / 4.0);
-        let mut near: Vec<_> = edges(area, p).into_iter().filter(|(d, _)| *d < reach_m).collect();
+        let mut near: Vec<_> = area.sides().edges(p).into_iter().filter(|(d, _)| *d < reach_m).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         near.into_iter().map(|(_, n)| n).collect()
     }
@@ -233,7 +233,8 @@ fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
 /// How far a course runs before it meets an edge, m.
 fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
     let c = course.unit();
-    edges(area, p)
+    area.sides()
+        .edges(p)
         .into_iter()
         .filter(|(_, n)| c.dot(n) > 1e-9)
         .map(|(d, n)| d / c.dot(&n))

@@ -6,15 +6,15 @@ use super::inspect::InspectSpec;
 use super::map_and_plan::MapAndPlanSpec;
 use super::open_loop::OpenLoopSpec;
 use super::route::RouteSpec;
-use super::spec::StrategyParams;
+use super::spec::{Strategies, StrategyParams};
 use super::subregions::SubregionsSpec;
 use super::subsumption::SubsumptionSpec;
-use world::kind;
+use world::rows;
 
-kind! {
+rows! {
     /// Strategies, which decide what a robot does from launch to the end of its mission. Most combine behaviours and a
     /// declaration rule, each chosen by name.
-    pub StrategySpec = Strategies of StrategyParams {
+    StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
         rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec, ExternalSpec],
     }

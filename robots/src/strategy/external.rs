@@ -9,8 +9,7 @@
 //! a first order without a speed does not leave it to sink. Who answers, and how, is the business of the run: here are
 //! only the answers.
 
-use super::catalogue::StrategySpec;
-use super::spec::{Strategy, StrategyParams};
+use super::spec::{Strategy, StrategyParams, StrategySpec};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{

@@ -16,13 +16,12 @@ mod testing;
 mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
-pub use catalogue::{Strategies, StrategySpec};
 pub use external::{ExternalSpec, OnLate};
 pub use inspect::{Inspect, InspectSpec, ToldSpec};
 pub use map_and_plan::{AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec};
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use route::{Route, RouteSpec};
-pub use spec::{Strategy, StrategyParams};
+pub use spec::{Strategies, Strategy, StrategyParams, StrategySpec};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions, SubregionsSpec,
 };

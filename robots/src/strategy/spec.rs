@@ -5,8 +5,16 @@ use crate::error::RobotError;
 use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown};
 use world::area::Area;
 use world::cost::{Cost, Times};
-use world::registry::Spec;
+use world::registry::{Choice, Spec};
 use world::seeds::Stream;
+
+/// Strategies, which decide what a robot does from launch to the end of its mission. Their rows stand in the catalogue,
+/// for some hold another.
+#[derive(Clone, Copy, Debug)]
+pub enum Strategies {}
+
+/// A strategy that is chosen by name.
+pub type StrategySpec = Choice<Strategies>;
 
 /// A strategy: takes one observation per tick and decides what to command the guidance.
 pub trait Strategy: std::fmt::Debug + Send + Sync {

@@ -9,10 +9,9 @@
 //! same length, a link without `<visual>` shows what it collides with, and a mesh file gets its whole path.
 
 use super::files::Files;
-use super::folder::urdf_of;
+use super::folder::{Opened, TermsSpec, urdf_of};
 use super::gantry::{CRAB_GANTRY, GantrySpec};
 use super::looks::{DrivenJoint, JointKind, LinkLook, Motion, looks, of_drives, of_fins};
-use super::remus100::REMUS100;
 use super::spec::VehicleSpec;
 use super::urdf_parts::{UrdfText, check_tree, parse, place, pose_of, root};
 use crate::error::RobotError;
@@ -72,18 +71,15 @@ impl Description {
     /// # Errors
     /// If its URDF cannot be read.
     pub fn of_vehicle(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let named = |urdf: &Option<String>, moves: &[Motion]| {
-            Self::from_urdf(&UrdfText::open(urdf.as_deref(), files, REMUS100)?, moves)
-        };
-        let in_folder = |folder: &str, comes_with: bool| {
-            urdf_of(folder, comes_with, files, |text, file| Self::from_urdf(text, &of_drives(&file.drives)))
-        };
-        match spec {
-            VehicleSpec::Remus100(remus) => named(&remus.urdf, &of_fins()),
-            VehicleSpec::Kinematic(spec) => named(&spec.urdf, &[]),
-            VehicleSpec::Shipped(name) => in_folder(name, true),
-            VehicleSpec::File(folder) => in_folder(folder, false),
+        if let VehicleSpec::Kinematic(spec) = spec {
+            return Self::from_urdf(&urdf_of(spec.urdf.as_deref(), files)?, &[]);
         }
+        let opened = Opened::new(spec, files)?;
+        let moves = match opened.file.hydrodynamics.terms {
+            TermsSpec::Torpedo(_) => of_fins(),
+            TermsSpec::Blocks => of_drives(&opened.file.drives),
+        };
+        Self::from_urdf(&opened.urdf, &moves)
     }
 
     /// Of a gantry that can be built.
@@ -173,6 +169,7 @@ mod tests {
     use super::super::files::InMemory;
     use super::*;
     use crate::vehicles::SHIPPED;
+    use std::path::Path;
 
     #[test]
     fn every_vehicle_and_gantry_is_described_as_it_is_built() {
@@ -200,7 +197,7 @@ mod tests {
         let text = r#"<robot name="a"><link name="b"><collision><geometry>
             <mesh filename="hull.stl"/></geometry></collision></link></robot>"#;
         let files = InMemory::default().with("hulls/a.urdf", text.as_bytes());
-        let text = UrdfText::open(Some("hulls/a.urdf"), &files, REMUS100).unwrap();
+        let text = UrdfText::open_at(Path::new("hulls/a.urdf"), &files).unwrap();
         let urdf = Description::from_urdf(&text, &[]).unwrap().urdf;
         let here = std::env::current_dir().unwrap();
         let path = here.join("hulls/hull.stl");

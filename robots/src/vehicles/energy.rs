@@ -4,17 +4,14 @@
 //!
 //! *Parameters*: [`EnergySpec`].
 //!
-//! *Deviations*: the battery gives the same energy at any power and any age. A REMUS's electric power is that of its
-//! shaft over an efficiency of [`REMUS_SHARE`], our own estimate; kinematic vehicles have no drives that need power.
+//! *Deviations*: the battery gives the same energy at any power and any age; kinematic vehicles have no drives that need
+//! power.
 
 use bevy_ecs::prelude::Component;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use world::ranges::{NonNegative, Positive};
-
-/// Share of the electric power that reaches the shaft of a REMUS.
-pub(super) const REMUS_SHARE: f64 = 0.7;
 
 /// A battery and what always runs.
 // Both defaults are ours: about what a vehicle of the REMUS's size carries and takes.

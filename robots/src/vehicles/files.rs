@@ -8,6 +8,7 @@ use crate::error::{RobotError, ensure};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use world::encoding;
+use world::registry::{ReadError, Registry};
 
 /// Gives the content of a file by its name. Names are relative to the scenario file, or absolute.
 pub trait Files {
@@ -31,13 +32,10 @@ pub trait Files {
     /// Reads the text of a `vehicle.ron`; errors call it `path`.
     ///
     /// # Errors
-    /// All its mistakes, with their places. Files in memory cannot read it.
+    /// Its first mistake. The simulation's files tell all of them, with their places.
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
-        let _ = text;
-        Err(RobotError::File {
-            path: path.into(),
-            problem: "these files have no reader of RON: use those of a folder".into(),
-        })
+        let wrong = |e: ReadError| RobotError::File { path: path.into(), problem: e.message };
+        Registry::default().read(text).map_err(wrong)
     }
 }
 

@@ -17,79 +17,44 @@
 //! between walls without room to turn it turns less, by the mass and the moment of inertia about the vertical of its
 //! URDF, without added mass. It cannot be tilted. What a contact does to its velocity lasts for that step. It does not rise above the surface.
 
-use super::files::Files;
 use super::kinematic_spec::{KinematicSpec, Moves};
-use super::remus100::REMUS100;
-use super::urdf::{self, Shell};
-use super::urdf_parts::UrdfText;
-use crate::error::RobotError;
-use crate::handoff::{RateCommand, RateLimits};
+use super::motion::{Felt, Inertia, Motion, foreign};
+use super::urdf::Shell;
+use crate::error::ensure;
+use crate::handoff::{Actuation, Capabilities, Control, RateCommand, RateLimits, TurnLimit};
 use nalgebra::{Matrix6, Vector3, Vector6};
+use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::math;
-use world::physics::BodySpec;
 
 /// Moment of inertia about the axes about which it cannot be tilted, kg m²: no contact turns it by as much as a
 /// rounding.
 const STIFF_KG_M2: f64 = 1e12;
 
-/// A kinematic vehicle; pose and velocity belong to the physics.
+/// A vehicle without dynamics.
 #[derive(Clone, Debug)]
-pub struct Kinematic {
-    shell: Shell,
+pub(super) struct Kinematic {
+    mass_kg: f64,
+    inertia_z_kg_m2: f64,
     moves: Moves,
     limits: RateLimits,
 }
 
 impl Kinematic {
-    /// Builds the vehicle; `files` gives the URDF and its meshes, if the scenario names one.
+    /// With the mass of a URDF.
     ///
     /// # Errors
-    /// If a file cannot be read, or if the URDF is wrong.
-    pub fn load(spec: &KinematicSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
-        let shell = urdf::shell(&text)?;
-        let izz = shell.ballast.inertia_z_kg_m2();
-        if izz <= 0.0 {
-            let body = &shell.body;
-            let problem = format!("link \"{body}\": izz must be > 0 kg m2, got {izz}");
-            return Err(text.fault(problem));
-        }
-        Ok(Self { shell, moves: spec.moves, limits: spec.limits() })
+    /// If that has no moment of inertia about the vertical.
+    pub(super) fn new(spec: &KinematicSpec, shell: &Shell) -> Result<Self, String> {
+        let (mass_kg, _, inertia) = shell.ballast.whole();
+        let izz = inertia[(2, 2)];
+        let body = &shell.body;
+        ensure(izz > 0.0, || format!("link \"{body}\": izz must be > 0 kg m2, got {izz}"))?;
+        Ok(Self { mass_kg, inertia_z_kg_m2: izz, moves: spec.moves, limits: spec.limits() })
     }
 
-    /// What it can do.
-    pub fn limits(&self) -> RateLimits {
-        self.limits
-    }
-
-    /// What its speed is relative to.
-    pub fn moves(&self) -> Moves {
-        self.moves
-    }
-
-    /// Pose of an instrument (a link of the URDF), in body axes.
-    pub fn mount(&self, name: &str) -> Option<Pose> {
-        self.shell.links.get(name).copied()
-    }
-
-    /// The body for the physics.
-    pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
-        let m = self.shell.ballast.mass_kg();
-        let about_vertical = self.shell.ballast.inertia_z_kg_m2();
-        BodySpec {
-            id: id.to_string(),
-            truth,
-            shapes: self.shell.shapes.clone(),
-            p_BG: Vector3::zeros(),
-            mass: Matrix6::from_diagonal(&Vector6::new(m, m, m, STIFF_KG_M2, STIFF_KG_M2, about_vertical)),
-            without_momentum: true,
-        }
-    }
-
-    /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`. `water_m_s` is the water's velocity
-    /// over ground at its origin (ENU); it counts only for a vehicle that moves through the water.
-    pub fn step(&self, truth: &Truth, water_m_s: &Vector3<f64>, asked: &RateCommand, dt_s: f64) -> Truth {
+    /// The state after a step at rates. The water's velocity counts only for a vehicle that moves through the water.
+    fn sail(&self, truth: &Truth, water_m_s: &Vector3<f64>, asked: &RateCommand, dt_s: f64) -> Truth {
         let rates = self.limits.held(asked);
         let drift = match self.moves {
             Moves::ThroughWater => Vector3::new(water_m_s.x, water_m_s.y, 0.0),
@@ -107,6 +72,56 @@ impl Kinematic {
         let ahead = heading.unit() * rates.speed_m_s;
         let v_W = drift + Vector3::new(ahead.x, ahead.y, (p_WB.z - start.z) / dt_s);
         Truth { pose, v_WB_B: pose.R_WB.inverse() * v_W, w_WB_B: Vector3::new(0.0, 0.0, -rates.turn_rad_s) }
+    }
+}
+
+impl Motion for Kinematic {
+    fn control(&self) -> Control {
+        Control::Rates(self.limits)
+    }
+
+    fn capabilities(&self, _: f64) -> Capabilities {
+        let limits = &self.limits;
+        Capabilities {
+            least_speed_m_s: 0.0,
+            top_speed_m_s: limits.speed_m_s,
+            turning_radius_m: match limits.turn {
+                TurnLimit::Rate(rad_s) => limits.speed_m_s / rad_s,
+                TurnLimit::Radius(m) => m,
+            },
+            ..Capabilities::default()
+        }
+    }
+
+    fn top_speed_m_s(&self, _: f64) -> f64 {
+        self.limits.speed_m_s
+    }
+
+    fn idle(&self) -> Actuation {
+        Actuation::Rates(RateCommand::default())
+    }
+
+    fn feels(&self) -> Felt {
+        match self.moves {
+            Moves::ThroughWater => Felt::Velocity,
+            Moves::OverGround => Felt::Nothing,
+        }
+    }
+
+    fn inertia(&self) -> Inertia {
+        let (m, about_vertical) = (self.mass_kg, self.inertia_z_kg_m2);
+        Inertia {
+            p_BG: Vector3::zeros(),
+            mass: Matrix6::from_diagonal(&Vector6::new(m, m, m, STIFF_KG_M2, STIFF_KG_M2, about_vertical)),
+            without_momentum: true,
+        }
+    }
+
+    fn step_in(&mut self, truth: &Truth, water: &WaterSample, set: &Actuation, dt_s: f64) -> Truth {
+        match set {
+            Actuation::Rates(set) => self.sail(truth, &water.velocity, set, dt_s),
+            other => foreign(other),
+        }
     }
 }
 

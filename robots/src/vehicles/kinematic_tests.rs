@@ -2,10 +2,10 @@
 
 use super::super::files::InMemory;
 use super::super::kinematic_spec::{RadiusSpec, TurnSpec};
-use super::super::spec::RemusSpec;
-use super::super::vehicle::Remus100;
+use super::super::{Vehicle, VehicleSpec};
 use super::*;
-use nalgebra::Vector2;
+use crate::error::RobotError;
+use nalgebra::{Matrix3, Vector2};
 use std::path::Path;
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
 use world::physics::Physics;
@@ -15,10 +15,30 @@ use world::units::Heading;
 
 const DEG: f64 = std::f64::consts::PI / 180.0;
 
-fn vehicle(moves: Moves, turn: Option<TurnSpec>) -> Kinematic {
+/// A vehicle at rates, in water that is known.
+#[derive(Debug)]
+struct Car(Vehicle);
+
+impl Car {
+    fn load(spec: &KinematicSpec, files: &InMemory) -> Result<Self, RobotError> {
+        Vehicle::load(&VehicleSpec::Kinematic(spec.clone()), files).map(Self)
+    }
+
+    fn step(&mut self, truth: &Truth, water_m_s: &Vector3<f64>, asked: &RateCommand, dt_s: f64) -> Truth {
+        let water = WaterSample {
+            velocity: *water_m_s,
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: 1025.0,
+        };
+        self.0.step_in(truth, &water, &Actuation::Rates(*asked), dt_s)
+    }
+}
+
+fn vehicle(moves: Moves, turn: Option<TurnSpec>) -> Car {
     let default = KinematicSpec::default();
     let spec = KinematicSpec { moves, turn: turn.unwrap_or(default.turn.clone()), ..default };
-    Kinematic::load(&spec, &InMemory::default()).expect("built in")
+    Car::load(&spec, &InMemory::default()).expect("built in")
 }
 
 fn start(heading_deg: f64) -> Truth {
@@ -48,7 +68,7 @@ fn plate(thick_m: f64) -> Obstacle {
 /// On the exact circle of radius U/r at every step, however long; and exactly the asked rate.
 #[test]
 fn a_steady_turn_is_a_circle_at_any_step() {
-    let car = vehicle(Moves::OverGround, None);
+    let mut car = vehicle(Moves::OverGround, None);
     let radius_m = 2.0 / (10.0 * DEG);
     let begin = start(40.0);
     let centre = begin.pose.p_WB.xy() + Heading::from_deg(130.0).unit() * radius_m;
@@ -75,7 +95,7 @@ fn a_steady_turn_is_a_circle_at_any_step() {
 #[test]
 fn no_command_makes_it_turn_faster_or_tighter() {
     let turn = TurnSpec::Radius(RadiusSpec { radius_m: Positive::new(5.0) });
-    let dubins = vehicle(Moves::ThroughWater, Some(turn));
+    let mut dubins = vehicle(Moves::ThroughWater, Some(turn));
     let mut t = start(0.0);
     let centre = t.pose.p_WB.xy() + Vector2::new(-5.0, 0.0);
     for _ in 0..2000 {
@@ -96,7 +116,7 @@ fn a_current_adds_its_drift_exactly_or_not_at_all() {
     let u = Vector3::new(0.8, -0.6, 0.05);
     let (dt_s, n) = (0.1, 300);
     let run = |moves, water: Vector3<f64>| {
-        let car = vehicle(moves, None);
+        let mut car = vehicle(moves, None);
         let mut t = start(250.0);
         for k in 0..n {
             let turn = if k % 100 < 40 { 7.0 } else { -3.0 };
@@ -118,7 +138,7 @@ fn a_current_adds_its_drift_exactly_or_not_at_all() {
 
 #[test]
 fn it_stays_under_the_surface() {
-    let car = vehicle(Moves::ThroughWater, None);
+    let mut car = vehicle(Moves::ThroughWater, None);
     let mut t = start(0.0);
     t.pose.p_WB.z = -0.07;
     for _ in 0..10 {
@@ -137,12 +157,12 @@ fn no_wall_lets_it_through() {
             [(90.0, 0.0, 0.0), (60.0, 0.0, 0.0), (100.0, 10.0, 0.0), (45.0, -10.0, -0.5)]
         {
             let spec = KinematicSpec { max_speed_m_s: Positive::new(15.0), ..KinematicSpec::default() };
-            let car = Kinematic::load(&spec, &InMemory::default()).expect("built in");
+            let mut car = Car::load(&spec, &InMemory::default()).expect("built in");
             let mut physics = Physics::new(dt_s);
             physics.add_obstacle(&plate(thick_m));
             let mut t = start(heading_deg);
             t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
-            let id = physics.add_body(car.body_spec("car", t));
+            let id = physics.add_body(car.0.body_spec("car", t));
             let mut touched = 0;
             let begin = t;
             for _ in 0..(1.5_f64.max(3.0 * dt_s) / dt_s) as u32 {
@@ -194,7 +214,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 (60.0, 230.0),
                 (120.0, 275.0),
             ] {
-                let car = vehicle(Moves::ThroughWater, None);
+                let mut car = vehicle(Moves::ThroughWater, None);
                 let mut physics = Physics::new(dt_s);
                 physics.add_obstacle(&plate(1.0));
                 if let Some(north_m) = corner {
@@ -202,7 +222,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 }
                 let mut t = start(heading_deg);
                 t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
-                let id = physics.add_body(car.body_spec("car", t));
+                let id = physics.add_body(car.0.body_spec("car", t));
                 // Pressed against the wall for a while first.
                 let asked = [(10.0, heading_deg), (50.0, asked_deg), (10.0, asked_deg)];
                 let mut before_m = Vector2::zeros();
@@ -240,9 +260,9 @@ fn it_turns_away_from_a_wall_at_full_speed() {
 #[test]
 fn its_hull_is_that_of_the_remus() {
     let car = vehicle(Moves::ThroughWater, None);
-    let remus = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+    let remus = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
     let t = start(0.0);
-    assert_eq!(car.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
+    assert_eq!(car.0.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
 }
 
 #[test]
@@ -257,9 +277,9 @@ fn a_hull_of_its_own_needs_no_fins_but_a_moment_of_inertia() {
     let spec = KinematicSpec { urdf: Some("ball.urdf".into()), ..KinematicSpec::default() };
     let load = |izz| {
         let files = InMemory::default().with("ball.urdf", hull(izz).as_bytes());
-        Kinematic::load(&spec, &files)
+        Car::load(&spec, &files)
     };
-    let body = load("0.4").expect("a ball").body_spec("b", start(0.0));
+    let body = load("0.4").expect("a ball").0.body_spec("b", start(0.0));
     assert_eq!((body.mass[(0, 0)], body.mass[(5, 5)]), (5.0, 0.4));
     assert_eq!(body.shapes.len(), 1);
     assert_eq!(

@@ -1,7 +1,6 @@
 //! Parameters of a vehicle.
 
 use super::kinematic_spec::KinematicSpec;
-use super::remus100::ParameterSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
@@ -22,6 +21,7 @@ pub enum VehicleSpec {
     File(String),
 }
 
+// The vehicle of the shipped folder `remus100`.
 /// A REMUS 100.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -30,6 +30,18 @@ pub struct RemusSpec {
     pub parameters: ParameterSet,
     /// URDF file, relative to the scenario file; `None`: the built-in one.
     pub urdf: Option<String>,
+}
+
+/// A set of hull parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum ParameterSet {
+    /// The default: the published set without its quirks.
+    #[default]
+    #[serde(rename = "remus100")]
+    Remus100,
+    /// The published set with its quirks, to compare with its trajectories.
+    #[serde(rename = "reference")]
+    Reference,
 }
 
 /// Vehicles and gantries that a scenario can choose.

@@ -7,7 +7,6 @@
 //! *Deviations:* the first link without a parent is the body; moving parts (fins, propeller) do not move, and their
 //! forces are in the hydrodynamics. Cylinders and capsules lie along z.
 
-use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
 use super::urdf_parts::{
     Carrier, UrdfText, carriers, check_tree, colour, finite, joined, parse, place, pose_of, root, shape,
@@ -17,7 +16,7 @@ use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// What any vehicle takes from its URDF.
+/// What a vehicle takes from its URDF.
 #[derive(Clone, Debug)]
 pub(super) struct Shell {
     /// Collision shapes in body axes.
@@ -34,39 +33,10 @@ pub(super) struct Shell {
     pub(super) visuals: Vec<(Pose, Shape, String)>,
 }
 
-/// Contents of the URDF of a vehicle with fins.
-#[derive(Clone, Debug)]
-pub(super) struct Hull {
-    /// Collision shapes in body axes.
-    pub(super) shapes: Vec<(Pose, Shape)>,
-    /// Pose of each link in body axes.
-    pub(super) links: BTreeMap<String, Pose>,
-    /// The hydrodynamic parameters with its mass.
-    pub(super) coefficients: Coefficients,
-    /// Where its mass differs from that of the parameters.
-    pub(super) told: Vec<String>,
-}
-
-/// Links that a vehicle with a rudder, a stern plane and a propeller must have.
-const NEEDED: [&str; 3] = ["rudder", "stern_plane", "propeller"];
-
 /// No part of a hull of some 1.6 m may lie farther from its middle than this, m.
 const FURTHEST_M: f64 = 10.0;
 
-/// Reads the text of the URDF of a vehicle with fins, and the mesh files that it names.
-pub(super) fn read(urdf: &UrdfText, c: &Coefficients) -> Result<Hull, RobotError> {
-    let shell = shell(urdf)?;
-    let fail = |problem: String| urdf.fault(problem);
-    for needed in NEEDED {
-        if !shell.links.contains_key(needed) {
-            return Err(fail(format!("link \"{needed}\" is missing")));
-        }
-    }
-    let (coefficients, told) = shell.ballast.put_into(&shell.body, c).map_err(fail)?;
-    Ok(Hull { shapes: shell.shapes, links: shell.links, coefficients, told })
-}
-
-/// Reads the text of any vehicle's URDF, and the mesh files that it names.
+/// Reads the text of a vehicle's URDF, and the mesh files that it names.
 pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     let fail = |problem: String| urdf.fault(problem);
     let robot = parse(&urdf.text).map_err(fail)?;

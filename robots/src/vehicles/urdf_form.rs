@@ -17,23 +17,12 @@ const LONGEST_QUOTE: usize = 60;
 /// Why a text cannot be read as URDF, with the line, and what to do.
 pub(super) fn refuse(text: &str) -> Result<(), String> {
     let (mut depth, mut elements) = (0_usize, 0_usize);
-    let mut rest = text;
-    while let Some(i) = rest.find('<') {
-        rest = &rest[i..];
-        if let Some(length) = aside(rest) {
-            depth = depth.saturating_sub(usize::from(rest.starts_with("</")));
-            rest = &rest[length..];
+    for (line, tag) in tags(text) {
+        if tag.starts_with("</") {
+            depth = depth.saturating_sub(1);
             continue;
         }
-        let Some(length) = start_tag(rest) else {
-            // No XML; its reader says where.
-            return Ok(());
-        };
-        let tag = &rest[..length];
-        let here = |problem: String| {
-            let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
-            Err(format!("line {line}: {problem}"))
-        };
+        let here = |problem: String| Err(format!("line {line}: {problem}"));
         if let Some(problem) = foreign(tag, elements == 0) {
             return here(problem);
         }
@@ -45,9 +34,24 @@ pub(super) fn refuse(text: &str) -> Result<(), String> {
         if elements > MOST_ELEMENTS {
             return here(format!("it has more than {MOST_ELEMENTS} elements"));
         }
-        rest = &rest[length..];
     }
     Ok(())
+}
+
+/// The tags of a text, each with its line, up to where it is no XML: its reader says where.
+pub(super) fn tags(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let (mut at, mut line) = (0, 1);
+    let pieces = std::iter::from_fn(move || {
+        let begin = at + text[at..].find('<')?;
+        line += text[at..begin].matches('\n').count();
+        let rest = &text[begin..];
+        let piece = &rest[..aside(rest).or_else(|| start_tag(rest))?];
+        at = begin + piece.len();
+        let here = line;
+        line += piece.matches('\n').count();
+        Some((here, piece))
+    });
+    pieces.filter(|(_, piece)| !piece.starts_with("<!") && !piece.starts_with("<?"))
 }
 
 /// Length of what is no start tag; all of it if its end is missing.

@@ -8,14 +8,13 @@
 //! gravity may differ from theirs by 1 %, and the URDF's values are then used. A centre of gravity off the hull's
 //! axis, and products of inertia, within 1 % are left out. Both are reported.
 
-use super::remus100::Coefficients;
+use super::torpedo::Coefficients;
 use super::urdf_parts::{finite, joined, pose_of};
 use crate::error::ensure;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use urdf_rs::Robot;
 use world::frames::Pose;
-use world::units::GRAVITY_M_S2;
 
 /// Greatest relative difference of mass and inertia from the hydrodynamic parameters.
 const MASS_TOLERANCE: f64 = 0.01;
@@ -62,19 +61,9 @@ impl Ballast {
         Ok(Self { mass_kg, p_BG, inertia_kg_m2: about_G.sum() })
     }
 
-    /// Mass, kg; positive.
-    pub(super) fn mass_kg(&self) -> f64 {
-        self.mass_kg
-    }
-
     /// Mass (kg), centre of gravity (m) and inertia about it (kg m²), FLU.
     pub(super) fn whole(&self) -> (f64, Vector3<f64>, Matrix3<f64>) {
         (self.mass_kg, self.p_BG, self.inertia_kg_m2)
-    }
-
-    /// Moment of inertia about the vertical axis through the centre of gravity, kg m².
-    pub(super) fn inertia_z_kg_m2(&self) -> f64 {
-        self.inertia_kg_m2[(2, 2)]
     }
 
     /// The parameters with this mass, and what must be reported about it.
@@ -126,7 +115,7 @@ impl Ballast {
         let mut told = Vec::new();
         if differs(self.mass_kg, c.mass_kg) {
             used.mass_kg = self.mass_kg;
-            let excess_N = (self.mass_kg - c.ballast_density_kg_m3 * c.volume_m3) * GRAVITY_M_S2;
+            let excess_N = (self.mass_kg - c.ballast_density_kg_m3 * c.volume_m3) * c.gravity_m_s2;
             let (way, by) = if excess_N > 0.0 { ("sinks", "heavier") } else { ("rises", "lighter") };
             told.push(format!(
                 "weighs {} kg by its URDF, the hull of the hydrodynamic parameters {:.3} kg: the URDF's mass is used; \

@@ -11,7 +11,7 @@ use super::{mesh, urdf_form};
 use crate::error::{RobotError, ensure};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
@@ -34,29 +34,25 @@ pub(super) struct UrdfText<'a> {
     /// Path for messages.
     path: String,
     /// Folder of the URDF; names of mesh files are relative to it.
-    folder: &'a Path,
+    folder: PathBuf,
     files: &'a dyn Files,
 }
 
 impl<'a> UrdfText<'a> {
     /// The URDF that a scenario names, or the one built in, given as its name and text.
-    pub(super) fn open(
-        name: Option<&'a str>,
-        files: &'a dyn Files,
-        built_in: (&str, &str),
-    ) -> Result<Self, RobotError> {
+    pub(super) fn open(name: Option<&str>, files: &'a dyn Files, built_in: (&str, &str)) -> Result<Self, RobotError> {
         let Some(name) = name.map(Path::new) else {
             let (name, text) = built_in;
-            return Ok(Self { text: text.into(), path: format!("built-in {name}"), folder: Path::new(""), files });
+            return Ok(Self { text: text.into(), path: format!("built-in {name}"), folder: PathBuf::new(), files });
         };
         Self::open_at(name, files)
     }
 
     /// The URDF of a path.
-    pub(super) fn open_at(name: &'a Path, files: &'a dyn Files) -> Result<Self, RobotError> {
+    pub(super) fn open_at(name: &Path, files: &'a dyn Files) -> Result<Self, RobotError> {
         let path = files.path(name).display().to_string();
         match files.text(name, LONGEST) {
-            Ok(text) => Ok(Self { text, path, folder: name.parent().unwrap_or(Path::new("")), files }),
+            Ok(text) => Ok(Self { text, path, folder: name.parent().unwrap_or(Path::new("")).into(), files }),
             Err(problem) => Err(RobotError::File { path, problem }),
         }
     }
@@ -93,7 +89,7 @@ impl<'a> UrdfText<'a> {
 /// A text as if it stood in a file of that path, with the given files beside it.
 #[cfg(test)]
 pub(super) fn as_file<'a>(text: &str, path: &str, files: &'a dyn Files) -> UrdfText<'a> {
-    UrdfText { text: text.into(), path: path.into(), folder: Path::new(""), files }
+    UrdfText { text: text.into(), path: path.into(), folder: PathBuf::new(), files }
 }
 
 /// Most links of a vehicle.

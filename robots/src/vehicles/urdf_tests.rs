@@ -1,20 +1,23 @@
 //! Reads URDFs of vehicles, and checks the messages for wrong ones.
 
 use super::files::InMemory;
-use super::remus100::{Coefficients, ParameterSet};
-use super::spec::RemusSpec;
-use super::urdf::{Hull, read};
-use super::urdf_parts::as_file;
-use super::vehicle::Remus100;
+use super::torpedo::testing::remus100;
+use super::{RemusSpec, Vehicle, VehicleSpec};
+use crate::error::RobotError;
+use crate::handoff::Actuation;
 use nalgebra::Vector3;
 use world::physics::Shape;
 
-const GOOD: &str = include_str!("../../urdf/remus100.urdf");
+const GOOD: &str = include_str!("../../vehicles/remus100/remus100.urdf");
 
-fn parse(text: &str) -> Result<Hull, String> {
-    let c = Coefficients::from_set(ParameterSet::Remus100);
-    let files = InMemory::default();
-    read(&as_file(text, "/no/such/place/auv.urdf", &files), &c).map_err(|e| e.to_string())
+/// A REMUS with a URDF of its own.
+fn remus(urdf: &str, files: &InMemory) -> Result<Vehicle, RobotError> {
+    Vehicle::load(&VehicleSpec::Remus100(RemusSpec { urdf: Some(urdf.into()), ..RemusSpec::default() }), files)
+}
+
+fn parse(text: &str) -> Result<Vehicle, String> {
+    let at = "/no/such/place/auv.urdf";
+    remus(at, &InMemory::default().with(at, text.as_bytes())).map_err(|e| e.to_string())
 }
 
 /// The text of a link, with its shapes.
@@ -31,7 +34,7 @@ fn fails(from: &str, to: &str) -> String {
 
 #[test]
 fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+    let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
     let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
     assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
     for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
@@ -50,13 +53,12 @@ fn mounts_add_up_along_a_chain_of_joints() {
              <origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/></joint></robot>"#,
     );
     let hull = parse(&chain).expect("a chain");
-    assert!((hull.links["tip"].p_WB - Vector3::new(1.5, 0.0, 0.0)).norm() < 1e-12);
+    assert!((hull.mount("tip").expect("a link").p_WB - Vector3::new(1.5, 0.0, 0.0)).norm() < 1e-12);
 }
 
 #[test]
 fn a_missing_file_is_named() {
-    let spec = RemusSpec { urdf: Some("none.urdf".into()), ..RemusSpec::default() };
-    let error = Remus100::load(&spec, &InMemory::default()).expect_err("no file");
+    let error = remus("none.urdf", &InMemory::default()).expect_err("no file");
     assert_eq!(error.to_string(), "none.urdf: there is no such file");
 }
 
@@ -135,15 +137,15 @@ fn wrong_masses_are_told() {
 fn a_mass_within_the_tolerance_is_used_and_told() {
     let heavy = |text: &str| parse(text).expect("within 1 %");
     let built_in = heavy(GOOD);
-    let published = Coefficients::from_set(ParameterSet::Remus100);
-    assert_eq!(built_in.coefficients, published, "eight digits are no difference");
-    assert_eq!(built_in.told, [""; 0]);
+    let published = remus100(false);
+    assert_eq!(built_in.coefficients(), Some(&published), "eight digits are no difference");
+    assert_eq!(built_in.doubts(), [""; 0]);
 
     let hull = heavy(&GOOD.replace("value=\"31.029385\"", "value=\"31.2\""));
-    assert_eq!(hull.coefficients.mass_kg, 31.2);
-    assert_eq!(hull.coefficients.rigid_mass()[(0, 0)], 31.2);
+    assert_eq!(hull.coefficients().expect("a torpedo").mass_kg, 31.2);
+    assert_eq!(hull.coefficients().expect("a torpedo").rigid_mass()[(0, 0)], 31.2);
     assert_eq!(
-        hull.told,
+        hull.doubts(),
         ["weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
              1.67 N heavier than water of 1026 kg/m3, it sinks"]
     );
@@ -153,10 +155,10 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
             .replace("0 0 -0.02", "0.0001 0 -0.0201")
             .replace("ixy=\"0\"", "ixy=\"0.0005\""),
     );
-    assert_eq!(hull.coefficients.inertia_kg_m2.y, 4.05);
-    assert_eq!(hull.coefficients.z_g_m, 0.0201);
+    assert_eq!(hull.coefficients().expect("a torpedo").inertia_kg_m2.y, 4.05);
+    assert_eq!(hull.coefficients().expect("a torpedo").z_g_m, 0.0201);
     assert_eq!(
-        hull.told,
+        hull.doubts(),
         [
             "iyy is 4.05 kg m2 by its URDF, 4.02777 kg m2 by the hydrodynamic parameters: the URDF's is used",
             "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is \
@@ -186,9 +188,9 @@ fn masses_of_all_links_add_up() {
         "/no/such/place/auv.urdf: link \"rudder\": <mass> must be >= 0 kg, got -1"
     );
     let hull = with("0.005").expect("a small fin");
-    assert!((hull.coefficients.mass_kg - 31.034385).abs() < 1e-12);
+    assert!((hull.coefficients().expect("a torpedo").mass_kg - 31.034385).abs() < 1e-12);
     // 0.005 kg 0.8 m behind the middle, less the effect of the moved centre of gravity.
-    let more = hull.coefficients.inertia_kg_m2.z - 4.0277693;
+    let more = hull.coefficients().expect("a torpedo").inertia_kg_m2.z - 4.0277693;
     assert!((more - 0.005 * 0.64).abs() < 1e-5, "{more}");
 }
 
@@ -208,14 +210,12 @@ fn a_heavier_hull_sinks() {
     let sinks = |kg: &str| {
         let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
         let files = InMemory::default().with("auv.urdf", text.as_bytes());
-        let spec = RemusSpec { urdf: Some("auv.urdf".into()), ..RemusSpec::default() };
-        let mut vehicle = Remus100::load(&spec, &files).expect("a vehicle");
-        let command = crate::handoff::ActuatorCommand::default();
-        vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
+        let mut vehicle = remus("auv.urdf", &files).expect("a vehicle");
+        vehicle.step_in(&start, &still, &Actuation::default(), 0.02).v_world().z / 0.02
     };
     let (neutral, heavy) = (sinks("31.029385"), sinks("31.2"));
     assert!(neutral.abs() < 1e-9, "{neutral}");
-    let c = Coefficients::from_set(ParameterSet::Remus100);
+    let c = remus100(false);
     let expected = -(31.2 - c.mass_kg) * world::units::GRAVITY_M_S2 / (31.2 + c.added[2]);
     assert!((heavy / expected - 1.0).abs() < 2e-3, "{heavy} m/s2, not {expected}");
 }
@@ -246,8 +246,7 @@ fn a_mesh_beside_the_urdf_becomes_a_hull() {
         GOOD.replace("<capsule radius=\"0.095\" length=\"1.41\"/>", "<mesh filename=\"hull.obj\" scale=\"2 2 2\"/>");
     // The mesh lies beside the URDF, not beside the scenario.
     let files = InMemory::default().with("hulls/auv.urdf", text.as_bytes()).with("hulls/hull.obj", obj.as_bytes());
-    let spec = RemusSpec { urdf: Some("hulls/auv.urdf".into()), ..RemusSpec::default() };
-    let vehicle = Remus100::load(&spec, &files).expect("a vehicle with a mesh");
+    let vehicle = remus("hulls/auv.urdf", &files).expect("a vehicle with a mesh");
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
         Vector3::zeros(),
         world::units::Heading::from_deg(0.0),

@@ -1,105 +1,126 @@
-//! A vehicle with fins: hull, instruments' places, actuators and its equation of motion.
+//! A vehicle of any kind that a scenario can choose for a robot.
 
-use super::dynamics::Equation;
-use super::energy::REMUS_SHARE;
 use super::files::Files;
-use super::remus100::{Actuators, Coefficients, REMUS100, RemusTerms};
-use super::spec::RemusSpec;
-use super::urdf::{self, Hull};
-use super::urdf_parts::UrdfText;
+use super::folder::{DrivenHull, Opened, TermsSpec, VehicleFile, urdf_of};
+use super::kinematic::Kinematic;
+use super::motion::{Felt, Motion};
+use super::spec::VehicleSpec;
+use super::torpedo::TorpedoHull;
+use super::urdf::{self, Shell};
 use crate::error::RobotError;
-use crate::handoff::ActuatorCommand;
-use bevy_ecs::prelude::Component;
-use nalgebra::Vector3;
-use world::fields::WaterSample;
+use crate::handoff::Actuation;
+use nalgebra::{Matrix3, Vector3};
+use std::ops::{Deref, DerefMut};
+use world::fields::{Flow, WaterSample};
 use world::frames::{Pose, Truth};
-use world::physics::BodySpec;
+use world::physics::{BodySpec, Shape};
 
-/// A vehicle and the state of its actuators; pose and velocity belong to the physics.
-#[derive(Component, Clone, Debug)]
-pub struct Remus100 {
-    hull: Hull,
-    equation: Equation,
-    actuators: Actuators,
-    /// State, velocity (ENU) and density of the water at the beginning of the last step.
-    last: Option<(Truth, Vector3<f64>, f64)>,
+/// A vehicle: its shape by its URDF, and how it moves. Pose and velocity belong to the physics.
+#[derive(Clone, Debug)]
+pub struct Vehicle {
+    name: String,
+    shell: Shell,
+    told: Vec<String>,
+    motion: Box<dyn Motion>,
 }
 
-impl Remus100 {
-    /// Builds the vehicle that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
+impl Vehicle {
+    /// Builds the vehicle that a scenario asks for; `files` gives its files, if it names any.
     ///
     /// # Errors
-    /// If a file cannot be read, or if the URDF is wrong or does not fit the hydrodynamic parameters.
-    pub fn load(spec: &RemusSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let coefficients = Coefficients::from_set(spec.parameters);
-        let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
-        let hull = urdf::read(&text, &coefficients)?;
-        Ok(Self {
-            equation: Equation::new(hull.coefficients.body())
-                .expect("the mass of a REMUS is near that of its parameters"),
-            hull,
-            actuators: Actuators::default(),
-            last: None,
-        })
-    }
-
-    /// The hull's numbers.
-    pub fn coefficients(&self) -> &Coefficients {
-        &self.hull.coefficients
-    }
-
-    /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
-    pub fn doubts(&self) -> &[String] {
-        &self.hull.told
-    }
-
-    /// Pose of an instrument (a link of the URDF), in body axes.
-    pub fn mount(&self, name: &str) -> Option<Pose> {
-        self.hull.links.get(name).copied()
-    }
-
-    /// Present state of fins and propeller.
-    pub fn actuators(&self) -> Actuators {
-        self.actuators
-    }
-
-    /// Electric power of its propeller in the last step, W.
-    pub fn power_w(&self) -> f64 {
-        let Some((truth, water_m_s, density_kg_m3)) = &self.last else {
-            return 0.0;
+    /// If a file cannot be read, or if the vehicle cannot be one.
+    pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
+        let VehicleSpec::Kinematic(kinematic) = spec else {
+            return Self::build(&Opened::new(spec, files)?);
         };
-        let through = truth.v_WB_B - truth.pose.R_WB.inverse() * water_m_s;
-        let [v_ground, v] = [truth.v_WB_B, through].map(|v| Vector3::new(v.x, -v.y, -v.z));
-        let terms = RemusTerms { c: &self.hull.coefficients, asked: self.actuators };
-        let shaft_w = terms.shaft_w(&v_ground, &v, *density_kg_m3, self.actuators.rpm);
-        shaft_w / REMUS_SHARE
+        let urdf = urdf_of(kinematic.urdf.as_deref(), files)?;
+        let shell = urdf::shell(&urdf)?;
+        let motion = Kinematic::new(kinematic, &shell).map_err(|problem| urdf.fault(problem))?;
+        Ok(Self { name: "Kinematic".into(), shell, told: Vec::new(), motion: Box::new(motion) })
     }
 
-    /// Sets the state of fins and propeller at a start.
-    pub fn set_actuators(&mut self, actuators: Actuators) {
-        self.actuators = actuators;
+    /// Builds a vehicle from what its `vehicle.ron` says, which stands in a folder of `files`.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or if the vehicle cannot be one.
+    pub fn of_file(folder: &str, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
+        Self::build(&Opened::in_folder(folder.as_ref(), file.clone(), files)?)
+    }
+
+    fn build(opened: &Opened) -> Result<Self, RobotError> {
+        let shell = urdf::shell(&opened.urdf)?;
+        let mut told = Vec::new();
+        let motion: Box<dyn Motion> = match &opened.file.hydrodynamics.terms {
+            TermsSpec::Blocks => Box::new(DrivenHull::build(opened, &shell, &mut told)?),
+            TermsSpec::Torpedo(hull) => Box::new(TorpedoHull::build(opened, hull, &shell, &mut told)?),
+        };
+        Ok(Self { name: opened.file.name.clone(), shell, told, motion })
+    }
+
+    /// Its name for people.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What is doubtful about it, one sentence each.
+    pub fn doubts(&self) -> &[String] {
+        &self.told
+    }
+
+    /// Shapes to look at, in body axes, with their colours (`#rrggbb`).
+    pub fn visuals(&self) -> &[(Pose, Shape, String)] {
+        &self.shell.visuals
+    }
+
+    /// Pose of an instrument or drive (a link of the URDF), in body axes.
+    pub fn mount(&self, name: &str) -> Option<Pose> {
+        self.shell.links.get(name).copied()
     }
 
     /// The body for the physics.
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
-        let c = &self.hull.coefficients;
+        let inertia = self.inertia();
         BodySpec {
             id: id.to_string(),
             truth,
-            shapes: self.hull.shapes.clone(),
-            p_BG: Vector3::new(0.0, 0.0, -c.z_g_m),
-            mass: self.equation.whole_mass_flu(),
-            without_momentum: false,
+            shapes: self.shell.shapes.clone(),
+            p_BG: inertia.p_BG,
+            mass: inertia.mass,
+            without_momentum: inertia.without_momentum,
         }
     }
 
-    /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`; also moves the actuators.
-    pub fn step(&mut self, truth: &Truth, water: &WaterSample, command: &ActuatorCommand, dt_s: f64) -> Truth {
-        let c = &self.hull.coefficients;
-        let terms = RemusTerms { c, asked: Actuators::asked(command, c) };
-        let (free, actuators) = self.equation.advance(&terms, truth, &self.actuators, water, dt_s);
-        self.actuators = actuators;
-        self.last = Some((*truth, water.velocity, water.density_kg_m3));
-        free
+    /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`; `t_s` is the time in the water.
+    ///
+    /// # Panics
+    /// If the set-points are those of a vehicle of another kind.
+    pub fn step(&mut self, truth: &Truth, water: &dyn Flow, t_s: f64, set: &Actuation, dt_s: f64) -> Truth {
+        let uniform = |velocity| WaterSample {
+            velocity,
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: world::units::SEA_WATER_KG_M3,
+        };
+        let sample = match self.feels() {
+            Felt::Sample => water.sample(&truth.pose.p_WB, t_s),
+            Felt::Velocity => uniform(water.velocity(&truth.pose.p_WB, t_s)),
+            Felt::Nothing => uniform(Vector3::zeros()),
+        };
+        self.step_in(truth, &sample, set, dt_s)
+    }
+}
+
+/// What every way to move can do.
+impl Deref for Vehicle {
+    type Target = dyn Motion;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.motion
+    }
+}
+
+impl DerefMut for Vehicle {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut *self.motion
     }
 }

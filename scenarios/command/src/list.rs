@@ -6,7 +6,8 @@ use super::say;
 use super::vehicle::capabilities;
 use rheotaxis::registry::{Group, Registry, sections};
 use rheotaxis::scenario::{CATALOG, FolderFiles, parse};
-use robots::vehicles::{Files, SHIPPED, Vehicle, VehicleSpec};
+use robots::guide::GuidanceSpec;
+use robots::vehicles::{SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 
 /// Prints the sections asked for, or all of them.
@@ -35,14 +36,13 @@ pub(super) fn list(registry: &Registry, args: &ListArgs) -> Exit {
 /// Prints the vehicles that come with the program as folders, and what each can do.
 fn shipped() {
     say::line("Vehicles of folders, by `vehicle: Shipped(\"name\")`; your own by `vehicle: File(\"folder\")`");
-    let reader = FolderFiles(Path::new(""));
+    let turn_m = GuidanceSpec::default().tightest_turn_m();
     for vehicle in SHIPPED {
         let spec = VehicleSpec::Shipped(vehicle.folder.into());
-        let told = reader.vehicle(vehicle.folder, vehicle.file);
-        match (told, Vehicle::load(&spec, &reader)) {
+        match (vehicle.read(), Vehicle::load(&spec, &FolderFiles(Path::new("")))) {
             (Ok(file), Ok(craft)) => {
                 print(vehicle.folder, &file.what, &file.source);
-                for line in capabilities(&craft.capabilities(0.0)) {
+                for line in capabilities(&craft.capabilities(turn_m)) {
                     say::line(format_args!("  {:<22} {line}", ""));
                 }
             }

@@ -5,14 +5,13 @@ use super::exit::Exit;
 use super::failure::{Failure, hinted};
 use super::say;
 use super::vehicle_fly::flown;
+use nalgebra::Vector3;
 use output::charts::png;
 use output::files::{beside_no_run, write_whole};
 use rheotaxis::scenario::FolderFiles;
 use robots::guide::GuidanceSpec;
-use robots::handoff::{Capabilities, DriveEffect};
-use robots::vehicles::{
-    CATALOGUE, FolderVehicle, KinematicSpec, RemusSpec, SHIPPED, ShippedVehicle, Vehicle, VehicleSpec,
-};
+use robots::handoff::{Capabilities, Control, DriveEffect};
+use robots::vehicles::{CATALOGUE, FittedDrive, KinematicSpec, SHIPPED, ShippedVehicle, Statics, Vehicle, VehicleSpec};
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, has_rudder, numbers_csv, steering_csv, trials};
 use world::files::make_folder;
@@ -35,7 +34,6 @@ fn spec(folder: &Path) -> Result<VehicleSpec, Failure> {
         return Ok(VehicleSpec::File(name));
     }
     let hint = match name.to_ascii_lowercase().as_str() {
-        "remus100" => return Ok(VehicleSpec::Remus100(RemusSpec::default())),
         "kinematic" => return Ok(VehicleSpec::Kinematic(KinematicSpec::default())),
         low if ShippedVehicle::named(low).is_some() => return Ok(VehicleSpec::Shipped(low.to_string())),
         "shipped" => format!("name its folder: {}", names()),
@@ -46,7 +44,7 @@ fn spec(folder: &Path) -> Result<VehicleSpec, Failure> {
         _ => {
             return Err(hinted(
                 format!("{name}: there is no such folder, and no such vehicle comes with the program"),
-                format!("vehicles that come with the program: remus100, kinematic, {}", names()),
+                format!("vehicles that come with the program: kinematic, {}", names()),
             ));
         }
     };
@@ -60,10 +58,9 @@ fn names() -> String {
 
 /// Name of a vehicle for people.
 fn title(craft: &Vehicle) -> &str {
-    match craft {
-        Vehicle::Finned(_) => "REMUS 100",
-        Vehicle::Kinematic(_) => "Kinematic, with its default limits",
-        Vehicle::Described(vehicle) => vehicle.name(),
+    match craft.control() {
+        Control::Rates(_) => "Kinematic, with its default limits",
+        Control::Fins | Control::Drives(_) => craft.name(),
     }
 }
 
@@ -81,17 +78,15 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Failure> {
     for doubt in craft.doubts() {
         say::line(format_args!("doubt: {doubt}"));
     }
-    let Vehicle::Described(vehicle) = &craft else {
-        say::line(title(&craft));
-        for line in capabilities(&craft.capabilities(GuidanceSpec::default().tightest_turn_m())) {
-            say::line(format_args!("  {line}"));
-        }
-        say::line("its numbers are a part of the program: there is no folder to check or to draw");
+    say::line(title(&craft));
+    let Some(statics) = craft.statics() else {
+        print_capabilities(&craft);
+        say::line("its numbers are a part of the scenario: there is no folder to check or to draw");
         return Ok(());
     };
-    print(vehicle);
+    print(&craft, &statics);
     let out = (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
-    let svg = drawn(&looks(vehicle));
+    let svg = drawn(&looks(&craft, &statics));
     if out.extension().is_some_and(|e| e == "png") {
         write_whole(&out, &png(&svg)?)?;
     } else {
@@ -107,27 +102,23 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Failure> {
 }
 
 /// What follows from its file, in numbers.
-fn print(vehicle: &FolderVehicle) {
-    let plant = vehicle.plant();
-    let able = vehicle.capabilities();
-    let [rigid, whole] = [vehicle.mass_kg(), plant.mass[(0, 0)]];
-    say::line(vehicle.name());
-    say::line(format_args!("  mass                    {rigid:.3} kg, {whole:.3} kg with the water that surges along"));
+fn print(craft: &Vehicle, statics: &Statics) {
+    let Statics { mass_kg, whole_mass, heavy_n, righting_n_m, .. } = statics;
+    let surging = whole_mass[(0, 0)];
     say::line(format_args!(
-        "  weight less buoyancy    {:.2} N in water of 1025 kg/m3, or of the density of its file",
-        plant.heavy_n
+        "  mass                    {mass_kg:.3} kg, {surging:.3} kg with the water that surges along"
     ));
     say::line(format_args!(
-        "  righting moment         {:.2} N m at 1 rad; period in roll {}, in pitch {}",
-        plant.righting_n_m,
-        period(plant.righting_n_m, plant.mass[(3, 3)]),
-        period(plant.righting_n_m, plant.mass[(4, 4)])
+        "  weight less buoyancy    {heavy_n:.2} N in water of 1025 kg/m3, or of the density of its file"
     ));
-    for line in capabilities(&able) {
-        say::line(format_args!("  {line}"));
-    }
-    let drives = plant.drives.iter().zip(vehicle.drives());
-    for (k, ((drive, link), (_, way))) in drives.zip(vehicle.acting()).enumerate() {
+    say::line(format_args!(
+        "  righting moment         {righting_n_m:.2} N m at 1 rad; period in roll {}, in pitch {}",
+        period(*righting_n_m, whole_mass[(3, 3)]),
+        period(*righting_n_m, whole_mass[(4, 4)])
+    ));
+    print_capabilities(craft);
+    for (k, drive) in craft.drives().iter().enumerate() {
+        let link = &drive.named.name;
         let [least, most] = drive.limits;
         let (does, acts) = match &drive.does {
             DriveEffect::Pushes(_, table) => {
@@ -144,15 +135,25 @@ fn print(vehicle: &FolderVehicle) {
             DriveEffect::Shifts(_, kg) => (format!("moving mass of {kg} kg, {least} to {most} m"), "slides along"),
         };
         say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
-        let place = vehicle.mount(link).map_or(way, |pose| pose.p_WB);
-        let [at, way] = [place, way].map(triple);
+        let [at, way] = [place(craft, drive), drive.way].map(triple);
         say::line(format_args!("           at {at} m, {acts} {way}"));
     }
     say::line("           (forward, left, up, from the origin of the first link)");
 }
 
+fn print_capabilities(craft: &Vehicle) {
+    for line in capabilities(&craft.capabilities(GuidanceSpec::default().tightest_turn_m())) {
+        say::line(format_args!("  {line}"));
+    }
+}
+
+/// Where a drive sits.
+fn place(craft: &Vehicle, drive: &FittedDrive) -> Vector3<f64> {
+    craft.mount(&drive.named.name).expect("its link is there").p_WB
+}
+
 /// Three numbers, without -0.
-fn triple(v: nalgebra::Vector3<f64>) -> String {
+fn triple(v: Vector3<f64>) -> String {
     let [x, y, z] = [v.x, v.y, v.z].map(|c| (1e3 * c).round() / 1e3 + 0.0);
     format!("({x:.3}, {y:.3}, {z:.3})")
 }
@@ -183,12 +184,12 @@ pub(super) fn capabilities(able: &Capabilities) -> [String; 3] {
     ]
 }
 
-fn looks(vehicle: &FolderVehicle) -> Looks {
+fn looks(craft: &Vehicle, statics: &Statics) -> Looks {
     Looks {
-        name: vehicle.name().to_string(),
-        shapes: vehicle.visuals().to_vec(),
-        centres: vehicle.centres(),
-        drives: (vehicle.acting().enumerate()).map(|(k, (at, way))| (at, way, k + 1)).collect(),
+        name: craft.name().to_string(),
+        shapes: craft.visuals().to_vec(),
+        centres: statics.centres,
+        drives: (craft.drives().iter().zip(1..)).map(|(drive, k)| (place(craft, drive), drive.way, k)).collect(),
     }
 }
 

@@ -14,12 +14,13 @@ const LONGEST: u64 = 64 << 20;
 
 /// Flies it and writes its states.
 pub(super) fn flown(args: &VehicleFlyArgs, vehicle: &Vehicle) -> Result<(), Failure> {
-    let Vehicle::Described(vehicle) = vehicle else {
+    let drives = vehicle.named_drives();
+    if drives.is_empty() {
         return Err(hinted(
-            "only a vehicle of a folder has drives with names to fly it by",
+            "a vehicle without dynamics has no drives to fly it by",
             "a scenario with `strategy: OpenLoop(...)` flies it by a table",
         ));
-    };
+    }
     for (name, value, legal) in [
         ("--step-s", args.step_s, 1e-4..=0.1),
         ("--every-s", args.every_s, 1e-4..=1e6),
@@ -31,7 +32,7 @@ pub(super) fn flown(args: &VehicleFlyArgs, vehicle: &Vehicle) -> Result<(), Fail
         }
     }
     let text = read_text(&args.table, LONGEST).map_err(|e| format!("{}: {e}", args.table.display()))?;
-    let links: Vec<&str> = vehicle.drives().collect();
+    let links: Vec<&str> = drives.iter().map(|drive| drive.name.as_str()).collect();
     let set = table(&text, &links).map_err(|e| format!("{}: {e}", args.table.display()))?;
     let [roll, pitch] = args.tilt_deg.0;
     let flight = Flight {

@@ -1,11 +1,10 @@
 //! The axes of a URDF's joints are those of the drives on them.
 
-use super::kit::{built, shipped, still};
+use super::kit::{built, set, shipped, still};
 use crate::common;
 use nalgebra::Vector3;
 use rheotaxis::scenario::FolderFiles;
-use robots::handoff::DriveCommand;
-use robots::vehicles::{Description, Files, FolderVehicle, InMemory, VehicleFile, VehicleSpec};
+use robots::vehicles::{Description, Files, InMemory, Vehicle, VehicleFile, VehicleSpec};
 use std::path::Path;
 use world::frames::{Pose, Truth};
 use world::units::Heading;
@@ -54,18 +53,18 @@ fn box_file() -> VehicleFile {
     read.unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn boxed(kind: &str, axis: &str) -> FolderVehicle {
+fn boxed(kind: &str, axis: &str) -> Vehicle {
     built(&box_file(), &box_urdf(kind, axis))
 }
 
 fn refused(file: &VehicleFile, urdf: &str) -> String {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    let loaded = FolderVehicle::load(Path::new("it"), file, &files);
+    let loaded = Vehicle::of_file("it", file, &files);
     loaded.expect_err("it cannot be a vehicle").to_string()
 }
 
-fn way(vehicle: &FolderVehicle, drive: usize) -> Vector3<f64> {
-    vehicle.acting().nth(drive).expect("as many drives").1
+fn way(vehicle: &Vehicle, drive: usize) -> Vector3<f64> {
+    vehicle.drives()[drive].way
 }
 
 #[test]
@@ -79,11 +78,11 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
     ] {
         let mut vehicle = boxed(kind, axis);
         assert!((way(&vehicle, 2) - along).norm() < 1e-12, "{kind} {axis}");
-        assert_eq!(vehicle.capabilities().dives, along.z != 0.0);
+        assert_eq!(vehicle.capabilities(0.0).dives, along.z != 0.0);
         assert_eq!(vehicle.doubts(), [""; 0]);
         // And there it pushes the hull.
         let deep = Pose::level(Vector3::new(0.0, 0.0, -20.0), Heading::from_deg(90.0));
-        let pushed = vehicle.step(&Truth::at_rest(deep), &still(1025.0), &DriveCommand::new(&[0.0, 0.0, 20.0]), 0.02);
+        let pushed = vehicle.step_in(&Truth::at_rest(deep), &still(1025.0), &set(&[0.0, 0.0, 20.0]), 0.02);
         assert!(pushed.v_WB_B.normalize().dot(&along) > 0.99, "{pushed:?}");
     }
 }
@@ -126,7 +125,7 @@ fn a_fin_turns_about_the_axis_of_its_joint() {
     let tail = built(&file, &tail);
     assert!((way(&tail, 1) - Vector3::new(0.0, half, -half)).norm() < 1e-12);
     assert!((way(&tail, 3) - Vector3::new(0.0, -half, -half)).norm() < 1e-12);
-    assert!(tail.capabilities().dives);
+    assert!(tail.capabilities(0.0).dives);
     // A link whose x axis points outwards, along the hinge: the chord lies along the hull.
     let outwards = built(&file, &urdf.replace(ROLL, " rpy=\"0 -1.5707963267948966 0\"/><axis xyz=\"1 0 0\"/>"));
     assert!((way(&outwards, 1) - way(&rolled, 1)).norm() < 1e-12);

@@ -2,10 +2,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use rheotaxis::scenario::FolderFiles;
-use robots::handoff::{PilotSpec, ThrustersSpec};
+use robots::handoff::{Actuation, DriveCommand, PilotSpec, ThrustersSpec};
 use robots::vehicles::{
-    Axes, Block, CurveSpec, DriveSpec, Files, FolderVehicle, HydrodynamicsSpec, InMemory, ShippedVehicle, ThrusterSpec,
-    VehicleFile,
+    Axes, Block, CurveSpec, DriveSpec, Files, HydrodynamicsSpec, InMemory, ShippedVehicle, TermsSpec, ThrusterSpec,
+    Vehicle, VehicleFile,
 };
 use std::path::Path;
 use world::fields::WaterSample;
@@ -21,9 +21,14 @@ pub(super) fn shipped(name: &str) -> (VehicleFile, String) {
 }
 
 /// The vehicle of a file and a URDF.
-pub(super) fn built(file: &VehicleFile, urdf: &str) -> FolderVehicle {
+pub(super) fn built(file: &VehicleFile, urdf: &str) -> Vehicle {
     let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    FolderVehicle::load(Path::new("it"), file, &files).unwrap_or_else(|e| panic!("{e}"))
+    Vehicle::of_file("it", file, &files).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Set-points of a vehicle with drives.
+pub(super) fn set(values: &[f64]) -> Actuation {
+    Actuation::Drives(DriveCommand::new(values))
 }
 
 /// A thruster whose input is its thrust, at once.
@@ -77,7 +82,7 @@ fn positive(rng: &mut Stream, force: f64, arm_m: f64) -> Matrix6<f64> {
 }
 
 /// A hull within the limits of `check`, about which it has no doubt of energy.
-pub(super) fn random_hull(rng: &mut Stream) -> FolderVehicle {
+pub(super) fn random_hull(rng: &mut Stream) -> Vehicle {
     let size = math::exp(between(rng, -2.0, 1.5));
     let kg = 200.0 * size * size * size * between(rng, 0.3, 3.0);
     let arms = [0, 1, 2].map(|_| size * between(rng, 0.1, 0.5));
@@ -106,6 +111,7 @@ pub(super) fn random_hull(rng: &mut Stream) -> FolderVehicle {
         source: String::new(),
         urdf: "r.urdf".into(),
         hydrodynamics: HydrodynamicsSpec {
+            terms: TermsSpec::Blocks,
             axes: Axes::Flu,
             from_urdf: false,
             volume_m3: Some(Positive::new(kg / 1025.0 * between(rng, 0.95, 1.05))),
@@ -123,7 +129,7 @@ pub(super) fn random_hull(rng: &mut Stream) -> FolderVehicle {
             floats: false,
         },
         drives: ["left", "right"].map(newtons).to_vec(),
-        autopilot: PilotSpec::Thrusters(ThrustersSpec::default()),
+        autopilot: Some(PilotSpec::Thrusters(ThrustersSpec::default())),
     };
     built(&file, &urdf)
 }

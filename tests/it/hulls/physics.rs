@@ -1,8 +1,8 @@
 //! What holds for any hull: no energy from nothing, a current only carries, walls stop it.
 
-use super::kit::{built, newtons, random_hull, shipped, still};
-use nalgebra::{UnitQuaternion, Vector3};
-use robots::handoff::DriveCommand;
+use super::kit::{built, newtons, random_hull, set, shipped, still};
+use nalgebra::{UnitQuaternion, Vector3, Vector6};
+use robots::vehicles::Vehicle;
 use world::frames::{Pose, Truth};
 use world::physics::Physics;
 use world::seeds::Stream;
@@ -22,6 +22,16 @@ fn random_state(rng: &mut Stream) -> Truth {
     truth
 }
 
+/// Kinetic energy in still water, with that of the water that moves along, and potential energy in water of a density, J.
+fn energy_J(hull: &Vehicle, truth: &Truth, density_kg_m3: f64) -> f64 {
+    let statics = hull.statics().expect("a hull");
+    let (v, w) = (truth.v_WB_B, truth.w_WB_B);
+    let nu = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+    let [weight, lift] = statics.centres.map(|r| truth.pose.point(r).z);
+    let forces = statics.mass_kg * weight - density_kg_m3 * statics.volume_m3 * lift;
+    0.5 * nu.dot(&(statics.whole_mass * nu)) + 9.80665 * forces
+}
+
 /// Two thousand hulls within what `check` lets pass without a doubt about energy, let go in still water.
 #[test]
 fn no_hull_gains_energy_from_still_water() {
@@ -32,12 +42,12 @@ fn no_hull_gains_energy_from_still_water() {
         let mut truth = random_state(&mut rng);
         let idle = hull.idle();
         // The potential energy has no zero: what counts is its change beside the kinetic energy at the start.
-        let mut energy = hull.energy_J(&truth, 1025.0);
+        let mut energy = energy_J(&hull, &truth, 1025.0);
         let rest = Truth { v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros(), ..truth };
-        let scale = energy - hull.energy_J(&rest, 1025.0) + 1.0;
+        let scale = energy - energy_J(&hull, &rest, 1025.0) + 1.0;
         for step in 0..40 {
-            truth = hull.step(&truth, &still(1025.0), &idle, dt_s);
-            let now = hull.energy_J(&truth, 1025.0);
+            truth = hull.step_in(&truth, &still(1025.0), &idle, dt_s);
+            let now = energy_J(&hull, &truth, 1025.0);
             assert!(now - energy < 1e-4 * scale, "hull {n}, step {step} of {dt_s} s: {} J of {scale} J", now - energy);
             energy = now;
         }
@@ -60,11 +70,11 @@ fn a_current_only_carries() {
             let mut water = still(1025.0);
             water.velocity = current;
             // Every drive otherwise, so that they do not cancel each other.
-            let all: Vec<f64> = (hull.plant().drives.iter().enumerate())
-                .map(|(k, d)| d.idle + (d.limits[1] - d.idle) * 0.4 / (1.0 + k as f64))
+            let all: Vec<f64> = (hull.drives().iter().enumerate())
+                .map(|(k, d)| d.named.idle + (d.limits[1] - d.named.idle) * 0.4 / (1.0 + k as f64))
                 .collect();
             for _ in 0..1500 {
-                truth = hull.step(&truth, &water, &DriveCommand::new(&all), 0.02);
+                truth = hull.step_in(&truth, &water, &set(&all), 0.02);
             }
             truth
         };
@@ -104,7 +114,7 @@ fn a_wall_stops_it_at_any_step() {
             let start = Pose { p_WB: Vector3::new(0.0, 0.0, -10.0), R_WB: UnitQuaternion::identity() };
             let mut truth = Truth::at_rest(start);
             let id = physics.add_body(hull.body_spec("auv", truth));
-            let ahead: Vec<f64> = (hull.plant().drives.iter())
+            let ahead: Vec<f64> = (hull.drives().iter())
                 .map(|d| match &d.does {
                     robots::handoff::DriveEffect::Pushes(arm, table) if arm[0] > 0.5 => {
                         table.input(share * table.thrusts_n()[1])
@@ -112,13 +122,13 @@ fn a_wall_stops_it_at_any_step() {
                     robots::handoff::DriveEffect::Pushes(arm, table) if arm[0] < -0.5 => {
                         table.input(share * table.thrusts_n()[0])
                     }
-                    _ => d.idle,
+                    _ => d.named.idle,
                 })
                 .collect();
             let mut touched = false;
             let mut fastest: f64 = 0.0;
             for _ in 0..(30.0 / dt_s) as u32 {
-                let free = hull.step(&truth, &still(1025.0), &DriveCommand::new(&ahead), dt_s);
+                let free = hull.step_in(&truth, &still(1025.0), &set(&ahead), dt_s);
                 physics.push(id, free);
                 physics.step();
                 truth = physics.truth(id);
@@ -145,12 +155,12 @@ fn the_step_changes_little() {
             *drive = plain;
         }
     }
-    let set = DriveCommand::new(&[3.0, 2.0, -1.0, -3.0, -4.0, 4.0, 4.0, -4.0]);
+    let asked = set(&[3.0, 2.0, -1.0, -3.0, -4.0, 4.0, 4.0, -4.0]);
     let fly = |dt_s: f64| {
         let mut hull = built(&file, &urdf);
         let mut truth = Truth::at_rest(Pose { p_WB: Vector3::new(0.0, 0.0, -50.0), R_WB: UnitQuaternion::identity() });
         for _ in 0..(10.0 / dt_s).round() as u32 {
-            truth = hull.step(&truth, &still(1025.0), &set, dt_s);
+            truth = hull.step_in(&truth, &still(1025.0), &asked, dt_s);
         }
         truth
     };

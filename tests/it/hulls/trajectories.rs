@@ -2,10 +2,9 @@
 //!
 //! Reference data: `tests/reference/vehicles/README.md`.
 
-use super::kit::{built, newtons, shipped, still};
+use super::kit::{self, built, newtons, shipped, still};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use robots::handoff::DriveCommand;
-use robots::vehicles::{DriveSpec, FolderVehicle};
+use robots::vehicles::{DriveSpec, Vehicle};
 use world::frames::{Pose, Truth};
 
 const DT_S: f64 = 0.02;
@@ -26,7 +25,7 @@ fn pose(row: &[f64]) -> Pose {
 }
 
 /// Flies a vehicle from the first row, with set-points by time; greatest distance (m) and angle (degrees).
-fn apart(vehicle: &mut FolderVehicle, text: &str, set: impl Fn(f64) -> Vec<f64>) -> (f64, f64) {
+fn apart(vehicle: &mut Vehicle, text: &str, set: impl Fn(f64) -> Vec<f64>) -> (f64, f64) {
     let rows = rows(text);
     let first = &rows[0];
     let mut truth = Truth::at_rest(pose(first));
@@ -36,8 +35,8 @@ fn apart(vehicle: &mut FolderVehicle, text: &str, set: impl Fn(f64) -> Vec<f64>)
     let mut step = 0u32;
     for row in &rows[1..] {
         while f64::from(step) * DT_S < row[0] - 0.5 * DT_S {
-            let command = DriveCommand::new(&set(f64::from(step) * DT_S));
-            truth = vehicle.step(&truth, &still(1025.0), &command, DT_S);
+            let command = kit::set(&set(f64::from(step) * DT_S));
+            truth = vehicle.step_in(&truth, &still(1025.0), &command, DT_S);
             step += 1;
         }
         let there = pose(row);
@@ -47,7 +46,7 @@ fn apart(vehicle: &mut FolderVehicle, text: &str, set: impl Fn(f64) -> Vec<f64>)
     (metres, degrees)
 }
 
-fn bluerov() -> FolderVehicle {
+fn bluerov() -> Vehicle {
     let (mut file, urdf) = shipped("bluerov2_heavy");
     for drive in &mut file.drives {
         let DriveSpec::Thruster(thruster) = drive else {
@@ -59,7 +58,7 @@ fn bluerov() -> FolderVehicle {
 }
 
 /// The hull alone, with a thruster along its axis and two beside it.
-fn lauv() -> FolderVehicle {
+fn lauv() -> Vehicle {
     let (mut file, urdf) = shipped("lauv");
     let link = |name: &str, y: f64| {
         format!(

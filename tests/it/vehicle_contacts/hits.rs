@@ -2,7 +2,7 @@
 
 use super::kit::{HALF_M, RADIUS_M, Water, flip, join, mass, moving, nu, plate};
 use nalgebra::{Matrix3, Vector3, Vector6};
-use robots::vehicles::Remus100;
+use robots::vehicles::Vehicle;
 use world::frames::Truth;
 
 /// Hits of hulls that the water slows down give no energy, whatever the step and the angle.
@@ -54,7 +54,7 @@ fn at(arm: &Vector3<f64>) -> nalgebra::Matrix3x6<f64> {
 }
 
 /// Impulse on the point at `arm` (FRD) that stops it.
-fn stopping(vehicle: &Remus100, nu: &Vector6<f64>, arm: &Vector3<f64>) -> Vector3<f64> {
+fn stopping(vehicle: &Vehicle, nu: &Vector6<f64>, arm: &Vector3<f64>) -> Vector3<f64> {
     let j = at(arm);
     let inverse = mass(vehicle).try_inverse().expect("a mass");
     let give = (j * inverse * j.transpose()).try_inverse().expect("a point");

@@ -1,8 +1,8 @@
 //! Hulls in still water, and what stands in their way.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, Remus100, RemusSpec};
+use robots::handoff::{Actuation, ActuatorCommand};
+use robots::vehicles::{Coefficients, InMemory, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -70,14 +70,18 @@ pub(super) fn nu(t: &Truth) -> Vector6<f64> {
     join(flip(t.v_WB_B), flip(t.w_WB_B))
 }
 
-pub(super) fn mass(vehicle: &Remus100) -> Matrix6<f64> {
-    vehicle.coefficients().rigid_mass() + vehicle.coefficients().added_mass()
+fn coefficients(vehicle: &Vehicle) -> &Coefficients {
+    vehicle.coefficients().expect("terms of its own")
+}
+
+pub(super) fn mass(vehicle: &Vehicle) -> Matrix6<f64> {
+    coefficients(vehicle).rigid_mass() + coefficients(vehicle).added_mass()
 }
 
 /// Hulls in still water among solids.
 pub(super) struct Water {
     pub(super) physics: Physics,
-    pub(super) hulls: Vec<(Remus100, BodyId)>,
+    pub(super) hulls: Vec<(Vehicle, BodyId)>,
     pub(super) command: ActuatorCommand,
 }
 
@@ -89,7 +93,7 @@ impl Water {
         }
         let hulls = (starts.iter())
             .map(|start| {
-                let vehicle = Remus100::load(&RemusSpec::default(), &InMemory::default());
+                let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default());
                 let vehicle = vehicle.expect("built-in vehicle");
                 let id = physics.add_body(vehicle.body_spec("auv", *start));
                 (vehicle, id)
@@ -118,7 +122,7 @@ impl Water {
         };
         let step_s = self.physics.dt_s();
         for (vehicle, id) in &mut self.hulls {
-            let free = vehicle.step(&self.physics.truth(*id), &still, &self.command, step_s);
+            let free = vehicle.step_in(&self.physics.truth(*id), &still, &Actuation::Fins(self.command), step_s);
             self.physics.push(*id, free);
         }
         self.glide()
@@ -130,8 +134,8 @@ impl Water {
 
     /// Kinetic energy with the water's, and that of the low centre of gravity, J.
     pub(super) fn energy(&self) -> f64 {
-        let of = |(vehicle, id): &(Remus100, BodyId)| {
-            let (t, c) = (self.physics.truth(*id), vehicle.coefficients());
+        let of = |(vehicle, id): &(Vehicle, BodyId)| {
+            let (t, c) = (self.physics.truth(*id), coefficients(vehicle));
             let upright = (t.pose.R_WB * Vector3::z()).z;
             0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t))) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
         };

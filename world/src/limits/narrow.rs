@@ -1,13 +1,29 @@
-//! A limit in the schema of a field: narrower bounds and the unit, on every number that the field holds.
+//! A limit: what it refuses, and what it is in the schema of a field: narrower bounds and the unit, on every number that
+//! the field holds.
 
-use super::Range;
+use crate::ranges::shown;
 use schemars::Schema;
 use serde_json::{Map, Value};
 
 /// Under this key a schema says the unit of its numbers.
 pub const UNIT: &str = "x-unit";
 
+/// A legal range, ends included, with its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range(pub f64, pub f64, pub &'static str);
+
 impl Range {
+    /// Why a number is outside.
+    pub(super) fn refuses(&self, v: f64) -> Option<String> {
+        let Range(low, high, unit) = self;
+        // Not `v < low || v > high`, which would accept NaN.
+        if v >= *low && v <= *high {
+            return None;
+        }
+        let space = if unit.is_empty() { "" } else { " " };
+        Some(format!("must be from {} to {}{space}{unit}, got {}", shown(*low), shown(*high), shown(v)))
+    }
+
     /// Puts the range on every number of a field: itself, or those of a pair, a triple or a list, given or not.
     pub fn narrow(&self, field: &mut Schema) {
         if let Some(field) = field.as_object_mut() {

@@ -1,9 +1,11 @@
 //! The rows that are known: those that come with the program and those that another crate adds.
 
+use super::read::{self, ReadError};
 use super::{Kind, Listed, Row, Takes};
 use crate::catalogue::Entry;
 use crate::error::WorldError;
-use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
@@ -85,9 +87,30 @@ impl Registry {
         self.rows::<K>().iter().map(|r| r.entry).collect()
     }
 
+    /// Reads a RON text.
+    ///
+    /// # Errors
+    /// The first mistake.
+    pub fn read<T: DeserializeOwned>(&self, text: &str) -> Result<T, ReadError> {
+        self.scope(|| read::whole(text))
+    }
+
+    /// The JSON Schema of a file that is read as a `T`. The schemas of `more` types refer to the same definitions.
+    pub fn schema<T: JsonSchema>(
+        &self,
+        settings: SchemaSettings,
+        more: &[fn(&mut SchemaGenerator) -> Schema],
+    ) -> (Schema, Vec<Schema>) {
+        self.scope(|| {
+            let mut types = settings.into_generator();
+            let more = more.iter().map(|schema| schema(&mut types)).collect();
+            (types.into_root_schema_for::<T>(), more)
+        })
+    }
+
     /// Does something on this thread with these rows known. The traits that read a value and make the schema of a type take
     /// no argument, so they look here.
-    pub(super) fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
+    fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
         /// Puts back what was known before, also if the work panics.
         struct RestoreOnDrop(Registry);
         impl Drop for RestoreOnDrop {

@@ -1,7 +1,8 @@
 //! What stands in a scenario where something is chosen by name.
 
-use super::read::{IsNone, Name, from_text};
-use super::{Kind, Registry, Row, Spec, Standard, Takes};
+use super::kind::Name;
+use super::read::{IsNone, from_text};
+use super::{Kind, Registry, Row, Spec, Takes};
 use serde::de::DeserializeSeed;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -9,6 +10,12 @@ use std::ops::{Deref, DerefMut};
 
 /// One thing of a kind with its parameters. In files it is an enum: the name, and the parameters in parentheses.
 pub struct Choice<K: Kind>(Box<K::Spec>);
+
+/// A kind with a thing for those who do not choose.
+pub trait Standard: Kind {
+    /// That thing with its standard parameters.
+    fn standard() -> Choice<Self>;
+}
 
 impl<K: Kind> Choice<K> {
     /// The thing with these parameters.

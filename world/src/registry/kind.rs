@@ -1,10 +1,13 @@
-//! Kinds of things that are chosen by name, and what all things of all kinds can do.
+//! Kinds of things that are chosen by name, their rows, and what all things of all kinds can do.
 
-use super::{Choice, Row};
+use super::read::Parameters;
 use crate::catalogue::Entry;
 use dyn_clone::DynClone;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Deserializer;
+use serde::de::{DeserializeOwned, DeserializeSeed, Visitor};
 use std::any::Any;
-use std::fmt::Debug;
+use std::fmt::{self, Debug};
 
 /// A place in a scenario where one of several things stands by its name. Made by [`kind!`](crate::kind).
 pub trait Kind: Sized + 'static {
@@ -25,12 +28,6 @@ pub trait Kind: Sized + 'static {
 pub trait Takes<S>: Kind {
     /// The parameters as what the kind's things can do.
     fn boxed(spec: S) -> Box<Self::Spec>;
-}
-
-/// A kind with a thing for those who do not choose.
-pub trait Standard: Kind {
-    /// That thing with its standard parameters.
-    fn standard() -> Choice<Self>;
 }
 
 /// Parameters that a scenario can ask for by name.
@@ -73,48 +70,66 @@ where
     }
 }
 
-/// Makes a kind, its rows and the type that stands in a scenario.
-///
-/// `pub FindSpec = Finds of BehaviourSpec { heading: "...", rows: [ZigZag, ...], standard: ZigZag }` makes the kind `Finds`, whose
-/// things implement the trait `BehaviourSpec`, and `FindSpec`, a [`Choice`] of them. `standard` may be left out.
-#[macro_export]
-macro_rules! kind {
-    (
-        $(#[doc = $what:literal])+
-        $vis:vis $choice:ident = $kind:ident of $spec:ident {
-            heading: $heading:expr,
-            rows: [$($row:ty),* $(,)?]
-            $(, standard: $standard:ty)? $(,)?
+/// Reads the parameters of a thing.
+type Read<K> = for<'de> fn(&mut ron::de::Deserializer<'de>) -> ron::Result<Box<<K as Kind>::Spec>>;
+
+/// One thing of a kind.
+pub struct Row<K: Kind> {
+    /// Name as written in RON, one sentence, source.
+    pub entry: Entry,
+    pub(super) read: Read<K>,
+    pub(super) schema: fn(&mut SchemaGenerator) -> Schema,
+}
+
+impl<K: Kind> Row<K> {
+    /// The row of parameters `S`.
+    pub fn new<S: Listed + DeserializeOwned + JsonSchema>() -> Self
+    where
+        K: Takes<S>,
+    {
+        Self {
+            entry: S::ENTRY,
+            read: |from| S::deserialize(Parameters(from)).map(K::boxed),
+            schema: SchemaGenerator::subschema_for::<S>,
         }
-    ) => {
-        $(#[doc = $what])+
-        #[derive(Clone, Copy, Debug)]
-        $vis enum $kind {}
+    }
+}
 
-        $(#[doc = $what])+
-        $vis type $choice = $crate::registry::Choice<$kind>;
+impl<K: Kind> Clone for Row<K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
 
-        impl $crate::registry::Kind for $kind {
-            type Spec = dyn $spec;
-            const NAME: &'static str = stringify!($choice);
-            const HEADING: &'static str = $heading;
-            const WHAT: &'static str = concat!($($what),+);
+impl<K: Kind> Copy for Row<K> {}
 
-            fn built_in() -> Vec<$crate::registry::Row<Self>> {
-                vec![$($crate::registry::Row::new::<$row>()),*]
-            }
-        }
+impl<K: Kind> Debug for Row<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple(K::NAME).field(&self.entry).finish()
+    }
+}
 
-        impl<S: $spec + 'static> $crate::registry::Takes<S> for $kind {
-            fn boxed(spec: S) -> Box<dyn $spec> {
-                Box::new(spec)
-            }
-        }
+/// Reads a name, and finds its row.
+pub(super) struct Name<'r, K: Kind>(pub(super) &'r [Row<K>]);
 
-        $(impl $crate::registry::Standard for $kind {
-            fn standard() -> $choice {
-                $choice::new(<$standard>::default())
-            }
-        })?
-    };
+impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
+        from.deserialize_identifier(self)
+    }
+}
+
+impl<K: Kind> Visitor<'_> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a name")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Row<K>, E> {
+        let known = || self.0.iter().map(|row| row.entry.name).collect::<Vec<_>>().join(", ");
+        let row = self.0.iter().find(|row| row.entry.name == name);
+        row.copied().ok_or_else(|| E::custom(format!("there is no `{name}`; there are: {}", known())))
+    }
 }

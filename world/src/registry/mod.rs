@@ -8,16 +8,15 @@
 mod added;
 mod choice;
 mod kind;
+mod macros;
 mod read;
-mod row;
 mod schema;
 mod set;
 #[cfg(test)]
 mod tests;
 
 pub use added::Registry;
-pub use choice::Choice;
-pub use kind::{Kind, Listed, Spec, Standard, Takes};
+pub use choice::{Choice, Standard};
+pub use kind::{Kind, Listed, Row, Spec, Takes};
 pub use read::ReadError;
-pub use row::Row;
 pub use set::Set;

@@ -1,11 +1,8 @@
-//! Reads files, and makes the schemas of files, with the rows of a registry known.
+//! Reads RON: whole texts, and values from their own text.
 
-use super::{Kind, Registry, Row};
 use ron::de::Deserializer as Ron;
 use ron::error::{Position, SpannedError};
 use ron::extensions::Extensions;
-use schemars::generate::SchemaSettings;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserializer;
 use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error as _, VariantAccess, Visitor};
 use std::cell::Cell;
@@ -27,34 +24,15 @@ thread_local! {
     static INNERMOST: Cell<Option<ReadError>> = const { Cell::new(None) };
 }
 
-impl Registry {
-    /// Reads a RON text.
-    ///
-    /// # Errors
-    /// The first mistake.
-    pub fn read<T: DeserializeOwned>(&self, text: &str) -> Result<T, ReadError> {
-        INNERMOST.take();
-        let read = self.scope(|| options().from_str(text));
-        read.map_err(|error| {
-            let whole = text.as_ptr() as usize;
-            let inner = INNERMOST.take().filter(|e| whole <= e.at.start && e.at.end <= whole + text.len());
-            let inner = inner.map(|e| ReadError { at: e.at.start - whole..e.at.end - whole, ..e });
-            inner.unwrap_or_else(|| placed(text, &error))
-        })
-    }
-
-    /// The JSON Schema of a file that is read as a `T`. The schemas of `more` types refer to the same definitions.
-    pub fn schema<T: JsonSchema>(
-        &self,
-        settings: SchemaSettings,
-        more: &[fn(&mut SchemaGenerator) -> Schema],
-    ) -> (Schema, Vec<Schema>) {
-        self.scope(|| {
-            let mut types = settings.into_generator();
-            let more = more.iter().map(|schema| schema(&mut types)).collect();
-            (types.into_root_schema_for::<T>(), more)
-        })
-    }
+/// Reads a whole text.
+pub(super) fn whole<T: DeserializeOwned>(text: &str) -> Result<T, ReadError> {
+    INNERMOST.take();
+    options().from_str(text).map_err(|error| {
+        let whole = text.as_ptr() as usize;
+        let inner = INNERMOST.take().filter(|e| whole <= e.at.start && e.at.end <= whole + text.len());
+        let inner = inner.map(|e| ReadError { at: e.at.start - whole..e.at.end - whole, ..e });
+        inner.unwrap_or_else(|| placed(text, &error))
+    })
 }
 
 fn options() -> ron::Options {
@@ -177,31 +155,6 @@ impl Visitor<'_> for IsNone {
 
     fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<bool, E> {
         Ok(name == "None")
-    }
-}
-
-/// Reads a name, and finds its row.
-pub(super) struct Name<'r, K: Kind>(pub(super) &'r [Row<K>]);
-
-impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
-        from.deserialize_identifier(self)
-    }
-}
-
-impl<K: Kind> Visitor<'_> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a name")
-    }
-
-    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Row<K>, E> {
-        let known = || self.0.iter().map(|row| row.entry.name).collect::<Vec<_>>().join(", ");
-        let row = self.0.iter().find(|row| row.entry.name == name);
-        row.copied().ok_or_else(|| E::custom(format!("there is no `{name}`; there are: {}", known())))
     }
 }
 

@@ -1,6 +1,6 @@
 //! What stands in a scenario where several things of a kind are named, each once: a struct with a field for each.
 
-use super::read::Name;
+use super::kind::Name;
 use super::{Choice, Kind, Registry, Row, Takes};
 use serde::de::{Error, MapAccess, Visitor};
 use serde::ser::SerializeStruct;

@@ -1,7 +1,6 @@
 use super::*;
 use crate::handoff::testing::{area, seen};
 use crate::handoff::{FlowEstimate, Vertical};
-use crate::places::edges;
 use proptest::prelude::*;
 
 const DT_S: f64 = 0.1;
@@ -170,7 +169,7 @@ proptest! {
         for _ in 0..6000 {
             prop_assert!(!b.step(&g).aborted);
             let p = b.est.position;
-            prop_assert!(edges(&area(), p).iter().all(|(d, _)| *d > -23.6), "{p:?}");
+            prop_assert!(area().sides().edges(p).iter().all(|(d, _)| *d > -23.6), "{p:?}");
         }
     }
 

@@ -12,7 +12,6 @@
 //! another edge is followed across it, and crosses the line of the up-flow edge outside the region: then the nearest
 //! place on the edge itself is taken.
 
-use crate::places::edges;
 use nalgebra::Vector2;
 use std::collections::VecDeque;
 use world::area::Area;
@@ -52,7 +51,7 @@ pub(super) fn crossing(
     within_m: f64,
 ) -> Option<Vector2<f64>> {
     let up = up_flow.unit();
-    let facing = edges(region, detection).into_iter().max_by(|a, b| a.1.dot(&up).total_cmp(&b.1.dot(&up)));
+    let facing = region.sides().edges(detection).into_iter().max_by(|a, b| a.1.dot(&up).total_cmp(&b.1.dot(&up)));
     let (from_edge_m, normal) = facing?;
     if from_edge_m >= within_m {
         return None;

@@ -11,23 +11,65 @@
 //! finish the survey. If it rejects the place and searches on, it keeps the subregion until one of these ends. The
 //! searching strategy sees the subregion as its area; the guidance's cage remains the whole area.
 
-use super::super::spec::Strategy;
+use super::super::spec::{Strategy, StrategyParams};
+use super::super::wishes::Wishes;
 use super::edge::{Plume, crossing};
 use super::rectangles::areas;
-use super::spec::{Entry, SubregionsSpec};
+use super::spec::{Entry, RegionsSpec, SubregionsSpec};
 use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Setting,
-    Shown, UP_FLOW_EDGE, Verdict, detects,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Region, RegionState, Regions,
+    Setting, Shown, UP_FLOW_EDGE, Verdict, detects,
 };
 use crate::places::inside;
 use nalgebra::Vector2;
 use world::area::Area;
+use world::cost::{Cost, Times};
 use world::seeds::Stream;
 use world::units::Heading;
 
 /// A search begins this far inside, m: there an edge no longer turns a zig-zag back.
 const MARGIN_M: f64 = 20.0;
+
+impl StrategyParams for SubregionsSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Subregions::new(self, setting)?))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        self.search.check(setting)
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let needs = self.search.needs().into_iter();
+        needs.map(|n| n.within("search")).collect()
+    }
+
+    fn wishes(&self) -> Wishes {
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        let search = self.search.wishes().within("search");
+        wishes.verticals.extend(search.verticals);
+        wishes.speeds_m_s.extend(search.speeds_m_s);
+        wishes.waits.extend(search.waits);
+        wishes
+    }
+
+    fn declares_at_most(&self) -> usize {
+        let regions = match &self.regions {
+            RegionsSpec::Grid(grid) => grid.order.len(),
+            RegionsSpec::Rectangles(rectangles) => rectangles.list.len(),
+        };
+        regions * self.search.declares_at_most()
+    }
+
+    fn has_regions(&self) -> bool {
+        true
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
+        (self.search.cost(area, depth_m, obstacles, times)).under("search")
+    }
+}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {

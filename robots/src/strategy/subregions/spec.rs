@@ -1,19 +1,12 @@
 //! Parameters of a mission over subregions.
 
-use super::super::catalogue::StrategySpec;
-use super::super::spec::{Strategy, StrategyParams};
+use super::super::spec::StrategySpec;
 use super::super::wishes::VerticalSpec;
-use super::super::wishes::Wishes;
-use super::machine::Subregions;
-use crate::error::RobotError;
-use crate::handoff::{Need, Setting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use std::num::NonZeroU32;
-use world::area::Area;
 use world::catalogue;
-use world::cost::{Cost, Times};
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
 
@@ -57,46 +50,6 @@ impl Listed for SubregionsSpec {
             time-out",
         source: "Pang 2009, section 6",
     };
-}
-
-impl StrategyParams for SubregionsSpec {
-    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Subregions::new(self, setting)?))
-    }
-
-    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
-        self.search.check(setting)
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let needs = self.search.needs().into_iter();
-        needs.map(|n| n.within("search")).collect()
-    }
-
-    fn wishes(&self) -> Wishes {
-        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
-        let search = self.search.wishes().within("search");
-        wishes.verticals.extend(search.verticals);
-        wishes.speeds_m_s.extend(search.speeds_m_s);
-        wishes.waits.extend(search.waits);
-        wishes
-    }
-
-    fn declares_at_most(&self) -> usize {
-        let regions = match &self.regions {
-            RegionsSpec::Grid(grid) => grid.order.len(),
-            RegionsSpec::Rectangles(rectangles) => rectangles.list.len(),
-        };
-        regions * self.search.declares_at_most()
-    }
-
-    fn has_regions(&self) -> bool {
-        true
-    }
-
-    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
-        (self.search.cost(area, depth_m, obstacles, times)).under("search")
-    }
 }
 
 /// Where the subregions are.

@@ -8,7 +8,7 @@ mod equation;
 mod motion;
 mod surface;
 
-pub(super) use axes::{flip, turned};
+pub(super) use axes::{flip, turned, wrench};
 pub(super) use body::{Body, Mass, added_coriolis};
 #[cfg(test)]
 pub(super) use equation::HullWater;

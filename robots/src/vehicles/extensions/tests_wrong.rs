@@ -23,8 +23,8 @@ fn a_text_without_extension_has_none() {
     ] {
         assert_eq!(read(text), Ok(None), "{text}");
     }
-    for urdf in ["remus100.urdf", "crab_gantry.urdf"] {
-        let path = format!("{}/urdf/{urdf}", env!("CARGO_MANIFEST_DIR"));
+    for urdf in ["vehicles/remus100/remus100.urdf", "urdf/crab_gantry.urdf"] {
+        let path = format!("{}/{urdf}", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).expect("built in");
         assert_eq!(read(&text), Ok(None), "{urdf}");
     }

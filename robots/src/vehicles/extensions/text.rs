@@ -8,6 +8,7 @@
 //! *Deviations:* a document type is refused, and with it all entities of a file's own.
 
 use crate::error::ensure;
+use crate::vehicles::urdf_form::tags;
 use nalgebra::Matrix6;
 use roxmltree::{Document, Error, ParsingOptions};
 use std::collections::BTreeMap;
@@ -17,7 +18,7 @@ pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
 
 /// Most elements and texts of a file.
 const MOST_NODES: u32 = 500_000;
-/// Most signs `=` from one `<` to the next, and so most attributes of a tag.
+/// Most signs `=` of a tag, and so most of its attributes.
 const MOST_ATTRIBUTES: usize = 200;
 /// Most declarations of namespaces.
 const MOST_NAMESPACES: usize = 100;
@@ -38,37 +39,15 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, String> {
     ensure(text.matches("xmlns").count() <= MOST_NAMESPACES, || {
         format!("\"xmlns\" occurs more than {MOST_NAMESPACES} times")
     })?;
-    check_tags(text)?;
+    if let Some((line, _)) = tags(text).find(|(_, tag)| tag.matches('=').count() > MOST_ATTRIBUTES) {
+        return Err(format!("line {line}: a tag has more than {MOST_ATTRIBUTES} attributes"));
+    }
     let limits = ParsingOptions { nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     Document::parse_with_options(text, limits).map_err(|e| match e {
         Error::DtdDetected => "a document type (<!DOCTYPE ...>) is not read: remove it".to_string(),
         Error::NodesLimitReached => format!("has more than {MOST_NODES} elements and texts"),
         e => format!("line {}: not XML: {}", e.pos().row, quote(&e.to_string())),
     })
-}
-
-/// Refuses tags with too many attributes.
-fn check_tags(text: &str) -> Result<(), String> {
-    let mut rest = text;
-    while let Some(i) = rest.find('<') {
-        rest = &rest[i..];
-        let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
-        if let Some((_, end)) = skipped.iter().find(|(begin, _)| rest.starts_with(begin)) {
-            let Some(i) = rest.find(end) else {
-                // No XML; its reader says where.
-                return Ok(());
-            };
-            rest = &rest[i + end.len()..];
-            continue;
-        }
-        let tag = &rest[..1 + rest[1..].find('<').unwrap_or(rest.len() - 1)];
-        if tag.matches('=').count() > MOST_ATTRIBUTES {
-            let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
-            return Err(format!("line {line}: a tag has more than {MOST_ATTRIBUTES} attributes"));
-        }
-        rest = &rest[tag.len()..];
-    }
-    Ok(())
 }
 
 /// A piece of the file for a message, shortened.

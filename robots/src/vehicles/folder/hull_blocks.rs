@@ -119,6 +119,7 @@ pub(super) fn given(
 #[cfg(test)]
 mod tests {
     use super::super::super::files::InMemory;
+    use super::super::TermsSpec;
     use super::*;
     use std::path::Path;
 
@@ -135,6 +136,7 @@ mod tests {
         let text = UrdfText::open_at(Path::new("boat.urdf"), &files).expect("there");
         let told = |floats| {
             let spec = HydrodynamicsSpec {
+                terms: TermsSpec::Blocks,
                 axes: Axes::Flu,
                 from_urdf: true,
                 volume_m3: None,

@@ -1,5 +1,6 @@
 //! The hydrodynamic part of `vehicle.ron`.
 
+use crate::vehicles::torpedo::TorpedoHullSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Finite, Positive};
@@ -12,6 +13,9 @@ use world::ranges::{Finite, Positive};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HydrodynamicsSpec {
+    /// Terms of the equation of motion: the blocks of this struct, or a kind with numbers of its own.
+    #[serde(default)]
+    pub terms: TermsSpec,
     /// Axes of the blocks: FLU (forward, left, up) as the URDF, or FRD (forward, right, down) as most printed tables.
     /// The places of this file are always FLU.
     #[serde(default)]
@@ -47,6 +51,18 @@ pub struct HydrodynamicsSpec {
     /// It floats: the blocks hold at the draught at which it floats at rest, not for a hull all under water.
     #[serde(default)]
     pub floats: bool,
+}
+
+/// Terms of a hull's equation of motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "HullTermsSpec")]
+pub enum TermsSpec {
+    /// Blocks of added mass and damping, and the drives of the file.
+    #[default]
+    Blocks,
+    /// Those of a torpedo with rudder, stern plane and propeller, as of the REMUS 100. Of this struct only density (that
+    /// of the water for which it is ballasted) and gravity count beside them, and the file has no drives and no autopilot.
+    Torpedo(Box<TorpedoHullSpec>),
 }
 
 /// Axes in which blocks are given.

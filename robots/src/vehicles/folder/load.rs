@@ -1,4 +1,4 @@
-//! Builds a vehicle from its folder, and refuses what cannot be a vehicle.
+//! Builds a hull with drives from its file, and refuses what cannot be one.
 //!
 //! *Source:* Fossen, "Handbook of Marine Craft Hydrodynamics and Motion Control", 2nd ed. 2021, sections 3.3 and 6.3
 //! (masses are symmetric and positive definite; damping dissipates).
@@ -9,39 +9,39 @@
 
 use super::blocks::Damping;
 use super::doubts::{resists, symmetric, trim};
+use super::driven_hull::{DrivenHull, Rates};
 use super::fitted::drives;
-use super::folder_vehicle::{FolderVehicle, Rates};
 use super::hull_blocks::{HullBlocks, given};
+use super::opened::Opened;
 use super::plant;
-use super::spec::VehicleFile;
 use crate::error::{RobotError, ensure};
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::dynamics::{Body, Equation, Mass, cells_of, flip, turned};
-use crate::vehicles::files::Files;
-use crate::vehicles::urdf::{self, Shell};
-use crate::vehicles::urdf_parts::UrdfText;
+use crate::vehicles::motion::Statics;
+use crate::vehicles::urdf::Shell;
 use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3};
-use std::path::Path;
 
 /// Shortest time in which the motion of a hull decays, s; those that come with the program take ten times as long.
 const QUICKEST_S: f64 = 1e-3;
 
-impl FolderVehicle {
-    /// Builds a vehicle from the text of its `vehicle.ron`, which stands in a folder of `files`.
+impl DrivenHull {
+    /// Builds the hull of a vehicle's file.
     ///
     /// # Errors
-    /// If a file cannot be read, or if the vehicle cannot be one.
-    pub fn load(folder: &Path, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
-        let path = files.path(&folder.join("vehicle.ron")).display().to_string();
-        let wrong = |problem: String| RobotError::File { path: path.clone(), problem };
-        let urdf_path = folder.join(&file.urdf);
-        let text = UrdfText::open_at(&urdf_path, files)?;
-        let shell = urdf::shell(&text)?;
-        let mass = rigid(&shell).map_err(|problem| text.fault(problem))?;
-        let mut told = Vec::new();
-        let given = given(&file.hydrodynamics, &text, mass.kg, &shell.links, &mut told)?;
-        let (body, mut damping) = hull(&given, &mass, &shell, &mut told).map_err(wrong)?;
-        let drives = drives(&file.drives, &shell, &mut told).map_err(wrong)?;
+    /// If it cannot be one.
+    pub(in crate::vehicles) fn build(
+        opened: &Opened,
+        shell: &Shell,
+        told: &mut Vec<String>,
+    ) -> Result<Self, RobotError> {
+        let (file, wrong) = (&opened.file, |problem: String| opened.wrong(problem));
+        let Some(pilot) = &file.autopilot else {
+            return Err(wrong("autopilot: is missing; say who steers it: Torpedo(), Thrusters() or Glider()".into()));
+        };
+        let mass = rigid(shell).map_err(|problem| opened.urdf.fault(problem))?;
+        let given = given(&file.hydrodynamics, &opened.urdf, mass.kg, &shell.links, told)?;
+        let (body, mut damping) = hull(&given, &mass, shell, told).map_err(wrong)?;
+        let drives = drives(&file.drives, shell, told).map_err(wrong)?;
         let equation = Equation::new(body)
             .ok_or_else(|| wrong("hydrodynamics: mass and added mass are singular together".into()))?;
         if file.hydrodynamics.floats {
@@ -57,36 +57,23 @@ impl FolderVehicle {
             damping.wet = share;
         }
         let rates = rates(&equation, &damping);
-        let n = drives.len();
         let mut states = [0.0; MOST_DRIVES];
         for (state, drive) in states.iter_mut().zip(&drives) {
             *state = drive.idle();
         }
-        let plant = plant::plant(&equation, &damping, &drives, &file.autopilot, file.hydrodynamics.floats);
-        let capabilities = plant::capabilities(&plant, &file.autopilot);
-        plant::doubts(&file.autopilot, &plant, &capabilities, &mut told).map_err(wrong)?;
-        debug_assert!(n <= MOST_DRIVES);
-        let mut vehicle = Self {
-            name: file.name.clone(),
-            shell,
-            equation,
-            damping,
-            rates,
-            drives,
-            asked: states,
-            states,
-            told,
-            plant,
-            capabilities,
-        };
-        let shortest_s = vehicle.shortest_s(1.0);
+        let statics = Statics::new(&equation, damping.density_kg_m3, file.hydrodynamics.floats);
+        let plant = plant::plant(&statics, &damping, &drives, pilot);
+        let capabilities = plant::capabilities(&plant, pilot);
+        plant::doubts(pilot, &plant, &capabilities, told).map_err(wrong)?;
+        let hull = Self { equation, damping, rates, drives, asked: states, states, statics, plant, capabilities };
+        let shortest_s = hull.shortest_s(1.0);
         if shortest_s < QUICKEST_S {
-            vehicle.told.push(format!(
+            told.push(format!(
                 "hydrodynamics: at 1 m/s its motion decays within {shortest_s:.1e} s, and no hull's does in less than \
                  {QUICKEST_S} s: look at the units of damping, mass and inertia"
             ));
         }
-        Ok(vehicle)
+        Ok(hull)
     }
 }
 

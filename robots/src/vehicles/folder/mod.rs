@@ -2,17 +2,18 @@
 
 mod blocks;
 mod doubts;
+mod driven_hull;
 mod fitted;
-mod folder_vehicle;
 mod hull_blocks;
 mod hydrodynamics_spec;
 mod load;
+mod opened;
 mod plant;
 mod shipped;
 mod spec;
 
-pub use folder_vehicle::FolderVehicle;
-pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row, Rows};
+pub(super) use driven_hull::DrivenHull;
+pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row, Rows, TermsSpec};
+pub(super) use opened::{Opened, urdf_of};
 pub use shipped::{SHIPPED, ShippedVehicle};
-pub(super) use shipped::{of_folder, shipped, urdf_of};
 pub use spec::VehicleFile;

@@ -12,7 +12,8 @@
 use super::blocks::Damping;
 use crate::handoff::{Capabilities, DriveEffect, PilotSpec, Plant, PlantDrive};
 use crate::vehicles::drives::{Drive, Fin, Kind};
-use crate::vehicles::dynamics::{Equation, turned};
+use crate::vehicles::dynamics::{turned, wrench};
+use crate::vehicles::motion::Statics;
 use nalgebra::{DMatrix, Vector3, Vector6};
 use world::ranges::Positive;
 use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
@@ -20,23 +21,9 @@ use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 /// Least share of the thrusters' summed force that counts as a push in a direction.
 const WORTH: f64 = 0.05;
 
-/// Force and moment, FRD, as one vector in FLU.
-fn wrench((force, moment): (Vector3<f64>, Vector3<f64>)) -> Vector6<f64> {
-    Vector6::new(force.x, -force.y, -force.z, moment.x, -moment.y, -moment.z)
-}
-
 /// What the autopilot knows.
-pub(super) fn plant(
-    equation: &Equation,
-    damping: &Damping,
-    drives: &[Drive],
-    pilot: &PilotSpec,
-    floats: bool,
-) -> Plant {
-    let body = &equation.body;
+pub(super) fn plant(statics: &Statics, damping: &Damping, drives: &[Drive], pilot: &PilotSpec) -> Plant {
     let flu = |r: &Vector3<f64>| Vector3::new(r.x, -r.y, -r.z);
-    let weight = body.mass.kg * body.gravity_m_s2;
-    let buoyancy = damping.density_kg_m3 * body.volume_m3 * body.gravity_m_s2;
     let each = drives.iter().map(|drive| PlantDrive {
         limits: drive.limits,
         idle: drive.idle(),
@@ -48,12 +35,11 @@ pub(super) fn plant(
         },
     });
     let mut plant = Plant {
-        mass: equation.whole_mass_flu(),
+        mass: statics.whole_mass,
         damping: [&damping.linear, &damping.quadratic, &damping.forward].map(turned),
-        righting_n_m: (body.mass.r_G.z * weight - body.r_B.z * buoyancy).max(0.0),
-        // What floats carries itself at its draught.
-        heavy_n: if floats { 0.0 } else { weight - buoyancy },
-        volume_m3: body.volume_m3,
+        righting_n_m: statics.righting_n_m,
+        heavy_n: statics.heavy_n,
+        volume_m3: statics.volume_m3,
         drives: each.collect(),
         pushes: [false; 6],
         top_speed_m_s: 0.0,

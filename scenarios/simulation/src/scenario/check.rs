@@ -233,13 +233,12 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Unplaced
 /// Checks hull and instruments by building them. Returns the vehicle if both can be built.
 fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<UnplacedFault>) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
+    // A folder has files of its own, and no field for them here.
+    let in_folder = matches!(robot.vehicle, VehicleSpec::File(_) | VehicleSpec::Shipped(_));
     match Vehicle::load(&robot.vehicle, &FolderFiles(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.doubts() {
-                let field = match vehicle {
-                    Vehicle::Described(_) => format!("{path}.vehicle"),
-                    _ => format!("{path}.vehicle.urdf"),
-                };
+                let field = if in_folder { format!("{path}.vehicle") } else { format!("{path}.vehicle.urdf") };
                 found.push(UnplacedFault::warning(field, told.clone()));
             }
             let mounts = |name: &str| vehicle.mount(name);
@@ -251,8 +250,7 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
         }
         Err(e) => {
             let mut fault = robot_error(&path, "vehicle", e);
-            // A folder has files of its own, and no field for them here.
-            if matches!(robot.vehicle, VehicleSpec::File(_) | VehicleSpec::Shipped(_)) {
+            if in_folder {
                 fault.path = format!("{path}.vehicle");
             }
             found.push(fault);

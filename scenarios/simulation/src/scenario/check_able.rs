@@ -6,7 +6,7 @@ use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
 use robots::actuate::AutopilotSpec;
-use robots::handoff::{TurnLimit, Vertical};
+use robots::handoff::{Control, TurnLimit, Vertical};
 use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::limits::range::stream_m_s;
@@ -54,7 +54,7 @@ pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Vehicle, water_m_s: 
         let problem = format!("{limit_m_s} m/s is never reached: at full power the vehicle makes {top_m_s:.2} m/s");
         found.push(UnplacedFault::warning(format!("robots[{i}].guidance.water_speed_limit_m_s"), problem));
     }
-    if let Some(limits) = vehicle.limits() {
+    if let Control::Rates(limits) = vehicle.control() {
         let asked_deg_s = robot.guidance.heading_rate_deg_s.get();
         let most_deg_s = match limits.turn {
             TurnLimit::Rate(rad_s) => rad_s.to_degrees(),
@@ -80,11 +80,12 @@ pub(super) fn capabilities(
     water_m_s: f64,
     found: &mut Vec<UnplacedFault>,
 ) {
-    if let Vehicle::Described(hull) = vehicle {
+    let able = vehicle.capabilities(robot.guidance.tightest_turn_m());
+    if let Control::Drives(_) = vehicle.control() {
         // It starts with that speed over ground, and is never much faster than it can go.
         let start_m_s = robot.start.speed_m_s.get() + water_m_s;
-        let fastest_m_s = start_m_s.max(hull.capabilities().top_speed_m_s);
-        if let Err(problem) = hull.follows(step_s, fastest_m_s) {
+        let fastest_m_s = start_m_s.max(able.top_speed_m_s);
+        if let Err(problem) = vehicle.follows(step_s, fastest_m_s) {
             found.push(UnplacedFault::error(format!("robots[{i}].vehicle"), problem));
         }
         if robot.autopilot != AutopilotSpec::default() {
@@ -92,7 +93,6 @@ pub(super) fn capabilities(
             found.push(UnplacedFault::warning(format!("robots[{i}].autopilot"), problem));
         }
     }
-    let able = vehicle.capabilities(robot.guidance.tightest_turn_m());
     let strategy = robot.strategy.name();
     let wishes = robot.strategy.wishes();
     // A depth of zero is the surface itself.

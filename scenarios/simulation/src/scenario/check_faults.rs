@@ -14,7 +14,7 @@ pub(super) fn faults(
     limit_s: f64,
     found: &mut Vec<UnplacedFault>,
 ) {
-    let drives = vehicle.map(Vehicle::named_drives);
+    let drives = vehicle.map(|vehicle| vehicle.named_drives());
     for mistake in mistakes(&robot.faults, &robot.sensors, drives.as_deref()) {
         let told = UnplacedFault::error(format!("robots[{i}].{}", mistake.field), mistake.problem);
         found.push(match mistake.help {

@@ -36,11 +36,11 @@ impl Files for FolderFiles<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use robots::vehicles::{Remus100, RemusSpec};
+    use robots::vehicles::{RemusSpec, Vehicle, VehicleSpec};
 
     fn error(dir: &Path, name: &str) -> String {
         let spec = RemusSpec { urdf: Some(name.into()), ..RemusSpec::default() };
-        let error = Remus100::load(&spec, &FolderFiles(dir)).expect_err("this is wrong");
+        let error = Vehicle::load(&VehicleSpec::Remus100(spec), &FolderFiles(dir)).expect_err("this is wrong");
         error.to_string()
     }
 
@@ -58,7 +58,7 @@ mod tests {
             error(dir.path(), "hulls/latin.urdf"),
             format!("{}: it is not UTF-8 text: line 2, byte 8", at("hulls/latin.urdf").display())
         );
-        let mesh = include_str!("../../../../robots/urdf/remus100.urdf")
+        let mesh = include_str!("../../../../robots/vehicles/remus100/remus100.urdf")
             .replace("<capsule radius=\"0.095\" length=\"1.41\"/>", "<mesh filename=\"hull.obj\"/>");
         std::fs::write(at("hulls/mesh.urdf"), mesh).unwrap();
         std::fs::write(at("hulls/hull.obj"), "v 0 0 0\nv 1 0\n").unwrap();

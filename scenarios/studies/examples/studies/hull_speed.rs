@@ -7,8 +7,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use rheotaxis::scenario::FolderFiles;
-use robots::handoff::{Actuation, ActuatorCommand, DriveCommand};
-use robots::vehicles::{RemusSpec, SHIPPED, Vehicle, VehicleSpec};
+use robots::handoff::{Actuation, ActuatorCommand};
+use robots::vehicles::{FittedDrive, SHIPPED, Vehicle, VehicleSpec};
 use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
@@ -44,12 +44,8 @@ impl Flow for Shear {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let mut all = vec![("remus100", VehicleSpec::Remus100(RemusSpec::default()))];
-    for shipped in SHIPPED {
-        all.push((shipped.folder, VehicleSpec::Shipped(shipped.folder.into())));
-    }
-    for (name, spec) in all {
-        let craft = Vehicle::load(&spec, &FolderFiles(Path::new("")))?;
+    for name in SHIPPED.iter().map(|shipped| shipped.folder) {
+        let craft = Vehicle::load(&VehicleSpec::Shipped(name.into()), &FolderFiles(Path::new("")))?;
         // The least of three: what else the machine does only adds.
         let least = (0..3).map(|_| seconds(&craft)).fold(f64::MAX, f64::min);
         println!("{name:<16} {:>8.0} x real time", LASTS_S / least);
@@ -61,16 +57,11 @@ fn seconds(craft: &Vehicle) -> f64 {
     let mut craft = craft.clone();
     let set = match craft.idle() {
         Actuation::Fins(_) => Actuation::Fins(ActuatorCommand { rudder_rad: 0.05, stern_rad: 0.0, rpm: 1000.0 }),
-        Actuation::Drives(idle) => {
-            let Vehicle::Described(vehicle) = &craft else {
-                return f64::NAN;
-            };
+        idle => {
             // A little of every drive.
-            let drives = vehicle.plant().drives.iter().zip(idle.all());
-            let some = drives.map(|(d, idle)| idle + 0.05 * (d.limits[1] - idle));
-            Actuation::Drives(DriveCommand::new(&some.collect::<Vec<_>>()))
+            let little = |d: &FittedDrive| d.named.idle + 0.05 * (d.limits[1] - d.named.idle);
+            craft.drives().iter().enumerate().fold(idle, |set, (k, drive)| set.with_drive(k, little(drive)))
         }
-        other @ Actuation::Rates(_) => other,
     };
     let start = Pose::level(Vector3::new(0.0, 0.0, -5000.0), Heading::from_deg(0.0));
     let mut truth = Truth::at_rest(start);

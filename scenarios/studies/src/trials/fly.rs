@@ -1,4 +1,4 @@
-//! Flies a vehicle of a folder by a table of set-points: what a tank or another simulator is compared with.
+//! Flies a vehicle by a table of set-points: what a tank or another simulator is compared with.
 //!
 //! *Source*: open-loop vehicle trials (Prestero 2001, chapter 6).
 //!
@@ -7,8 +7,7 @@
 //! *Deviations*: no autopilot, no instruments, no bed; uniform water.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use robots::handoff::DriveCommand;
-use robots::vehicles::FolderVehicle;
+use robots::vehicles::Vehicle;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 
@@ -84,7 +83,7 @@ pub fn table(text: &str, drives: &[&str]) -> Result<Vec<(f64, Vec<f64>)>, String
 }
 
 /// The states at the beginning, at the end, and at whole multiples of `every_s`.
-pub fn fly(vehicle: &FolderVehicle, flight: &Flight) -> Vec<FlownState> {
+pub fn fly(vehicle: &Vehicle, flight: &Flight) -> Vec<FlownState> {
     let mut vehicle = vehicle.clone();
     let [roll, pitch_up] = flight.tilt_rad;
     let R_WB = UnitQuaternion::from_euler_angles(roll, -pitch_up, std::f64::consts::FRAC_PI_2);
@@ -103,15 +102,13 @@ pub fn fly(vehicle: &FolderVehicle, flight: &Flight) -> Vec<FlownState> {
     for k in 0..=steps {
         let t_s = k as f64 * flight.step_s;
         if k % stride == 0 || k == steps {
-            rows.push(FlownState { t_s, truth, drives: vehicle.states().to_vec() });
+            rows.push(FlownState { t_s, truth, drives: vehicle.states() });
         }
         // Half a step of slack: times of the table are multiples of the step but for rounding.
         let row = (flight.table).partition_point(|(from_s, _)| *from_s <= t_s + 1e-6 * flight.step_s);
-        let set = match row {
-            0 => idle,
-            row => DriveCommand::new(&flight.table[row - 1].1),
-        };
-        truth = vehicle.step(&truth, &water, &set, flight.step_s);
+        let asked = flight.table[..row].last().map_or(&[][..], |(_, asked)| asked);
+        let set = asked.iter().enumerate().fold(idle, |set, (k, value)| set.with_drive(k, *value));
+        truth = vehicle.step_in(&truth, &water, &set, flight.step_s);
     }
     rows
 }

@@ -1,4 +1,4 @@
-//! The numbers of a torpedo-shaped hull, and the two sets of them that a scenario can ask for.
+//! The numbers of a torpedo-shaped hull, and what follows from them.
 //!
 //! *Source:* T. I. Fossen, "Handbook of Marine Craft Hydrodynamics and Motion Control", 2nd ed. 2021,
 //! chapters 3, 6 and 8, in its open implementation for the REMUS 100 (Python Vehicle Simulator,
@@ -6,12 +6,12 @@
 //! system performance enhancements on REMUS AUVs", OCEANS 2000. Added mass: Lamb's k-factors of a
 //! prolate spheroid (Fossen 8.4).
 //!
-//! *Parameters:* beside each field.
+//! *Parameters:* [`TorpedoHullSpec`]; those of the REMUS 100 stand in its `vehicle.ron`.
 //!
-//! *Deviations:* [`ParameterSet::Remus100`] differs from the published set, [`ParameterSet::Reference`], in these,
-//! because the published choice is a quirk of that code and not of the vehicle:
+//! *Deviations:* unless `published` asks for it, the terms differ from the published code in these, because its choice
+//! is a quirk of that code and not of the vehicle:
 //!
-//! | what | `reference` | `remus100` |
+//! | what | `published` | else |
 //! |---|---|---|
 //! | propeller inflow | speed through the water in any direction | axial speed through the water, not below 0 |
 //! | current | horizontal, turned by yaw only | three components, turned by the whole attitude, with its gradient along the hull |
@@ -23,24 +23,12 @@
 //! | linear heave damping | at all speeds | fades with speed as in surge and sway |
 //! | limits of the actuators | on their state | on the command |
 
+use super::spec::TorpedoHullSpec;
+use crate::error::ensure;
 use crate::vehicles::dynamics::{Body, Envelope, Mass};
 use nalgebra::{Matrix3, Matrix6, Vector3};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use world::math;
-use world::units::GRAVITY_M_S2;
-
-/// A set of hull parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum ParameterSet {
-    /// The default: the published set without its quirks.
-    #[default]
-    #[serde(rename = "remus100")]
-    Remus100,
-    /// The published set with its quirks, to compare with its trajectories.
-    #[serde(rename = "reference")]
-    Reference,
-}
+use world::ranges::{NonNegative, Positive};
 
 /// The speed that the propeller's inflow is taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,15 +41,16 @@ pub enum Inflow {
     Axial,
 }
 
-/// All numbers of a hull. Frames are FRD, moments are about the centre of buoyancy CO.
+/// All numbers of a hull: those of its file, and what follows from them. Frames are FRD, moments are about the centre of
+/// buoyancy CO.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
-    /// Length, m.
-    pub length_m: f64,
-    /// Diameter, m.
-    pub diameter_m: f64,
+    /// The numbers of its file.
+    pub spec: TorpedoHullSpec,
     /// Density of the water for which the hull is ballasted, kg/m³.
     pub ballast_density_kg_m3: f64,
+    /// Gravity, m/s².
+    pub gravity_m_s2: f64,
     /// Mass, kg: that of the displaced water, unless a URDF gives another one.
     pub mass_kg: f64,
     /// Displaced volume, m³.
@@ -74,8 +63,6 @@ pub struct Coefficients {
     pub added: [f64; 6],
     /// Linear damping, diagonal, at rest, N s/m and N m s.
     pub damping: [f64; 6],
-    /// Which of the linear damping coefficients fade as exp(−3 U_r).
-    pub damping_fades: [bool; 3],
     /// Reference area of hull lift and drag, m².
     pub area_m2: f64,
     /// Drag coefficient at no incidence, on that area.
@@ -84,66 +71,37 @@ pub struct Coefficients {
     pub lift_slope: f64,
     /// π e AR: the induced drag is C_L² divided by it.
     pub induced: f64,
-    /// Lift in the plane of incidence (true) or in heave only.
-    pub lift_any_plane: bool,
     /// Cross-flow drag coefficient.
     pub cross_flow: f64,
     /// Stations of the cross-flow integral: x (m), length dx (m), the same for all.
     pub stations_m: (Vec<f64>, f64),
-    /// Cross-flow drag in sway and heave (true) or in sway only.
-    pub cross_flow_both: bool,
-    /// Area of a pair of fins, m².
-    pub fin_area_m2: f64,
     /// Place of the fins along the hull, x, m.
     pub fin_x_m: f64,
-    /// Lift slopes of rudder and stern plane, 1/rad.
-    pub fin_slope: [f64; 2],
-    /// Fins feel the water at the fin (true) or only their own deflection.
-    pub fin_incidence: bool,
-    /// Propeller diameter, m.
-    pub propeller_m: f64,
-    /// Share of the thrust that reaches the hull, 1 − t.
-    pub thrust_share: f64,
-    /// Share of the speed that reaches the propeller, 1 − w.
-    pub wake_share: f64,
-    /// Share of the shaft torque that rolls the hull.
-    pub torque_share: f64,
+    /// Greatest fin deflection, rad.
+    pub fin_limit_rad: f64,
     /// Thrust coefficient at rest and its slope by advance ratio.
     pub thrust: [f64; 2],
     /// Torque coefficient at rest and its slope by advance ratio.
     pub torque: [f64; 2],
     /// The speed that the propeller's inflow is taken from.
     pub inflow: Inflow,
-    /// Current turned by yaw only (quirk) or by the whole attitude.
-    pub current_by_yaw_only: bool,
-    /// Greatest fin deflection, rad.
-    pub fin_limit_rad: f64,
-    /// Greatest propeller speed, rpm.
-    pub rpm_limit: f64,
-    /// Limits act on the actuators' state (quirk) or on the command.
-    pub limits_on_state: bool,
-    /// Lag of the fins, s.
-    pub fin_lag_s: f64,
-    /// Lag of the propeller, s.
-    pub propeller_lag_s: f64,
 }
 
 impl Coefficients {
-    /// The numbers of a set.
-    pub fn from_set(set: ParameterSet) -> Self {
-        match set {
-            ParameterSet::Reference => Self::reference(),
-            ParameterSet::Remus100 => Self::remus100(),
-        }
-    }
-
-    fn reference() -> Self {
+    /// From a vehicle's file: the numbers of its hull, the density of the water for which it is ballasted, and gravity.
+    ///
+    /// # Errors
+    /// If it is no longer than thick, or if its motion is too quick for the steps of a mission.
+    pub fn new(spec: &TorpedoHullSpec, density_kg_m3: f64, gravity_m_s2: f64) -> Result<Self, String> {
         use std::f64::consts::PI;
-        let (length_m, diameter_m, rho) = (1.6, 0.19, 1026.0);
+        let (length_m, diameter_m, rho) = (spec.length_m.get(), spec.diameter_m.get(), density_kg_m3);
+        ensure(diameter_m < length_m, || {
+            format!("hydrodynamics.terms.diameter_m: must be less than the length, {length_m} m, got {diameter_m} m")
+        })?;
         let (a, b): (f64, f64) = (length_m / 2.0, diameter_m / 2.0);
         let volume_m3 = 4.0 / 3.0 * PI * a * b * b;
         let mass_kg = rho * volume_m3;
-        let z_g_m = 0.02;
+        let z_g_m = spec.centre_of_gravity_low_m.get();
         let ix = 0.4 * mass_kg * b * b;
         let iy = 0.2 * mass_kg * (a * a + b * b);
 
@@ -156,9 +114,9 @@ impl Coefficients {
         let k2 = beta0 / (2.0 - beta0);
         let e2 = e * e;
         let k_turn = e2 * e2 * (beta0 - alpha0) / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
-        let added = [mass_kg * k1, mass_kg * k2, mass_kg * k2, 0.3 * ix, k_turn * iy, k_turn * iy];
+        let added = [mass_kg * k1, mass_kg * k2, mass_kg * k2, spec.added_roll.get() * ix, k_turn * iy, k_turn * iy];
 
-        let weight = mass_kg * GRAVITY_M_S2;
+        let weight = mass_kg * gravity_m_s2;
         // Total mass at CO: the centre of gravity adds m z_g² to roll and pitch.
         let shift = mass_kg * z_g_m * z_g_m;
         let m = [
@@ -170,79 +128,58 @@ impl Coefficients {
             iy + added[5],
         ];
         let swing = |inertia: f64| (weight * z_g_m / inertia).sqrt();
+        let times = [spec.surge_s, spec.sway_s, spec.fins.lag_s, spec.propeller.lag_s].map(Positive::get);
+        let swings = [m[3], m[4]].map(|inertia| 1.0 / swing(inertia));
+        let quickest_s = times.into_iter().chain(swings).fold(f64::INFINITY, f64::min);
+        ensure(quickest_s >= QUICKEST_S, || {
+            format!(
+                "hydrodynamics.terms: lags, time constants and swings must take {QUICKEST_S} s at least, for steps of 0.1 s \
+                 follow nothing quicker; one takes {quickest_s:.1e} s"
+            )
+        })?;
         let damping = [
-            m[0] / 20.0,
-            m[1] / 20.0,
-            m[2] / 20.0,
-            2.0 * 0.3 * swing(m[3]) * m[3],
-            2.0 * 0.8 * swing(m[4]) * m[4],
-            m[5] / 1.0,
+            m[0] / spec.surge_s.get(),
+            m[1] / spec.sway_s.get(),
+            m[2] / spec.sway_s.get(),
+            2.0 * spec.roll_damping.get() * swing(m[3]) * m[3],
+            2.0 * spec.pitch_damping.get() * swing(m[4]) * m[4],
+            if spec.published { m[5] / PUBLISHED_YAW_S } else { 0.0 },
         ];
 
-        let area_m2 = 0.7 * length_m * diameter_m;
+        let area_m2 = spec.area.get() * length_m * diameter_m;
         let aspect = diameter_m * diameter_m / area_m2;
         let dx = length_m / 20.0;
-        let fin_m2 = 0.00665;
-        let advance_max = 0.6632;
-        Self {
-            length_m,
-            diameter_m,
+        let at = |place: f64| -a + place * dx;
+        let stations = if spec.published {
+            (0..=20).map(|i| at(f64::from(i))).collect()
+        } else {
+            (0..20).map(|i| at(f64::from(i) + 0.5)).collect()
+        };
+        let curve = |(rest, ahead): (Positive, NonNegative)| {
+            [rest.get(), (ahead.get() - rest.get()) / spec.propeller.advance.get()]
+        };
+        Ok(Self {
             ballast_density_kg_m3: rho,
+            gravity_m_s2,
             mass_kg,
             volume_m3,
             z_g_m,
             inertia_kg_m2: Vector3::new(ix, iy, iy),
             added,
             damping,
-            damping_fades: [true, true, false],
             area_m2,
-            drag_0: 0.42 * PI * b * b / area_m2,
+            drag_0: spec.frontal_drag.get() * PI * b * b / area_m2,
             lift_slope: PI * aspect / (1.0 + (1.0 + aspect * aspect / 4.0).sqrt()),
-            induced: PI * 0.7 * aspect,
-            lift_any_plane: false,
-            // Hoerner's curve for surface hulls at B/2T = 0.5.
-            cross_flow: HOERNER_AT_HALF,
-            stations_m: ((0..=20).map(|i| -a + f64::from(i) * dx).collect(), dx),
-            cross_flow_both: false,
-            fin_area_m2: 2.0 * fin_m2,
+            induced: PI * spec.span_efficiency.get() * aspect,
+            cross_flow: if spec.published { HOERNER_AT_HALF } else { spec.cross_flow.get() },
+            stations_m: (stations, dx),
             fin_x_m: -a,
-            fin_slope: [0.5, 0.7],
-            fin_incidence: false,
-            propeller_m: 0.14,
-            thrust_share: 0.9,
-            wake_share: 0.944,
-            torque_share: 0.1,
-            thrust: [0.4566, (0.1798 - 0.4566) / advance_max],
-            torque: [0.0700, (0.0312 - 0.0700) / advance_max],
-            inflow: Inflow::Water,
-            current_by_yaw_only: true,
-            fin_limit_rad: 15f64.to_radians(),
-            rpm_limit: 1525.0,
-            limits_on_state: true,
-            fin_lag_s: 0.1,
-            propeller_lag_s: 1.0,
-        }
-    }
-
-    fn remus100() -> Self {
-        let published = Self::reference();
-        let dx = published.length_m / 20.0;
-        let nose = published.length_m / 2.0;
-        let mut damping = published.damping;
-        damping[5] = 0.0;
-        Self {
-            damping,
-            damping_fades: [true; 3],
-            lift_any_plane: true,
-            cross_flow: 1.1,
-            stations_m: ((0..20).map(|i| -nose + (f64::from(i) + 0.5) * dx).collect(), dx),
-            cross_flow_both: true,
-            fin_incidence: true,
-            inflow: Inflow::Axial,
-            current_by_yaw_only: false,
-            limits_on_state: false,
-            ..published
-        }
+            fin_limit_rad: spec.fins.limit_deg.get().to_radians(),
+            thrust: curve(spec.propeller.thrust),
+            torque: curve(spec.propeller.torque),
+            inflow: if spec.published { Inflow::Water } else { Inflow::Axial },
+            spec: spec.clone(),
+        })
     }
 
     /// The hull as the equation of motion sees it.
@@ -253,9 +190,9 @@ impl Coefficients {
             added: self.added_mass(),
             volume_m3: self.volume_m3,
             r_B: Vector3::zeros(),
-            gravity_m_s2: GRAVITY_M_S2,
-            envelope: Envelope::Spheroid(self.length_m, self.diameter_m),
-            current_by_yaw_only: self.current_by_yaw_only,
+            gravity_m_s2: self.gravity_m_s2,
+            envelope: Envelope::Spheroid(self.spec.length_m.get(), self.spec.diameter_m.get()),
+            current_by_yaw_only: self.spec.published,
         }
     }
 
@@ -270,18 +207,22 @@ impl Coefficients {
     }
 }
 
-/// Cross-flow drag coefficient interpolated in Hoerner's table at B/2T = 0.5, with the digits that the published
-/// derivatives contain.
+/// Cross-flow drag coefficient interpolated in Hoerner's table for surface hulls at B/2T = 0.5, with the digits that the
+/// published derivatives contain.
 const HOERNER_AT_HALF: f64 = 1.197_728_834_355_83;
+/// Shortest time constant, s: Runge-Kutta's fourth order is stable in steps of 2.8 of them, and steps have up to 0.1 s.
+const QUICKEST_S: f64 = 0.04;
+/// Time constant of the published linear damping in yaw, s.
+const PUBLISHED_YAW_S: f64 = 1.0;
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::super::testing::remus100;
 
     /// Against the numbers printed by the published code.
     #[test]
     fn constants_are_the_published_ones() {
-        let c = Coefficients::from_set(ParameterSet::Reference);
+        let c = remus100(true);
         let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-8, "{a} is not {b}");
         close(c.mass_kg, 31.029385);
         close(c.inertia_kg_m2.x, 0.11201608);
@@ -298,7 +239,7 @@ mod tests {
 
     #[test]
     fn lagged_added_mass_would_diverge_on_this_hull() {
-        let c = Coefficients::from_set(ParameterSet::Remus100);
+        let c = remus100(false);
         let lag = c.rigid_mass().try_inverse().expect("mass") * c.added_mass();
         let rho = lag.complex_eigenvalues().iter().map(|l| l.norm()).fold(0.0, f64::max);
         assert!((rho - 1.09).abs() < 0.01, "spectral radius {rho}");

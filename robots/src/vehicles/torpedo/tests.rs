@@ -1,8 +1,9 @@
 //! The hull's accelerations against those of the published model, one effect after the other.
 
 use super::actuators::Actuators;
-use super::coefficients::{Coefficients, Inflow, ParameterSet};
-use super::terms::RemusTerms;
+use super::coefficients::{Coefficients, Inflow};
+use super::terms::TorpedoTerms;
+use super::testing::remus100;
 use crate::vehicles::dynamics::{Equation, HullWater, Relative, Stage};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -19,8 +20,8 @@ impl Hydrodynamics {
         Self { c, equation }
     }
 
-    fn terms(&self) -> RemusTerms<'_> {
-        RemusTerms { c: &self.c, asked: Actuators::default() }
+    fn terms(&self) -> TorpedoTerms<'_> {
+        TorpedoTerms { c: &self.c, asked: Actuators::default() }
     }
 
     fn acceleration(
@@ -49,7 +50,7 @@ fn still() -> HullWater {
 }
 
 fn both() -> [Hydrodynamics; 2] {
-    [ParameterSet::Reference, ParameterSet::Remus100].map(|s| Hydrodynamics::new(Coefficients::from_set(s)))
+    [true, false].map(|published| Hydrodynamics::new(remus100(published)))
 }
 
 /// Every row of the published model's table, with the propeller's inflow as first and as later published.
@@ -58,7 +59,7 @@ fn published_derivatives() {
     let table = include_str!("../../../../tests/reference/remus100/derivative_points.csv");
     let mut worst: f64 = 0.0;
     for (inflow, first) in [(Inflow::Ground, 17), (Inflow::Water, 23)] {
-        let hull = Hydrodynamics::new(Coefficients { inflow, ..Coefficients::from_set(ParameterSet::Reference) });
+        let hull = Hydrodynamics::new(Coefficients { inflow, ..remus100(true) });
         for line in table.lines().skip(1) {
             let n: Vec<f64> = line.split(',').map(|s| s.parse().expect("a number")).collect();
             let to_current = world::units::Heading::from_rad(n[1]).unit() * n[0];
@@ -113,8 +114,9 @@ fn known_force_gives_known_acceleration() {
 
 #[test]
 fn planes_of_the_shipped_set_are_alike() {
-    let hull =
-        Hydrodynamics::new(Coefficients { fin_slope: [0.5, 0.5], ..Coefficients::from_set(ParameterSet::Remus100) });
+    let mut c = remus100(false);
+    c.spec.fins.stern_slope = c.spec.fins.rudder_slope;
+    let hull = Hydrodynamics::new(c);
     let none = Vector3::zeros();
     let f = |v, w| {
         let at = Relative { v_ground: v, v, w, along: none, rho: 1026.0, down: Vector3::z(), z_m: -10.0, wet: 1.0 };

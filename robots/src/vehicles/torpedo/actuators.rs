@@ -1,8 +1,8 @@
-//! Fins and propeller follow their set-points with a lag, within their limits.
+//! Fins and propeller of a torpedo follow their set-points with a lag, within their limits.
 //!
 //! *Source:* first-order lags of the REMUS 100 model (Fossen 2021; see `coefficients.rs`).
 //!
-//! *Parameters:* T_fin `fin_lag_s` 0.1 s; T_propeller `propeller_lag_s` 1 s; 15°; 1525 rpm.
+//! *Parameters:* `lag_s` of fins and propeller, `limit_deg`, `limit_rpm`.
 //!
 //! *Deviations:* none.
 
@@ -11,7 +11,7 @@ use crate::handoff::ActuatorCommand;
 use crate::vehicles::dynamics::Carried;
 
 /// State of the actuators: what they would do if it was commanded.
-pub type Actuators = ActuatorCommand;
+pub(super) type Actuators = ActuatorCommand;
 
 impl Carried for Actuators {
     fn moved(&self, rate: &Self, h: f64) -> Self {
@@ -26,37 +26,38 @@ impl Carried for Actuators {
 impl Actuators {
     /// The nearest state that the vehicle's actuators can reach.
     pub(super) fn limited(self, c: &Coefficients) -> Self {
-        let fin = c.fin_limit_rad;
+        let (fin, rpm) = (c.fin_limit_rad, c.spec.propeller.limit_rpm.get());
         Self {
             rudder_rad: self.rudder_rad.clamp(-fin, fin),
             stern_rad: self.stern_rad.clamp(-fin, fin),
-            rpm: self.rpm.clamp(-c.rpm_limit, c.rpm_limit),
+            rpm: self.rpm.clamp(-rpm, rpm),
         }
     }
 
     /// The commanded state, limited unless the limits act on the state.
-    pub(in crate::vehicles) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
-        if c.limits_on_state { *command } else { command.limited(c) }
+    pub(super) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
+        if c.spec.published { *command } else { command.limited(c) }
     }
 
     /// Rate of change of each towards the command, per second.
     pub(super) fn rate(&self, asked: &Self, c: &Coefficients) -> Self {
+        let fin_s = c.spec.fins.lag_s.get();
         Self {
-            rudder_rad: (asked.rudder_rad - self.rudder_rad) / c.fin_lag_s,
-            stern_rad: (asked.stern_rad - self.stern_rad) / c.fin_lag_s,
-            rpm: (asked.rpm - self.rpm) / c.propeller_lag_s,
+            rudder_rad: (asked.rudder_rad - self.rudder_rad) / fin_s,
+            stern_rad: (asked.stern_rad - self.stern_rad) / fin_s,
+            rpm: (asked.rpm - self.rpm) / c.spec.propeller.lag_s.get(),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::coefficients::ParameterSet;
+    use super::super::testing::remus100;
     use super::*;
 
     #[test]
     fn commands_beyond_the_limits_are_cut() {
-        let c = Coefficients::from_set(ParameterSet::Remus100);
+        let c = remus100(false);
         let asked = Actuators::asked(&ActuatorCommand { rudder_rad: 1.0, stern_rad: -1.0, rpm: 9000.0 }, &c);
         assert!((asked.rudder_rad.to_degrees() - 15.0).abs() < 1e-12);
         assert!((asked.stern_rad.to_degrees() + 15.0).abs() < 1e-12);
