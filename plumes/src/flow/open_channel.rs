@@ -8,14 +8,24 @@
 //!
 //! *Deviations*: u_* is solved so that the profile has the given depth mean.
 
+use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
+use world::fields::SideWalls;
 use world::math;
 use world::ranges::{HeadingDeg, NonNegative, Positive};
+use world::registry::Listed;
+use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
+use crate::flow::current::{CurrentParams, CurrentSlot};
 use crate::flow::eddies::EddiesSpec;
+use crate::flow::flume::Flume;
+use crate::flow::free_water::FreeWater;
 
 /// A channel between two walls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,6 +58,66 @@ const fn smooth() -> NonNegative {
 
 const fn water() -> Positive {
     Positive::new(1e-6)
+}
+
+impl Listed for OpenChannelSpec {
+    const ENTRY: Entry = Entry {
+        name: "OpenChannel",
+        what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
+        source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
+    };
+}
+
+impl CurrentParams for OpenChannelSpec {
+    fn join(&self, water: &mut FreeWater, place: &CurrentSlot) -> Result<(), PlumeError> {
+        if water.stands_at_bed() {
+            return place.wrong(
+                "an OpenChannel brings its own bed friction and there can be only one: leave out water.bed and any other OpenChannel",
+            );
+        }
+        let CurrentSlot { field, area, seed, .. } = *place;
+        let Terrain::Level { depth_m } = *place.terrain else {
+            return place.wrong("an OpenChannel needs a level bed: terrain: Level(depth_m: ...)");
+        };
+        let channel = self.build(field, depth_m)?;
+        let axis = area.axis.unit();
+        if channel.along.dot(&axis).abs() < 1.0 - 1e-9 {
+            return Err(PlumeError::Invalid {
+                field: format!("{field}.heading_deg"),
+                problem: format!(
+                    "an OpenChannel flows along the area's axis, {} or {} degrees, got {}",
+                    area.axis.deg(),
+                    (area.axis.deg() + 180.0).rem_euclid(360.0),
+                    self.heading_deg.get()
+                ),
+            });
+        }
+        let eddies = (self.eddies.as_ref()).map(|e| e.build(field, area, &channel, seed)).transpose()?;
+        let walls = SideWalls {
+            centre: area.centre,
+            across: Vector2::new(-channel.along.y, channel.along.x),
+            half_width_m: area.width_m / 2.0,
+        };
+        water.flume = Some(Flume::new(channel, eddies, walls));
+        Ok(())
+    }
+
+    fn is_steady(&self) -> bool {
+        true
+    }
+
+    fn is_walled(&self) -> bool {
+        true
+    }
+
+    fn carries_m_s(&self) -> Vector2<f64> {
+        self.heading_deg.heading().unit() * self.mean_m_s.get()
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, _: f64, _: &Times) -> Cost {
+        let eddies = self.eddies.as_ref();
+        eddies.map_or_else(Cost::default, |e| e.cost(area, depth_m).under("eddies"))
+    }
 }
 
 impl OpenChannelSpec {

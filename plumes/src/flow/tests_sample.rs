@@ -1,7 +1,6 @@
 //! A hull's sample of the water beside differences of its velocity.
 
 use nalgebra::{Vector2, Vector3};
-use std::sync::Arc;
 use world::fields::Flow;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
@@ -9,14 +8,14 @@ use world::terrain::Terrain;
 
 use super::tests_water::{duck, duck_area, duck_bed, layer, places, wave};
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::foreign::PlaneCurrent;
 use crate::flow::layered::{InterfaceSpec, LayeredSpec};
+use crate::flow::plane_current::PlaneCurrent;
 use crate::flow::tide::{ConstituentSpec, TideSpec};
 use crate::flow::uniform::UniformSpec;
 use crate::flow::{Water, WaterSpec};
 
 /// A current of which the water knows nothing but its values.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Turning;
 
 impl PlaneCurrent for Turning {
@@ -56,7 +55,7 @@ fn sample_agrees_with_differences() {
     layers_only.currents.pop();
     for (spec, bed) in [(&duck(), duck_bed()), (&tidal, duck_bed()), (&layers_only, Terrain::Level { depth_m: 6.0 })] {
         let mut w = spec.build(&duck_area(), &bed, 7).unwrap();
-        w.add(Arc::new(Turning));
+        w.free.add(Turning);
         // Between two levels of the meander, where its slope in time has no kink.
         w.advance(301.3);
         let plain = Plain(w.clone());

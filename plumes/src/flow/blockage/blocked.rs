@@ -14,7 +14,6 @@ mod kept;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use world::area::Area;
-use world::fields::Flow;
 use world::obstacles::Obstacles;
 
 use super::cells::{Cells, Faces, beyond};
@@ -22,8 +21,8 @@ use super::field::{self, FieldPair};
 use super::solve::{Projector, SolutionReport};
 use super::spec::BlockageSpec;
 use crate::error::PlumeError;
-use crate::flow::ground::{Floor, Ground};
-use crate::flow::water::{Column, Water};
+use crate::flow::free_water::{Column, FreeWater};
+use crate::flow::ground::Floor;
 
 /// How long after the latest advance questions may come, s.
 const AHEAD_S: f64 = 1.0;
@@ -38,7 +37,7 @@ pub struct ObstacleFlow {
     // `None` once steady water has been solved.
     projector: Option<Arc<Projector>>,
     // The unblocked water, advanced to the last of the three moments.
-    free: Box<Water>,
+    free: Box<FreeWater>,
     phi: Vec<f64>,
     // At `first`, `first + 1`, `first + 2` periods.
     fields: [Arc<Faces<f32>>; 3],
@@ -56,12 +55,11 @@ impl ObstacleFlow {
     pub(crate) fn new(
         spec: &BlockageSpec,
         area: &Area,
-        ground: &Ground,
         obstacles: &Obstacles,
-        free: Water,
+        free: FreeWater,
     ) -> Result<Self, PlumeError> {
-        let walled = free.walls().is_some();
-        let cells = Cells::new(spec, area, ground, obstacles, walled)?;
+        let ground = &free.ground;
+        let cells = Cells::new(spec, area, ground, obstacles, free.side_walls().is_some())?;
         let projector = Projector::new(&cells, ground);
         let [nx, ny, _] = cells.n;
         let corner = |i: usize, j: usize| -ground.floor(cells.place(i as f64, j as f64)).z;
@@ -82,7 +80,7 @@ impl ObstacleFlow {
         };
         this.drift = this.stokes();
         let now = this.worked_out(0.0);
-        if this.free.is_steady() {
+        if this.free.steady {
             this.fields = [now.clone(), now.clone(), now];
             (this.projector, this.phi) = (None, Vec::new());
         } else {
@@ -182,7 +180,7 @@ impl ObstacleFlow {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
-    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`] requires: along, across and
+    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`](world::fields::Flow::rates) requires: along, across and
     /// upwards, the speed at the lower and the upper face in cell sizes per second. Columns have one level less than
     /// nodes: cell (i, j, k) has the number (i·(ny + 1) + j)·nz + k and belongs to the flow grid's column at its lower
     /// corner.

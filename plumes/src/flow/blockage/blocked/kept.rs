@@ -4,7 +4,6 @@
 use super::{Faces, ObstacleFlow, SolutionReport};
 use std::sync::Arc;
 use world::bits::{Reader, Unreadable, Writer};
-use world::fields::Flow;
 
 impl ObstacleFlow {
     /// Writes what has changed since it was built.
