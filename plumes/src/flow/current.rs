@@ -29,7 +29,7 @@ pub struct CurrentSlot<'a> {
 impl CurrentSlot<'_> {
     /// A mistake of the current as a whole.
     pub(super) fn wrong<T>(&self, problem: &str) -> Result<T, PlumeError> {
-        Err(PlumeError::Invalid { field: self.field.to_owned(), problem: problem.to_owned() })
+        Err(PlumeError::new(self.field, problem))
     }
 }
 

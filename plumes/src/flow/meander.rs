@@ -113,11 +113,10 @@ impl MeanderSpec {
     /// # Errors
     /// Names the field: damping not below 1, or a grid too fine.
     pub fn build(&self, field: &str, area: &Area, carrier: Vector2<f64>, seed: Seed) -> Result<Meander, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let (omega, damping) = (self.omega_rad_s.get(), self.damping.get());
         if damping >= 1.0 {
             let problem = format!("must be > 0 and < 1 (an oscillation), got {damping}");
-            return Err(bad("damping", problem));
+            return Err(PlumeError::new(format!("{field}.damping"), problem));
         }
         let extent = [area.length_m, area.width_m];
         let least = extent[0].max(extent[1]) / MOST_CELLS;
@@ -126,7 +125,7 @@ impl MeanderSpec {
                 "must be >= {least} ({MOST_CELLS} cells along the area's longer side), got {}",
                 self.cell_m.get()
             );
-            return Err(bad("cell_m", problem));
+            return Err(PlumeError::new(format!("{field}.cell_m"), problem));
         }
         // At least two cells, so that there is an inside.
         let cells = extent.map(|e| ((e / self.cell_m.get()).ceil() as usize).max(2));
@@ -244,18 +243,14 @@ impl PlaneCurrent for Meander {
                 self.levels.push_back(self.grid.project(&self.carried.u));
             }
         }
-        self.forget(needed);
-    }
-}
-
-impl Meander {
-    fn forget(&mut self, needed: u64) {
         while self.first < needed && self.levels.len() > 2 {
             self.levels.pop_front();
             self.first += 1;
         }
     }
+}
 
+impl Meander {
     /// Velocity at (east, north), m/s.
     pub fn at<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
         let last = N::from((self.levels.len() - 1) as f64);

@@ -20,6 +20,8 @@ pub mod open_channel;
 mod plane_current;
 mod solenoidal;
 #[cfg(test)]
+pub(crate) mod tests_kit;
+#[cfg(test)]
 mod tests_sample;
 #[cfg(test)]
 mod tests_sea;

@@ -82,15 +82,13 @@ impl CurrentParams for OpenChannelSpec {
         let channel = self.build(field, depth_m)?;
         let axis = area.axis.unit();
         if channel.along.dot(&axis).abs() < 1.0 - 1e-9 {
-            return Err(PlumeError::Invalid {
-                field: format!("{field}.heading_deg"),
-                problem: format!(
-                    "an OpenChannel flows along the area's axis, {} or {} degrees, got {}",
-                    area.axis.deg(),
-                    (area.axis.deg() + 180.0).rem_euclid(360.0),
-                    self.heading_deg.get()
-                ),
-            });
+            let problem = format!(
+                "an OpenChannel flows along the area's axis, {} or {} degrees, got {}",
+                area.axis.deg(),
+                (area.axis.deg() + 180.0).rem_euclid(360.0),
+                self.heading_deg.get()
+            );
+            return Err(PlumeError::new(format!("{field}.heading_deg"), problem));
         }
         let eddies = (self.eddies.as_ref()).map(|e| e.build(field, area, &channel, seed)).transpose()?;
         let walls = SideWalls {
@@ -126,13 +124,12 @@ impl OpenChannelSpec {
     /// # Errors
     /// If the roughness is not small compared with the depth, or if no friction velocity gives the wanted mean.
     pub fn build(&self, field: &str, depth_m: f64) -> Result<Channel, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let k_s = self.roughness_m.get();
         if k_s > 0.5 * depth_m {
             let most = 0.5 * depth_m;
             let problem =
                 format!("must be >= 0 and at most {most} (half the depth: beyond, there is no log law), got {k_s}");
-            return Err(bad("roughness_m", problem));
+            return Err(PlumeError::new(format!("{field}.roughness_m"), problem));
         }
         let nu = self.viscosity_m2_s.get();
         let mean = self.mean_m_s.get();
@@ -143,7 +140,7 @@ impl OpenChannelSpec {
                 "gives a Reynolds number of {reynolds:.0}, must be >= {} for a turbulent channel {depth_m} m deep, got {mean}",
                 2000.0 * nu / depth_m
             );
-            return Err(bad("mean_m_s", problem));
+            return Err(PlumeError::new(format!("{field}.mean_m_s"), problem));
         }
         let at = |u_star: f64| Channel {
             along: self.heading_deg.heading().unit(),

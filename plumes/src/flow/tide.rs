@@ -83,18 +83,13 @@ impl TideSpec {
     /// Names the field: no constituent, or a minor axis longer than the major one.
     pub fn build(&self, field: &str) -> Result<Tide, PlumeError> {
         if self.constituents.is_empty() {
-            return Err(PlumeError::Invalid {
-                field: format!("{field}.constituents"),
-                problem: "needs one at least, got none".to_owned(),
-            });
+            return Err(PlumeError::new(format!("{field}.constituents"), "needs one at least, got none"));
         }
         let of = |(n, c): (usize, &ConstituentSpec)| {
             let (a, b) = (c.major_m_s.get(), c.minor_m_s.get());
             if b.abs() > a {
-                return Err(PlumeError::Invalid {
-                    field: format!("{field}.constituents[{n}].minor_m_s"),
-                    problem: format!("must be from -{a} to {a} (major_m_s), got {b}"),
-                });
+                let problem = format!("must be from -{a} to {a} (major_m_s), got {b}");
+                return Err(PlumeError::new(format!("{field}.constituents[{n}].minor_m_s"), problem));
             }
             let e = c.heading_deg.heading().unit();
             Ok(Constituent {

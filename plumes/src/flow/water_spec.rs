@@ -118,8 +118,7 @@ impl WaterSpec {
                 }
             }
             if let Some(problem) = water.fault(area.centre, 0.0) {
-                let field = "water.currents".to_string();
-                return Err(PlumeError::Invalid { field, problem });
+                return Err(PlumeError::new("water.currents", problem));
             }
         }
         water.advance(0.0);

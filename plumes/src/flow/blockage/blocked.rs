@@ -48,7 +48,6 @@ pub struct ObstacleFlow {
     drift: Option<Arc<Faces<f32>>>,
     // Mean depth of each column, m: that of its four corners.
     depth: Arc<Vec<f64>>,
-    still_bed: bool,
 }
 
 impl ObstacleFlow {
@@ -75,7 +74,6 @@ impl ObstacleFlow {
             cells: Arc::new(cells),
             drift: None,
             depth: Arc::new(depth),
-            still_bed: free.stands_at_bed(),
             free: Box::new(free),
         };
         this.drift = this.stokes();
@@ -150,7 +148,7 @@ impl ObstacleFlow {
                     }
                 }
             }
-            *[&mut flux.x, &mut flux.y][d] = all;
+            flux.0[d] = all;
         }
         let top = cells.d[0] * cells.d[1];
         for i in 0..nx {
@@ -158,12 +156,12 @@ impl ObstacleFlow {
                 let p = cells.place(i as f64 + 0.5, j as f64 + 0.5);
                 let column = self.free.column(p, t_s);
                 let floor = self.free.floor(p);
-                flux.s.push(0.0);
+                flux.0[2].push(0.0);
                 for s in &cells.s[1..nz] {
                     let v = velocity(&column, floor.z * (1.0 - s));
-                    flux.s.push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
+                    flux.0[2].push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
                 }
-                flux.s.push(0.0);
+                flux.0[2].push(0.0);
             }
         }
         flux
@@ -200,7 +198,7 @@ impl ObstacleFlow {
                     for d in 0..3 {
                         for (side, face) in [[i, j, k], beyond(d, [i, j, k])].into_iter().enumerate() {
                             let at = cells.face(d, face);
-                            let of = |f: &Faces<f32>| f.across(d)[at];
+                            let of = |f: &Faces<f32>| f.0[d][at];
                             let v = field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));
                             rates[2 * d + side] = (v * per[d] / depth) as f32;
                         }
@@ -212,7 +210,7 @@ impl ObstacleFlow {
 
     /// Whether friction stops the water at the bed.
     pub(crate) fn still_bed(&self) -> bool {
-        self.still_bed
+        self.free.stands_at_bed()
     }
 
     /// Velocity, its gradient and rate of change; `None` outside the cells. The gradient is taken between the centres

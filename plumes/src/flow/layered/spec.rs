@@ -135,39 +135,35 @@ impl LayeredSpec {
     /// density that does not increase downwards.
     fn build(&self, place: &CurrentSlot) -> Result<Layered, PlumeError> {
         let field = place.field;
-        let bad = |sub: String, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let n = self.layers.len();
         if n == 0 || n > MAX_LAYERS {
             let problem = format!("needs from 1 to {MAX_LAYERS} layers, got {n}");
-            return Err(bad("layers".into(), problem));
+            return Err(PlumeError::new(format!("{field}.layers"), problem));
         }
         if self.interfaces.len() != n - 1 {
             let got = self.interfaces.len();
             let problem = format!("{n} layers need {} interfaces, got {got}", n - 1);
-            return Err(bad("interfaces".into(), problem));
+            return Err(PlumeError::new(format!("{field}.interfaces"), problem));
         }
         for (i, pair) in self.layers.windows(2).enumerate() {
             let (upper, lower) = (pair[0].density_kg_m3.get(), pair[1].density_kg_m3.get());
             if upper > lower {
-                return Err(bad(
-                    format!("layers[{}].density_kg_m3", i + 1),
-                    format!("must be >= {upper}, that of the layer above (lighter water floats), got {lower}"),
-                ));
+                let problem =
+                    format!("must be >= {upper}, that of the layer above (lighter water floats), got {lower}");
+                return Err(PlumeError::new(format!("{field}.layers[{}].density_kg_m3", i + 1), problem));
             }
         }
         for (i, pair) in self.interfaces.windows(2).enumerate() {
             let (upper, lower) = (pair[0].depth_m.get(), pair[1].depth_m.get());
             if lower <= upper {
-                return Err(bad(
-                    format!("interfaces[{}].depth_m", i + 1),
-                    format!("must be > {upper}, that of the interface above, got {lower}"),
-                ));
+                let problem = format!("must be > {upper}, that of the interface above, got {lower}");
+                return Err(PlumeError::new(format!("{field}.interfaces[{}].depth_m", i + 1), problem));
             }
         }
         for (i, face) in self.interfaces.iter().enumerate() {
             for (j, wave) in face.waves.iter().enumerate() {
-                let field = format!("interfaces[{i}].waves[{j}].length_m");
-                wave.check().map_err(|problem| bad(field, problem))?;
+                let at = || format!("{field}.interfaces[{i}].waves[{j}].length_m");
+                wave.check().map_err(|problem| PlumeError::new(at(), problem))?;
             }
         }
         let mut rng = Stream::new(place.seed, field, "interface phases");

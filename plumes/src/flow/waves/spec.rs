@@ -103,14 +103,13 @@ impl WavesSpec {
     /// Names the field: no waves at all, too many, or so steep that they would break.
     pub fn build(&self, field: &str, depth_m: f64, seed: impl Into<Seed>) -> Result<Waves, PlumeError> {
         let seed = seed.into();
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}{sub}"), problem };
         let steep = |sub: &str, height: f64, period: f64| {
             let k = wave_number(TAU / period, depth_m);
             let most = MICHE * TAU / k * math::tanh(k * depth_m);
             let problem = format!(
                 "must be > 0 and at most {most:.3} (waves of {period} s in {depth_m} m of water break beyond), got {height}"
             );
-            if height > most { Err(bad(sub, problem)) } else { Ok(k) }
+            if height > most { Err(PlumeError::new(format!("{field}.{sub}"), problem)) } else { Ok(k) }
         };
         let mut rng = Stream::new(seed, field, "wave phases");
         let mut waves = Vec::new();
@@ -121,7 +120,7 @@ impl WavesSpec {
             let drawn = TAU * rng.uniform();
             let phase = train.phase_deg.map_or(drawn, |p| p.get().to_radians());
             let (height, period) = (train.height_m.get(), train.period_s.get());
-            let k = steep(&format!(".trains[{n}].height_m"), height, period)?;
+            let k = steep(&format!("trains[{n}].height_m"), height, period)?;
             let along = train.heading_deg.heading().unit();
             let wave = Airy::new(0.5 * height, TAU / period, along, phase, depth_m);
             systems.push((wave.variance(), period, k));
@@ -130,10 +129,10 @@ impl WavesSpec {
         if let Some(sea) = &self.spectrum {
             if !(1..=200).contains(&sea.components) {
                 let problem = format!("must be from 1 to 200, got {}", sea.components);
-                return Err(bad(".spectrum.components", problem));
+                return Err(PlumeError::new(format!("{field}.spectrum.components"), problem));
             }
             let (height, period) = (sea.significant_height_m.get(), sea.peak_period_s.get());
-            let k = steep(".spectrum.significant_height_m", height, period)?;
+            let k = steep("spectrum.significant_height_m", height, period)?;
             let mean = sea.heading_deg.heading().unit();
             for w in sea.draw(&mut Stream::new(seed, field, "wind sea")) {
                 let along = Rotation2::from_matrix_unchecked(turn(w.turned)) * mean;
@@ -142,8 +141,7 @@ impl WavesSpec {
             systems.push((height * height / 16.0, period, k));
         }
         if waves.is_empty() {
-            let problem = "needs trains or a spectrum, got neither".to_owned();
-            return Err(bad("", problem));
+            return Err(PlumeError::new(field, "needs trains or a spectrum, got neither"));
         }
         let profile = (0..LEVELS).map(|n| {
             let z = depth_m * (n as f64 / (LEVELS - 1) as f64 - 1.0);
