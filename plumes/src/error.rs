@@ -12,3 +12,10 @@ pub enum PlumeError {
         problem: String,
     },
 }
+
+impl PlumeError {
+    /// A field that is outside what the model can do, and what would be legal.
+    pub(crate) fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Invalid { field: field.into(), problem: problem.into() }
+    }
+}

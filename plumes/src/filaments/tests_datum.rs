@@ -2,21 +2,20 @@
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::source;
+use crate::flow::blockage::tests::{block, solids};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::eddies::tests_eddies::channel_spec;
 use crate::flow::grid::GridShape;
-use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
-use crate::flow::meander::MeanderSpec;
-use crate::flow::uniform::UniformSpec;
+use crate::flow::tests_kit::{layer, meander, two_layers, uniform, wave};
+use crate::flow::waves::tests::train;
 use crate::flow::waves::{TrainSpec, WavesSpec};
 use crate::flow::{BlockageSpec, WaterSpec};
 use crate::release::SourceSpec;
 use nalgebra::{Vector2, Vector3};
-use std::path::Path;
 use world::area::Area;
 use world::fields::{Concentration, Flow};
-use world::obstacles::{BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::obstacles::Obstacles;
+use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -32,38 +31,15 @@ enum Case {
 const PLACES: [[f64; 2]; 3] = [[0.0, 0.0], [500_000.0, 4_649_776.0], [-1e7, 1.9e7]];
 
 fn currents(case: Case) -> Vec<CurrentSpec> {
-    let (speed_m_s, heading_deg) = (NonNegative::new(0.2), HeadingDeg::new(90.0));
-    let uniform = CurrentSpec::new(UniformSpec { speed_m_s, heading_deg });
     match case {
         Case::Flume => vec![CurrentSpec::new(channel_spec(0.05, 0.0))],
-        Case::Solids | Case::Blocked => vec![uniform],
+        Case::Solids | Case::Blocked => vec![uniform(0.2, 90.0)],
         Case::Open => {
-            let layer = |density| LayerSpec { speed_m_s, heading_deg, density_kg_m3: Positive::new(density) };
-            let layers = LayeredSpec {
-                layers: vec![layer(1020.0), layer(1024.0)],
-                interfaces: vec![InterfaceSpec {
-                    depth_m: Positive::new(2.0),
-                    thickness_m: Positive::new(0.5),
-                    waves: vec![WaveSpec {
-                        amplitude_m: NonNegative::new(0.3),
-                        length_m: Positive::new(50.0),
-                        period_s: Positive::new(100.0),
-                        heading_deg,
-                        phase_deg: None,
-                    }],
-                }],
-            };
-            let meander = MeanderSpec {
-                std_m_s: NonNegative::new(0.02),
-                omega_rad_s: Positive::new(0.05),
-                damping: Positive::new(0.1),
-                cell_m: Positive::new(5.0),
-                diffusivity_m2_s: None,
-            };
-            let train =
-                TrainSpec { height_m: Positive::new(0.2), period_s: Positive::new(4.0), heading_deg, phase_deg: None };
+            let waves = vec![wave(0.3, 50.0, 100.0, 90.0, None)];
+            let layers = two_layers([layer(0.2, 90.0, 1020.0), layer(0.2, 90.0, 1024.0)], 2.0, 0.5, waves);
+            let train = TrainSpec { phase_deg: None, ..train(0.2, 4.0, 90.0) };
             let waves = WavesSpec { trains: vec![train], spectrum: None, stokes: true, mixing: NonNegative::new(0.0) };
-            vec![CurrentSpec::new(layers), CurrentSpec::new(meander), CurrentSpec::new(waves)]
+            vec![CurrentSpec::new(layers), meander(0.02, 0.05, 5.0), CurrentSpec::new(waves)]
         }
     }
 }
@@ -74,9 +50,8 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
     let (length_m, width_m, depth_m) = if flume { (2.5, 1.07, 0.2) } else { (40.0, 20.0, 5.0) };
     let area = Area { centre, length_m, width_m, axis: Heading::from_deg(90.0) };
     let bed = Terrain::Level { depth_m };
-    let m = Positive::new;
     let blockage = (case == Case::Blocked).then(|| BlockageSpec {
-        cell_m: m(1.0),
+        cell_m: Positive::new(1.0),
         levels: 6,
         margin_m: NonNegative::new(5.0),
         ..BlockageSpec::default()
@@ -85,19 +60,10 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
     if !flume {
         spec.mixing.horizontal_m2_s = NonNegative::new(0.005);
     }
-    let block = ObstacleSpec {
-        surface: Default::default(),
-        id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape { size_m: (m(3.0), m(4.0), m(5.0)) }),
-        east_m: Finite::new(centre.x - 10.0),
-        north_m: Finite::new(centre.y + 0.5),
-        base: Default::default(),
-        heading_deg: HeadingDeg::new(20.0),
+    let solids = match case {
+        Case::Open | Case::Flume => Obstacles::default(),
+        _ => solids(&[(block([3.0, 4.0, 5.0]), centre.x - 10.0, centre.y + 0.5, 20.0)], &bed),
     };
-    let solids = Obstacles(match case {
-        Case::Open | Case::Flume => Vec::new(),
-        _ => vec![Obstacle::build(&block, &bed, Path::new("")).unwrap()],
-    });
     let mut water = spec.build_round(&area, &bed, &solids, 3).unwrap();
     let grid = blockage.map_or(GridShape::fitting(&area), |b| b.grid_shape());
     let start_m = if flume { -0.9 } else { -17.0 };

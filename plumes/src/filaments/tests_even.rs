@@ -6,16 +6,15 @@
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::source;
-use crate::flow::bed::BedSpec;
 use crate::flow::blockage::Cells;
 use crate::flow::blockage::tests::{area, block, eastward, pile, solids, spec};
-use crate::flow::meander::MeanderSpec;
-use crate::flow::{CurrentSpec, Water, WaterSpec};
+use crate::flow::tests_kit::{meander, rough};
+use crate::flow::{Water, WaterSpec};
 use nalgebra::Vector2;
 use world::area::Area;
 use world::fields::Flow;
 use world::obstacles::Obstacles;
-use world::ranges::{Finite, NonNegative, Positive};
+use world::ranges::{Finite, NonNegative};
 use world::seeds::Stream;
 use world::terrain::Terrain;
 use world::units::Heading;
@@ -263,14 +262,8 @@ fn in_unsteady_water_over_a_slope() {
     let bed = Terrain::sloping_over(&area, Heading::from_deg(290.0), 4.0, 8.0);
     let solids = solids(&[(block([8.0, 6.0, 3.0]), 4.0, -7.0, 90.0)], &bed);
     let mut spec = eastward(0.2, spec(2.0, 5, 0.0));
-    spec.currents.push(CurrentSpec::new(MeanderSpec {
-        std_m_s: NonNegative::new(0.05),
-        omega_rad_s: Positive::new(0.02),
-        damping: Positive::new(0.1),
-        cell_m: Positive::new(9.0),
-        diffusivity_m2_s: None,
-    }));
-    spec.bed = Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) });
+    spec.currents.push(meander(0.05, 0.02, 9.0));
+    spec.bed = rough(0.001, 2.0);
     mixing(&mut spec, 0.01, 1e-3);
     let scene = Scene::new(&spec, &area, &bed, &solids, 40.0, 2);
     stays_even(scene, 1.0, Shots { first: 40, then: 8, count: 12 }, blocks_of(2, 2), 90);

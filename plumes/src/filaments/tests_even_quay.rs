@@ -2,11 +2,9 @@
 
 use super::tests_even::{Scene, Shots, blocks_of, mixing, stays_even};
 use crate::flow::CurrentSpec;
-use crate::flow::bed::BedSpec;
 use crate::flow::blockage::tests::{area, block, eastward, pile, solids, spec};
-use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec};
+use crate::flow::tests_kit::{layer, rough, two_layers};
 use nalgebra::Vector3;
-use world::ranges::{HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
 /// A part of the quay: wall, deck with its lower side within a cell, hull with its sides within cells, two piles, two
@@ -29,21 +27,10 @@ fn under_a_quay() {
     // Deck and hull hang: one metre of the deck and five of the hull are under water.
     solids.0[1].pose.p_WB = Vector3::new(4.0, 2.5, 5.0);
     solids.0[2].pose.p_WB = Vector3::new(10.0, -11.0, 1.0);
-    let layer = |speed, density| LayerSpec {
-        speed_m_s: NonNegative::new(speed),
-        heading_deg: HeadingDeg::new(90.0),
-        density_kg_m3: Positive::new(density),
-    };
+    let layers = [layer(0.3, 90.0, 1012.0), layer(0.2, 90.0, 1022.0)];
     let mut spec = eastward(0.0, spec(2.0, 13, 0.0));
-    spec.currents = vec![CurrentSpec::new(LayeredSpec {
-        layers: vec![layer(0.3, 1012.0), layer(0.2, 1022.0)],
-        interfaces: vec![InterfaceSpec {
-            depth_m: Positive::new(3.0),
-            thickness_m: Positive::new(1.0),
-            waves: Vec::new(),
-        }],
-    })];
-    spec.bed = Some(BedSpec { roughness_m: Positive::new(0.002), thickness_m: Positive::new(4.0) });
+    spec.currents = vec![CurrentSpec::new(two_layers(layers, 3.0, 1.0, Vec::new()))];
+    spec.bed = rough(0.002, 4.0);
     mixing(&mut spec, 0.03, 3e-4);
     let scene = Scene::new(&spec, &area, &bed, &solids, 100.0, 2);
     let open = scene.cells().open.iter().filter(|o| **o).count();

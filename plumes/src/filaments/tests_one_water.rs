@@ -2,31 +2,20 @@
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, plume, pour, source};
-use crate::flow::bed::BedSpec;
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::layered::{InterfaceSpec, LayeredSpec};
 use crate::flow::mixing::MixingSpec;
-use crate::flow::tests_water::{layer, wave};
-use crate::flow::uniform::UniformSpec;
+use crate::flow::tests_kit::{layer, rough, two_layers, uniform, wave};
 use crate::flow::{Water, WaterSpec};
 use crate::release::SourceSpec;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::Flow;
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::ranges::{Finite, NonNegative};
 use world::terrain::Terrain;
 use world::units::Heading;
 
 /// Filaments released so rarely that the source itself never releases one.
 const NONE_HZ: f64 = 1e-9;
-
-fn current(speed_m_s: f64) -> CurrentSpec {
-    CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(speed_m_s), heading_deg: HeadingDeg::new(90.0) })
-}
-
-fn rough(roughness_m: f64, thickness_m: f64) -> Option<BedSpec> {
-    Some(BedSpec { roughness_m: Positive::new(roughness_m), thickness_m: Positive::new(thickness_m) })
-}
 
 /// A plume in the basin on the grid that the water asks for.
 fn plume_in(spec: &WaterSpec, source: SourceSpec, area: &Area, bed: &Terrain) -> (Water, Plume) {
@@ -43,7 +32,7 @@ fn no_dye_lies_under_a_bed_that_bends() {
     let area = Area { length_m: 100.0, width_m: 60.0, ..basin() };
     let beach = Terrain::sloping_over(&area, Heading::from_deg(90.0), 0.5, 12.0);
     let spec = WaterSpec {
-        currents: vec![current(0.1)],
+        currents: vec![uniform(0.1, 90.0)],
         mixing: MixingSpec {
             horizontal_m2_s: NonNegative::new(0.002),
             background_vertical_m2_s: NonNegative::new(0.01),
@@ -75,7 +64,7 @@ fn no_dye_lies_under_a_bed_that_bends() {
 fn dye_follows_the_bed_over_its_bends() {
     let area = Area { length_m: 100.0, width_m: 60.0, ..basin() };
     let beach = Terrain::sloping_over(&area, Heading::from_deg(90.0), 2.0, 12.0);
-    let spec = WaterSpec { currents: vec![current(0.35)], ..WaterSpec::default() };
+    let spec = WaterSpec { currents: vec![uniform(0.35, 90.0)], ..WaterSpec::default() };
     let dye = SourceSpec { east_m: Finite::new(0.0), ..source(1.0, NONE_HZ, 0.0, 0.1) };
     let (water, mut plume) = plume_in(&spec, dye, &area, &beach);
     let part = |k: usize| 0.05 + 0.9 * (k as f64 / 99.0);
@@ -108,17 +97,10 @@ fn a_short_internal_wave_carries_dye_as_it_carries_a_hull() {
     for length_m in [25.0, 60.0] {
         let bed = Terrain::Level { depth_m: 10.0 };
         let period_s = 2.0 * length_m;
-        let spec = WaterSpec {
-            currents: vec![CurrentSpec::new(LayeredSpec {
-                layers: vec![layer(0.0, 90.0, 1020.0), layer(0.0, 90.0, 1024.0)],
-                interfaces: vec![InterfaceSpec {
-                    depth_m: Positive::new(5.0),
-                    thickness_m: Positive::new(2.0),
-                    waves: vec![wave(0.5, length_m, period_s, 90.0, Some(0.0))],
-                }],
-            })],
-            ..WaterSpec::default()
-        };
+        let layers = [layer(0.0, 90.0, 1020.0), layer(0.0, 90.0, 1024.0)];
+        let waves = vec![wave(0.5, length_m, period_s, 90.0, Some(0.0))];
+        let spec =
+            WaterSpec { currents: vec![CurrentSpec::new(two_layers(layers, 5.0, 2.0, waves))], ..WaterSpec::default() };
         let (water, mut plume) = plume_in(&spec, source(5.0, NONE_HZ, 0.0, 0.1), &basin(), &bed);
         let start = |k: usize| Vector3::new(-20.0 + 2.0 * k as f64, 3.0, -5.0);
         pour(&mut plume, 20, -10.0, |k| start(k).into());
@@ -149,15 +131,9 @@ fn nothing_mixes_through_a_thin_interface() {
     let bed = Terrain::Level { depth_m: 20.0 };
     for thickness_m in [0.01, 0.1] {
         for depth_m in [4.0, 9.7] {
+            let layers = [layer(0.2, 90.0, 1020.0), layer(0.2, 90.0, 1024.0)];
             let spec = WaterSpec {
-                currents: vec![CurrentSpec::new(LayeredSpec {
-                    layers: vec![layer(0.2, 90.0, 1020.0), layer(0.2, 90.0, 1024.0)],
-                    interfaces: vec![InterfaceSpec {
-                        depth_m: Positive::new(depth_m),
-                        thickness_m: Positive::new(thickness_m),
-                        waves: Vec::new(),
-                    }],
-                })],
+                currents: vec![CurrentSpec::new(two_layers(layers, depth_m, thickness_m, Vec::new()))],
                 bed: rough(0.001, 5.0),
                 ..WaterSpec::default()
             };
@@ -178,7 +154,7 @@ fn nothing_mixes_through_a_thin_interface() {
 fn dye_near_the_bed_moves_by_the_law_of_the_wall() {
     for depth_m in [2.0, 12.0, 200.0] {
         let bed = Terrain::Level { depth_m };
-        let spec = WaterSpec { currents: vec![current(0.4)], bed: rough(0.002, 5.0), ..WaterSpec::default() };
+        let spec = WaterSpec { currents: vec![uniform(0.4, 90.0)], bed: rough(0.002, 5.0), ..WaterSpec::default() };
         let (water, mut p) = plume_in(&spec, source(1.0, 1.0, 0.0, 0.1), &basin(), &bed);
         p.drift(&water, 0.0, 1.0);
         for height_m in [0.003, 0.01, 0.02, 0.05, 0.1, 0.3, 1.0] {

@@ -2,44 +2,28 @@
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, source};
-use crate::flow::uniform::UniformSpec;
-use crate::flow::{BlockageSpec, CurrentSpec, WaterSpec};
+use crate::flow::BlockageSpec;
+use crate::flow::blockage::tests::{block, eastward, solids};
 use nalgebra::Vector3;
-use std::path::Path;
-use world::obstacles::{BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::obstacles::Obstacles;
+use world::ranges::{NonNegative, Positive};
 use world::terrain::Terrain;
 
-fn block(bed: &Terrain, heading_deg: f64) -> Obstacles {
-    let m = Positive::new;
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape { size_m: (m(6.0), m(10.0), m(5.0)) }),
-        east_m: Finite::new(-60.0),
-        north_m: Finite::new(1.0),
-        base: Default::default(),
-        heading_deg: HeadingDeg::new(heading_deg),
-    };
-    Obstacles(vec![Obstacle::build(&spec, bed, Path::new("")).unwrap()])
+fn in_the_way(bed: &Terrain, heading_deg: f64) -> Obstacles {
+    solids(&[(block([6.0, 10.0, 5.0]), -60.0, 1.0, heading_deg)], bed)
 }
 
 /// How often a filament was brought out.
 fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     let bed = Terrain::Level { depth_m: 5.0 };
-    let solids = block(&bed, heading_deg);
-    let uniform = UniformSpec { speed_m_s: NonNegative::new(0.3), heading_deg: HeadingDeg::new(90.0) };
+    let solids = in_the_way(&bed, heading_deg);
     let blockage = BlockageSpec {
         cell_m: Positive::new(1.0),
         levels: 6,
         margin_m: NonNegative::new(10.0),
         ..BlockageSpec::default()
     };
-    let mut spec = WaterSpec {
-        currents: vec![CurrentSpec::new(uniform)],
-        blockage: Some(blockage.clone()),
-        ..WaterSpec::default()
-    };
+    let mut spec = eastward(0.3, blockage.clone());
     spec.mixing.horizontal_m2_s = NonNegative::new(k_h_m2_s);
     let water = if blocked { spec.build_round(&basin(), &bed, &solids, 1) } else { spec.build(&basin(), &bed, 1) };
     let water = water.unwrap();

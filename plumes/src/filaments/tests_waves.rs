@@ -6,13 +6,13 @@ use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, source};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::grid::GridShape;
-use crate::flow::uniform::UniformSpec;
+use crate::flow::tests_kit::uniform;
 use crate::flow::waves::tests::{regular, train};
 use crate::flow::{Water, WaterSpec};
 use crate::release::SourceSpec;
 use nalgebra::Vector3;
 use world::fields::{Concentration, Flow};
-use world::ranges::{HeadingDeg, NonNegative};
+use world::ranges::NonNegative;
 use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: 10.0 };
@@ -25,8 +25,7 @@ fn water(stokes: bool) -> Water {
     let mut waves = regular(vec![train(0.3, 4.0, 90.0)]);
     waves.stokes = stokes;
     waves.mixing = NonNegative::new(0.0);
-    let current = UniformSpec { speed_m_s: NonNegative::new(0.05), heading_deg: HeadingDeg::new(90.0) };
-    let spec = WaterSpec { currents: vec![CurrentSpec::new(current), CurrentSpec::new(waves)], ..WaterSpec::default() };
+    let spec = WaterSpec { currents: vec![uniform(0.05, 90.0), CurrentSpec::new(waves)], ..WaterSpec::default() };
     spec.build(&basin(), &BED, 1).unwrap()
 }
 

@@ -40,10 +40,8 @@ impl BedSpec {
     pub fn build(&self, field: &str) -> Result<BoundaryLayer, PlumeError> {
         let (z0, delta) = (self.roughness_m.get(), self.thickness_m.get());
         if delta < 3.0 * z0 {
-            return Err(PlumeError::Invalid {
-                field: format!("{field}.roughness_m"),
-                problem: format!("must be > 0 and at most a third of thickness_m ({delta}), got {z0}"),
-            });
+            let problem = format!("must be > 0 and at most a third of thickness_m ({delta}), got {z0}");
+            return Err(PlumeError::new(format!("{field}.roughness_m"), problem));
         }
         Ok(BoundaryLayer::new(z0, delta))
     }

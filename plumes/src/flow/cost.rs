@@ -26,10 +26,9 @@ impl WaterSpec {
             cost.add(own.under(&format!("water.currents[{i}]")));
         }
         let waves = self.waves();
-        let steady = self.currents.iter().all(|c| c.is_steady());
         let shape = self.grid_shape(area, depth_m);
         if let Some(spec) = &self.blockage {
-            cost.add(spec.cost(area, steady, times).under("water.blockage"));
+            cost.add(spec.cost(area, self.is_steady(), times).under("water.blockage"));
         }
         let nodes: f64 = shape.nodes(area).iter().product();
         let round_s = if self.blockage.is_some() { ROUND_S } else { 0.0 };

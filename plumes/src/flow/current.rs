@@ -8,8 +8,8 @@ use world::seeds::Seed;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
+use crate::flow::free_water::FreeWater;
 use crate::flow::grid::CurrentScales;
-use crate::flow::water::Water;
 
 /// Where a current joins the water.
 #[derive(Clone, Copy, Debug)]
@@ -22,12 +22,14 @@ pub struct CurrentSlot<'a> {
     pub terrain: &'a Terrain,
     /// Seed of the run.
     pub seed: Seed,
+    /// Mean of the currents that carry it (east, north), m/s; zero for those that nothing carries.
+    pub carrier: Vector2<f64>,
 }
 
 impl CurrentSlot<'_> {
     /// A mistake of the current as a whole.
     pub(super) fn wrong<T>(&self, problem: &str) -> Result<T, PlumeError> {
-        Err(PlumeError::Invalid { field: self.field.to_owned(), problem: problem.to_owned() })
+        Err(PlumeError::new(self.field, problem))
     }
 }
 
@@ -38,19 +40,16 @@ pub trait CurrentParams: Spec {
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
-    fn join(&self, water: &mut Water, place: &CurrentSlot) -> Result<(), PlumeError>;
+    fn join(&self, water: &mut FreeWater, place: &CurrentSlot) -> Result<(), PlumeError>;
 
-    /// The same for one that the mean of all others carries: it joins when those have.
-    ///
-    /// # Errors
-    /// As [`Self::join`].
-    fn join_carried(&self, _water: &mut Water, _place: &CurrentSlot, _carrier: Vector2<f64>) -> Result<(), PlumeError> {
-        Ok(())
+    /// Whether the mean of all others carries it: it joins when those have.
+    fn is_carried(&self) -> bool {
+        false
     }
 
     /// Whether it never changes; waves pass by without turning the water.
     fn is_steady(&self) -> bool {
-        true
+        false
     }
 
     /// Whether the area's sides are its walls.

@@ -92,7 +92,7 @@ impl FlowGrid {
             shape.levels >= 2 && shape.cell_m > 0.0 && (0.0..1.0).contains(&shape.stretch),
             "a flow grid needs levels >= 2, cell_m > 0 and stretch in [0, 1), got {shape:?}"
         );
-        let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * shape.margin_m);
+        let extent = shape.extent_m(area);
         let n = shape.nodes(area).map(|n| n as usize);
         let spacing = [0, 1].map(|d| extent[d] / (n[d] - 1) as f64);
         let corner = Vector2::new(-extent[0] / 2.0, -extent[1] / 2.0);

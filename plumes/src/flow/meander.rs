@@ -21,13 +21,18 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
 use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
-use crate::flow::number::{Number, along, times};
+use crate::flow::current::{CurrentParams, CurrentSlot};
+use crate::flow::free_water::FreeWater;
+use crate::flow::number::{Jet, Number, along, times};
+use crate::flow::plane_current::PlaneCurrent;
 use crate::flow::solenoidal::Solenoidal;
 
 /// Farrell's wind grid as a meander of the water.
@@ -108,11 +113,10 @@ impl MeanderSpec {
     /// # Errors
     /// Names the field: damping not below 1, or a grid too fine.
     pub fn build(&self, field: &str, area: &Area, carrier: Vector2<f64>, seed: Seed) -> Result<Meander, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let (omega, damping) = (self.omega_rad_s.get(), self.damping.get());
         if damping >= 1.0 {
             let problem = format!("must be > 0 and < 1 (an oscillation), got {damping}");
-            return Err(bad("damping", problem));
+            return Err(PlumeError::new(format!("{field}.damping"), problem));
         }
         let extent = [area.length_m, area.width_m];
         let least = extent[0].max(extent[1]) / MOST_CELLS;
@@ -121,7 +125,7 @@ impl MeanderSpec {
                 "must be >= {least} ({MOST_CELLS} cells along the area's longer side), got {}",
                 self.cell_m.get()
             );
-            return Err(bad("cell_m", problem));
+            return Err(PlumeError::new(format!("{field}.cell_m"), problem));
         }
         // At least two cells, so that there is an inside.
         let cells = extent.map(|e| ((e / self.cell_m.get()).ceil() as usize).max(2));
@@ -175,9 +179,25 @@ impl MeanderSpec {
     }
 }
 
-impl MeanderSpec {
-    /// What it takes, with water asked for `ahead_s` beyond the usual.
-    pub(super) fn work(&self, area: &Area, ahead_s: f64, times: &Times) -> Cost {
+impl Listed for MeanderSpec {
+    const ENTRY: Entry = Entry {
+        name: "Meander",
+        what: "Coloured noise at the area's corners carried inside, made divergence-free",
+        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
+    };
+}
+
+impl CurrentParams for MeanderSpec {
+    fn join(&self, water: &mut FreeWater, place: &CurrentSlot) -> Result<(), PlumeError> {
+        water.add(self.build(place.field, place.area, place.carrier, place.seed)?);
+        Ok(())
+    }
+
+    fn is_carried(&self) -> bool {
+        true
+    }
+
+    fn cost(&self, area: &Area, _: f64, ahead_s: f64, times: &Times) -> Cost {
         let extent = [area.length_m, area.width_m];
         let cells = extent.map(|e| (e / self.cell_m.get()).ceil().max(2.0));
         let splines = (cells[0] + 2.0) * (cells[1] + 2.0);
@@ -198,9 +218,17 @@ impl MeanderSpec {
     }
 }
 
-impl Meander {
-    /// Makes the levels that questions about times near `t_s` need. The result does not depend on the number of calls.
-    pub fn advance(&mut self, t_s: f64) {
+impl PlaneCurrent for Meander {
+    fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64> {
+        self.at(p, t_s)
+    }
+
+    fn with_slopes(&self, p: Vector2<Jet>, t_s: Jet) -> Vector2<Jet> {
+        self.at(p, t_s)
+    }
+
+    /// Makes the levels that questions about times near `t_s` need.
+    fn advance(&mut self, t_s: f64) {
         let last = ((t_s + AHEAD_S) / self.dt_s).ceil() as u64;
         let needed = ((t_s - BEHIND_S) / self.dt_s).floor().max(0.0) as u64;
         while self.first + (self.levels.len() as u64) <= last {
@@ -215,18 +243,16 @@ impl Meander {
                 self.levels.push_back(self.grid.project(&self.carried.u));
             }
         }
-        self.forget(needed);
-    }
-
-    fn forget(&mut self, needed: u64) {
         while self.first < needed && self.levels.len() > 2 {
             self.levels.pop_front();
             self.first += 1;
         }
     }
+}
 
+impl Meander {
     /// Velocity at (east, north), m/s.
-    pub fn velocity<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
+    pub fn at<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
         let last = N::from((self.levels.len() - 1) as f64);
         let at = (t_s / self.dt_s - self.first as f64).within(N::from(0.0), last);
         let k = (at.value() as usize).min(self.levels.len() - 2);

@@ -9,16 +9,18 @@ mod cost;
 mod current;
 pub mod eddies;
 mod flume;
-mod foreign;
+mod free_water;
 pub mod grid;
 pub mod ground;
-mod kinds;
 pub mod layered;
 pub mod meander;
 pub mod mixing;
 pub mod number;
 pub mod open_channel;
+mod plane_current;
 mod solenoidal;
+#[cfg(test)]
+pub(crate) mod tests_kit;
 #[cfg(test)]
 mod tests_sample;
 #[cfg(test)]
@@ -34,7 +36,8 @@ pub mod waves;
 pub use blockage::{BlockageSpec, ObstacleFlow, SolutionReport};
 pub use catalogue::{CurrentSpec, Currents, OPTIONS};
 pub use current::{CurrentParams, CurrentSlot};
-pub use foreign::PlaneCurrent;
+pub use free_water::FreeWater;
 pub use grid::{CurrentScales, FlowGrid, GridSample, GridShape, InterfaceScale};
+pub use plane_current::PlaneCurrent;
 pub use water::Water;
 pub use water_spec::WaterSpec;

@@ -4,8 +4,8 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: where a formula has a kink, the slope is that of the piece that gives the value. Terrains and currents
-//! of which only values are known have slopes by central differences (see [`Number::known`]).
+//! *Deviations*: where a formula has a kink, the slope is that of the piece that gives the value. Currents of which only
+//! values are known have slopes by central differences (file `plane_current`).
 //!
 //! The formulas of the water stand once, over [`Number`]. With `f64` they give the values that carry the plume, with
 //! [`Jet`] the gradients that act on a hull, in one evaluation in place of seven.
@@ -38,8 +38,13 @@ pub trait Number:
     /// The number without its slopes.
     fn value(self) -> f64;
 
-    /// A function of `at`, of which the value is known, and the slopes if they are asked for.
-    fn known<const K: usize>(value: f64, at: [Self; K], slopes: impl FnOnce() -> [f64; K]) -> Self;
+    /// A vector at a place and a time, by the function that takes numbers of this kind.
+    fn either(
+        p: Vector2<Self>,
+        t_s: Self,
+        plain: impl FnOnce(Vector2<f64>, f64) -> Vector2<f64>,
+        with_slopes: impl FnOnce(Vector2<Jet>, Jet) -> Vector2<Jet>,
+    ) -> Vector2<Self>;
 
     /// Sine and cosine of an angle, rad.
     fn sin_cos(self) -> (Self, Self);
@@ -73,8 +78,13 @@ impl Number for f64 {
     }
 
     #[inline]
-    fn known<const K: usize>(value: f64, _: [Self; K], _: impl FnOnce() -> [f64; K]) -> Self {
-        value
+    fn either(
+        p: Vector2<Self>,
+        t_s: Self,
+        plain: impl FnOnce(Vector2<f64>, f64) -> Vector2<f64>,
+        _: impl FnOnce(Vector2<Jet>, Jet) -> Vector2<Jet>,
+    ) -> Vector2<Self> {
+        plain(p, t_s)
     }
 
     #[inline]
@@ -112,6 +122,11 @@ impl Jet {
         })
     }
 
+    /// A function of `at`, given its value and its slope along each of them.
+    pub fn known<const K: usize>(value: f64, at: [Self; K], slopes: [f64; K]) -> Self {
+        at.iter().zip(slopes).fold(Self::from(value), |sum, (at, slope)| sum + at.through(0.0, slope))
+    }
+
     /// A function of this number, given its value and its slope.
     #[inline]
     fn through(self, value: f64, slope: f64) -> Self {
@@ -139,9 +154,14 @@ impl Number for Jet {
         self.value
     }
 
-    fn known<const K: usize>(value: f64, at: [Self; K], slopes: impl FnOnce() -> [f64; K]) -> Self {
-        let slopes = slopes();
-        at.iter().zip(slopes).fold(Self::from(value), |sum, (at, slope)| sum + at.through(0.0, slope))
+    #[inline]
+    fn either(
+        p: Vector2<Self>,
+        t_s: Self,
+        _: impl FnOnce(Vector2<f64>, f64) -> Vector2<f64>,
+        with_slopes: impl FnOnce(Vector2<Jet>, Jet) -> Vector2<Jet>,
+    ) -> Vector2<Self> {
+        with_slopes(p, t_s)
     }
 
     fn sin_cos(self) -> (Self, Self) {
@@ -299,7 +319,13 @@ mod tests {
     fn formula<N: Number>([x, y, z, t]: [N; 4]) -> N {
         let (sin, cos) = (x * 0.7 - t * 0.3 + 0.2).sin_cos();
         let mut all = (sin * y + cos / (z * z + 1.0)) * (y * 0.1).exp() - (z * z + 2.0).ln() / 3.0;
-        all += N::known(x.value() * x.value(), [x], || [2.0 * x.value()]);
+        let squares = N::either(
+            Vector2::new(x, y),
+            t,
+            |p, _| p.component_mul(&p),
+            |p, _| p.map(|v| Jet::known(v.value * v.value, [v], [2.0 * v.value])),
+        );
+        all += squares.x;
         all -= -y.within(N::from(-1.0), N::from(0.5));
         all *= z.greatest(N::from(-4.0)).least(N::from(8.0));
         all

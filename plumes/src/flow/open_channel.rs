@@ -8,14 +8,24 @@
 //!
 //! *Deviations*: u_* is solved so that the profile has the given depth mean.
 
+use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
+use world::fields::SideWalls;
 use world::math;
 use world::ranges::{HeadingDeg, NonNegative, Positive};
+use world::registry::Listed;
+use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
+use crate::flow::current::{CurrentParams, CurrentSlot};
 use crate::flow::eddies::EddiesSpec;
+use crate::flow::flume::Flume;
+use crate::flow::free_water::FreeWater;
 
 /// A channel between two walls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,19 +60,76 @@ const fn water() -> Positive {
     Positive::new(1e-6)
 }
 
+impl Listed for OpenChannelSpec {
+    const ENTRY: Entry = Entry {
+        name: "OpenChannel",
+        what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
+        source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
+    };
+}
+
+impl CurrentParams for OpenChannelSpec {
+    fn join(&self, water: &mut FreeWater, place: &CurrentSlot) -> Result<(), PlumeError> {
+        if water.stands_at_bed() {
+            return place.wrong(
+                "an OpenChannel brings its own bed friction and there can be only one: leave out water.bed and any other OpenChannel",
+            );
+        }
+        let CurrentSlot { field, area, seed, .. } = *place;
+        let Terrain::Level { depth_m } = *place.terrain else {
+            return place.wrong("an OpenChannel needs a level bed: terrain: Level(depth_m: ...)");
+        };
+        let channel = self.build(field, depth_m)?;
+        let axis = area.axis.unit();
+        if channel.along.dot(&axis).abs() < 1.0 - 1e-9 {
+            let problem = format!(
+                "an OpenChannel flows along the area's axis, {} or {} degrees, got {}",
+                area.axis.deg(),
+                (area.axis.deg() + 180.0).rem_euclid(360.0),
+                self.heading_deg.get()
+            );
+            return Err(PlumeError::new(format!("{field}.heading_deg"), problem));
+        }
+        let eddies = (self.eddies.as_ref()).map(|e| e.build(field, area, &channel, seed)).transpose()?;
+        let walls = SideWalls {
+            centre: area.centre,
+            across: Vector2::new(-channel.along.y, channel.along.x),
+            half_width_m: area.width_m / 2.0,
+        };
+        water.flume = Some(Flume::new(channel, eddies, walls));
+        Ok(())
+    }
+
+    fn is_steady(&self) -> bool {
+        true
+    }
+
+    fn is_walled(&self) -> bool {
+        true
+    }
+
+    fn carries_m_s(&self) -> Vector2<f64> {
+        self.heading_deg.heading().unit() * self.mean_m_s.get()
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, _: f64, _: &Times) -> Cost {
+        let eddies = self.eddies.as_ref();
+        eddies.map_or_else(Cost::default, |e| e.cost(area, depth_m).under("eddies"))
+    }
+}
+
 impl OpenChannelSpec {
     /// The mean flow over a level bed at `depth_m`, checked.
     ///
     /// # Errors
     /// If the roughness is not small compared with the depth, or if no friction velocity gives the wanted mean.
     pub fn build(&self, field: &str, depth_m: f64) -> Result<Channel, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
         let k_s = self.roughness_m.get();
         if k_s > 0.5 * depth_m {
             let most = 0.5 * depth_m;
             let problem =
                 format!("must be >= 0 and at most {most} (half the depth: beyond, there is no log law), got {k_s}");
-            return Err(bad("roughness_m", problem));
+            return Err(PlumeError::new(format!("{field}.roughness_m"), problem));
         }
         let nu = self.viscosity_m2_s.get();
         let mean = self.mean_m_s.get();
@@ -73,7 +140,7 @@ impl OpenChannelSpec {
                 "gives a Reynolds number of {reynolds:.0}, must be >= {} for a turbulent channel {depth_m} m deep, got {mean}",
                 2000.0 * nu / depth_m
             );
-            return Err(bad("mean_m_s", problem));
+            return Err(PlumeError::new(format!("{field}.mean_m_s"), problem));
         }
         let at = |u_star: f64| Channel {
             along: self.heading_deg.heading().unit(),

@@ -1,28 +1,63 @@
 //! A hull's sample of the water beside differences of its velocity.
 
 use nalgebra::{Vector2, Vector3};
-use std::sync::Arc;
 use world::fields::Flow;
-use world::math;
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
-use super::tests_water::{duck, duck_area, duck_bed, layer, places, wave};
+use super::tests_kit::{layer, tide, two_layers, uniform, wave};
+use super::tests_water::{duck, duck_area, duck_bed, places};
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::foreign::PlaneCurrent;
-use crate::flow::layered::{InterfaceSpec, LayeredSpec};
-use crate::flow::tide::{ConstituentSpec, TideSpec};
-use crate::flow::uniform::UniformSpec;
+use crate::flow::number::{Jet, Number};
+use crate::flow::plane_current::PlaneCurrent;
 use crate::flow::{Water, WaterSpec};
 
 /// A current of which the water knows nothing but its values.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Turning;
+
+/// The same with slopes of its own.
+#[derive(Clone, Debug)]
+struct TurningWithSlopes;
+
+impl TurningWithSlopes {
+    fn at<N: Number>(p: Vector2<N>, t_s: N) -> Vector2<N> {
+        let (sin, cos) = (p.x * 0.01 - p.y * 0.02 + t_s * 0.005).sin_cos();
+        Vector2::new(sin * 0.1, cos * 0.05)
+    }
+}
 
 impl PlaneCurrent for Turning {
     fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64> {
-        let (sin, cos) = math::sin_cos(0.01 * p.x - 0.02 * p.y + 0.005 * t_s);
-        Vector2::new(0.1 * sin, 0.05 * cos)
+        TurningWithSlopes::at(p, t_s)
+    }
+}
+
+impl PlaneCurrent for TurningWithSlopes {
+    fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64> {
+        Self::at(p, t_s)
+    }
+
+    fn with_slopes(&self, p: Vector2<Jet>, t_s: Jet) -> Vector2<Jet> {
+        Self::at(p, t_s)
+    }
+}
+
+/// A current that gives its slopes is asked for them, and one that does not has those of differences.
+#[test]
+fn slopes_of_a_current_are_its_own_or_those_of_differences() {
+    let still = WaterSpec::default().build(&duck_area(), &duck_bed(), 7).unwrap();
+    let (mut by_values, mut by_slopes) = (still.clone(), still);
+    by_values.free.add(Turning);
+    by_slopes.free.add(TurningWithSlopes);
+    for p in places(100) {
+        let p = p.push(-3.0);
+        let (a, b) = (by_values.sample(&p, 40.0), by_slopes.sample(&p, 40.0));
+        assert_eq!(a.velocity, b.velocity);
+        // Rounding of 0.1 m/s over 2 mm.
+        assert!((a.gradient - b.gradient).norm() < 1e-12 && (a.rate - b.rate).norm() < 1e-12, "{a:?} {b:?}");
+        let [x, y, _, t] = Jet::coordinates(&p, 40.0);
+        let own = TurningWithSlopes::at(Vector2::new(x, y), t);
+        assert_eq!((own.x.slopes[0], own.y.slopes[3]), (b.gradient[(0, 0)], b.rate.y));
     }
 }
 
@@ -40,23 +75,12 @@ fn sample_agrees_with_differences() {
         }
     }
     let mut tidal = duck();
-    tidal.currents.push(CurrentSpec::new(TideSpec {
-        constituents: vec![ConstituentSpec {
-            period_h: Positive::new(12.42),
-            major_m_s: NonNegative::new(0.3),
-            minor_m_s: Finite::new(0.1),
-            heading_deg: HeadingDeg::new(30.0),
-            phase_deg: Finite::new(40.0),
-        }],
-    }));
-    tidal
-        .currents
-        .push(CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(0.2), heading_deg: HeadingDeg::new(100.0) }));
+    tidal.currents.extend([tide(0.1, 30.0), uniform(0.2, 100.0)]);
     let mut layers_only = duck();
     layers_only.currents.pop();
     for (spec, bed) in [(&duck(), duck_bed()), (&tidal, duck_bed()), (&layers_only, Terrain::Level { depth_m: 6.0 })] {
         let mut w = spec.build(&duck_area(), &bed, 7).unwrap();
-        w.add(Arc::new(Turning));
+        w.free.add(Turning);
         // Between two levels of the meander, where its slope in time has no kink.
         w.advance(301.3);
         let plain = Plain(w.clone());
@@ -76,14 +100,8 @@ fn sample_agrees_with_differences() {
 #[test]
 fn layers_are_numbers_however_far_from_a_thin_interface() {
     for (depth_m, interface_m, thickness_m) in [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)] {
-        let layers = LayeredSpec {
-            layers: vec![layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)],
-            interfaces: vec![InterfaceSpec {
-                depth_m: Positive::new(interface_m),
-                thickness_m: Positive::new(thickness_m),
-                waves: vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))],
-            }],
-        };
+        let waves = vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))];
+        let layers = two_layers([layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)], interface_m, thickness_m, waves);
         let spec = WaterSpec { currents: vec![CurrentSpec::new(layers)], ..WaterSpec::default() };
         let bed = Terrain::Level { depth_m };
         let water = spec.build(&duck_area(), &bed, 7).unwrap();

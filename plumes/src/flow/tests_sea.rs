@@ -4,13 +4,11 @@ use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::math;
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
-use crate::flow::bed::BedSpec;
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::tide::{ConstituentSpec, TideSpec};
+use crate::flow::tests_kit::{rough, tide};
 use crate::flow::waves::tests::{regular, train};
 use crate::flow::{Water, WaterSpec};
 
@@ -20,34 +18,18 @@ fn area() -> Area {
     Area { centre: Vector2::zeros(), length_m: 500.0, width_m: 200.0, axis: Heading::from_deg(90.0) }
 }
 
-fn tide() -> CurrentSpec {
-    CurrentSpec::new(TideSpec {
-        constituents: vec![ConstituentSpec {
-            period_h: Positive::new(12.42),
-            major_m_s: NonNegative::new(0.3),
-            minor_m_s: Finite::new(0.05),
-            heading_deg: HeadingDeg::new(90.0),
-            phase_deg: Finite::new(40.0),
-        }],
-    })
-}
-
 fn waves() -> CurrentSpec {
     CurrentSpec::new(regular(vec![train(0.4, 4.0, 70.0), train(0.2, 6.0, 10.0)]))
 }
 
 fn build(currents: Vec<CurrentSpec>) -> Water {
-    let spec = WaterSpec {
-        currents,
-        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(8.0) }),
-        ..WaterSpec::default()
-    };
+    let spec = WaterSpec { currents, bed: rough(0.001, 8.0), ..WaterSpec::default() };
     spec.build(&area(), &BED, 3).unwrap()
 }
 
 #[test]
 fn tide_is_slowed_by_the_bed_and_turns_with_time() {
-    let water = build(vec![tide()]);
+    let water = build(vec![tide(0.05, 90.0)]);
     let at = |z: f64, t: f64| water.velocity(&Vector3::new(5.0, 6.0, z), t);
     let (top, low) = (at(-1.0, 4000.0), at(-9.9, 4000.0));
     // ln(0.1/0.001)/ln(8/0.001), the direction unchanged.
@@ -61,7 +43,7 @@ fn tide_is_slowed_by_the_bed_and_turns_with_time() {
 
 #[test]
 fn hull_feels_orbits_with_gradient_and_rate_and_the_plume_does_not() {
-    let (calm, rough) = (build(vec![tide()]), build(vec![tide(), waves()]));
+    let (calm, rough) = (build(vec![tide(0.05, 90.0)]), build(vec![tide(0.05, 90.0), waves()]));
     let waves = rough.waves().unwrap();
     let p = Vector3::new(12.0, -30.0, -1.5);
     let (s, still) = (rough.sample(&p, 500.0), calm.sample(&p, 500.0));

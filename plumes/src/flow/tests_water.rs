@@ -3,17 +3,15 @@
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::Flow;
-use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-use crate::flow::bed::BedSpec;
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
-use crate::flow::meander::MeanderSpec;
+use crate::flow::layered::LayeredSpec;
 use crate::flow::mixing::MixingSpec;
-use crate::flow::uniform::UniformSpec;
+use crate::flow::tests_kit::{layer, meander, rough, two_layers, uniform, wave};
 use crate::flow::{Water, WaterSpec};
 
 /// The area off Duck (Pang 2009, section 6).
@@ -25,48 +23,15 @@ pub(crate) fn duck_bed() -> Terrain {
     Terrain::sloping_over(&duck_area(), Heading::from_deg(250.0), 4.0, 8.0)
 }
 
-pub(crate) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
-    LayerSpec {
-        speed_m_s: NonNegative::new(speed),
-        heading_deg: HeadingDeg::new(heading),
-        density_kg_m3: Positive::new(density),
-    }
-}
-
-pub(crate) fn wave(amplitude: f64, length: f64, period: f64, heading: f64, phase: Option<f64>) -> WaveSpec {
-    WaveSpec {
-        amplitude_m: NonNegative::new(amplitude),
-        length_m: Positive::new(length),
-        period_s: Positive::new(period),
-        heading_deg: HeadingDeg::new(heading),
-        phase_deg: phase.map(Finite::new),
-    }
-}
-
 fn duck_layers() -> LayeredSpec {
-    LayeredSpec {
-        layers: vec![layer(0.22, 350.0, 1020.0), layer(0.12, 158.0, 1024.0)],
-        interfaces: vec![InterfaceSpec {
-            depth_m: Positive::new(1.8),
-            thickness_m: Positive::new(0.8),
-            waves: vec![wave(0.3, 420.0, 1900.0, 250.0, None), wave(0.15, 260.0, 1200.0, 310.0, Some(70.0))],
-        }],
-    }
+    let waves = vec![wave(0.3, 420.0, 1900.0, 250.0, None), wave(0.15, 260.0, 1200.0, 310.0, Some(70.0))];
+    two_layers([layer(0.22, 350.0, 1020.0), layer(0.12, 158.0, 1024.0)], 1.8, 0.8, waves)
 }
 
 pub(crate) fn duck() -> WaterSpec {
     WaterSpec {
-        currents: vec![
-            CurrentSpec::new(duck_layers()),
-            CurrentSpec::new(MeanderSpec {
-                std_m_s: NonNegative::new(0.02),
-                omega_rad_s: Positive::new(0.02),
-                damping: Positive::new(0.1),
-                cell_m: Positive::new(25.0),
-                diffusivity_m2_s: None,
-            }),
-        ],
-        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) }),
+        currents: vec![CurrentSpec::new(duck_layers()), meander(0.02, 0.02, 25.0)],
+        bed: rough(0.001, 2.0),
         mixing: MixingSpec { horizontal_m2_s: NonNegative::new(0.01), ..MixingSpec::default() },
         ..WaterSpec::default()
     }
@@ -226,11 +191,8 @@ fn mixing_is_never_negative_and_ends_at_the_bed() {
 #[test]
 fn a_flume_has_its_friction_and_mixing() {
     let spec = WaterSpec {
-        currents: vec![CurrentSpec::new(UniformSpec {
-            speed_m_s: NonNegative::new(0.0596),
-            heading_deg: HeadingDeg::new(90.0),
-        })],
-        bed: Some(BedSpec { roughness_m: Positive::new(4e-5), thickness_m: Positive::new(0.2) }),
+        currents: vec![uniform(0.0596, 90.0)],
+        bed: rough(4e-5, 0.2),
         mixing: MixingSpec { transverse: NonNegative::new(0.15), ..MixingSpec::default() },
         density_kg_m3: Positive::new(998.0),
         blockage: None,
@@ -286,9 +248,8 @@ fn impossible_water_is_refused_by_field() {
         f(&mut l);
         CurrentSpec::new(l)
     };
-    let still = CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(0.0), heading_deg: HeadingDeg::new(0.0) });
     assert_eq!(
-        said(vec![still, layered(&|l| l.layers.clear())]),
+        said(vec![uniform(0.0, 0.0), layered(&|l| l.layers.clear())]),
         "water.currents[1].layers: needs from 1 to 4 layers, got 0"
     );
     assert_eq!(

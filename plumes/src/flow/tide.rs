@@ -16,10 +16,15 @@
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::registry::Listed;
 
 use crate::error::PlumeError;
-use crate::flow::number::{Number, still, times};
+use crate::flow::current::{CurrentParams, CurrentSlot};
+use crate::flow::free_water::FreeWater;
+use crate::flow::number::{Jet, Number, still, times};
+use crate::flow::plane_current::PlaneCurrent;
 
 /// The tide's current: a sum of constituents.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -78,18 +83,13 @@ impl TideSpec {
     /// Names the field: no constituent, or a minor axis longer than the major one.
     pub fn build(&self, field: &str) -> Result<Tide, PlumeError> {
         if self.constituents.is_empty() {
-            return Err(PlumeError::Invalid {
-                field: format!("{field}.constituents"),
-                problem: "needs one at least, got none".to_owned(),
-            });
+            return Err(PlumeError::new(format!("{field}.constituents"), "needs one at least, got none"));
         }
         let of = |(n, c): (usize, &ConstituentSpec)| {
             let (a, b) = (c.major_m_s.get(), c.minor_m_s.get());
             if b.abs() > a {
-                return Err(PlumeError::Invalid {
-                    field: format!("{field}.constituents[{n}].minor_m_s"),
-                    problem: format!("must be from -{a} to {a} (major_m_s), got {b}"),
-                });
+                let problem = format!("must be from -{a} to {a} (major_m_s), got {b}");
+                return Err(PlumeError::new(format!("{field}.constituents[{n}].minor_m_s"), problem));
             }
             let e = c.heading_deg.heading().unit();
             Ok(Constituent {
@@ -104,9 +104,34 @@ impl TideSpec {
     }
 }
 
+impl Listed for TideSpec {
+    const ENTRY: Entry = Entry {
+        name: "Tide",
+        what: "Tidal current: ellipses of constituents, rotating or rectilinear",
+        source: "Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; Foreman 1978",
+    };
+}
+
+impl CurrentParams for TideSpec {
+    fn join(&self, water: &mut FreeWater, place: &CurrentSlot) -> Result<(), PlumeError> {
+        water.add(self.build(place.field)?);
+        Ok(())
+    }
+}
+
+impl PlaneCurrent for Tide {
+    fn velocity(&self, _: Vector2<f64>, t_s: f64) -> Vector2<f64> {
+        self.at(t_s)
+    }
+
+    fn with_slopes(&self, _: Vector2<Jet>, t_s: Jet) -> Vector2<Jet> {
+        self.at(t_s)
+    }
+}
+
 impl Tide {
     /// (east, north) above the bed's boundary layer, m/s.
-    pub fn velocity<N: Number>(&self, t_s: N) -> Vector2<N> {
+    pub fn at<N: Number>(&self, t_s: N) -> Vector2<N> {
         let of = |c: &Constituent| {
             let (sin, cos) = (t_s * c.omega_rad_s - c.phase_rad).sin_cos();
             times(c.major, cos) + times(c.minor, sin)
@@ -138,23 +163,23 @@ mod tests {
         let period_s = 3600.0 * m2().get();
         // The greatest speed eastward a sixth of a period after zero, then northward, then back.
         for (part, want) in [(0.0, [0.4, 0.0]), (0.25, [0.0, 0.1]), (0.5, [-0.4, 0.0]), (0.75, [0.0, -0.1])] {
-            let u = tide.velocity((60.0 / 360.0 + part) * period_s);
+            let u = tide.at((60.0 / 360.0 + part) * period_s);
             assert!((u - Vector2::from(want)).norm() < 1e-12, "{part}: {u}");
         }
-        let u = tide.velocity(1234.0);
+        let u = tide.at(1234.0);
         assert!(((u.x / 0.4).powi(2) + (u.y / 0.1).powi(2) - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn constituents_add_up() {
         let mut spec = m2_ellipse(0.0);
-        let alone = spec.build("t").unwrap().velocity(500.0);
+        let alone = spec.build("t").unwrap().at(500.0);
         spec.constituents.push(ConstituentSpec {
             period_h: Positive::new(12.0),
             heading_deg: HeadingDeg::new(0.0),
             ..spec.constituents[0].clone()
         });
-        let both = spec.build("t").unwrap().velocity(500.0);
+        let both = spec.build("t").unwrap().at(500.0);
         assert!((both.x - alone.x).abs() < 1e-15 && both.y > 0.1);
     }
 

@@ -1,10 +1,8 @@
 //! The water as a scenario asks for it, and how its currents join.
 
-use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
-use world::fields::Flow;
 use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::seeds::Seed;
@@ -15,6 +13,7 @@ use crate::flow::bed::BedSpec;
 use crate::flow::blockage::{BlockageSpec, ObstacleFlow};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::current::CurrentSlot;
+use crate::flow::free_water::FreeWater;
 use crate::flow::grid::GridShape;
 use crate::flow::ground::Ground;
 use crate::flow::mixing::MixingSpec;
@@ -55,6 +54,11 @@ impl WaterSpec {
         self.currents.iter().any(|c| c.is_walled())
     }
 
+    /// Whether the currents never change; passing waves do not count.
+    pub(super) fn is_steady(&self) -> bool {
+        self.currents.iter().all(|c| c.is_steady())
+    }
+
     /// The grid on which the plume sees the water, at most `depth_m` deep: one that shows the waves and interfaces of
     /// its currents or, round obstacles, the corners of the water's cells.
     pub fn grid_shape(&self, area: &Area, depth_m: f64) -> GridShape {
@@ -76,12 +80,9 @@ impl WaterSpec {
         obstacles: &Obstacles,
         seed: impl Into<Seed>,
     ) -> Result<Water, PlumeError> {
-        let mut water = self.build(area, terrain, seed)?;
-        if let Some(spec) = &self.blockage {
-            let free = water.clone();
-            water.blocked = Some(ObstacleFlow::new(spec, area, &free.ground, obstacles, free.clone())?);
-        }
-        Ok(water)
+        let free = self.free(area, terrain, seed.into())?;
+        let blocked = (self.blockage.as_ref()).map(|spec| ObstacleFlow::new(spec, area, obstacles, free.clone()));
+        Ok(Water { free, blocked: blocked.transpose()? })
     }
 
     /// The water over a terrain as it would be without obstacles, checked.
@@ -89,37 +90,36 @@ impl WaterSpec {
     /// # Errors
     /// Names the field at fault and what would be legal.
     pub fn build(&self, area: &Area, terrain: &Terrain, seed: impl Into<Seed>) -> Result<Water, PlumeError> {
-        let seed = seed.into();
+        Ok(Water { free: self.free(area, terrain, seed.into())?, blocked: None })
+    }
+
+    fn free(&self, area: &Area, terrain: &Terrain, seed: Seed) -> Result<FreeWater, PlumeError> {
         let bed = (self.bed.as_ref()).map(|b| b.build("water.bed")).transpose()?;
-        let mut water = Water {
+        let mut water = FreeWater {
             ground: Ground::new(terrain),
-            uniform: Vector2::zeros(),
-            tides: Vec::new(),
-            meanders: Vec::new(),
-            layered: None,
+            currents: Vec::new(),
+            layers: None,
             bed,
             mixing: self.mixing.clone(),
             density: self.density_kg_m3.get(),
             flume: None,
             waves: None,
-            blocked: None,
-            others: Vec::new(),
+            steady: self.is_steady(),
         };
-        let fields: Vec<String> = (0..self.currents.len()).map(|i| format!("water.currents[{i}]")).collect();
-        let place = |field| CurrentSlot { field, area, terrain, seed };
-        for (current, field) in self.currents.iter().zip(&fields) {
-            current.join(&mut water, &place(field))?;
-            water.name_others(current.name());
-        }
-        if let Some(problem) = water.fault(area.centre, 0.0) {
-            let field = "water.currents".to_string();
-            return Err(PlumeError::Invalid { field, problem });
-        }
-        // Meanders last: the mean of the other currents carries them, wherever they stand in the list.
-        let carrier = water.depth_mean(area.centre);
-        for (current, field) in self.currents.iter().zip(&fields) {
-            current.join_carried(&mut water, &place(field), carrier)?;
-            water.name_others(current.name());
+        // Those last that the mean of the others carries, wherever they stand in the list.
+        for carried in [false, true] {
+            let carrier = water.depth_mean(area.centre);
+            for (i, current) in self.currents.iter().enumerate().filter(|(_, c)| c.is_carried() == carried) {
+                let field = format!("water.currents[{i}]");
+                let before = water.currents.len();
+                current.join(&mut water, &CurrentSlot { field: &field, area, terrain, seed, carrier })?;
+                for joined in &mut water.currents[before..] {
+                    (joined.name, joined.own) = (current.name(), current.is_own());
+                }
+            }
+            if let Some(problem) = water.fault(area.centre, 0.0) {
+                return Err(PlumeError::new("water.currents", problem));
+            }
         }
         water.advance(0.0);
         Ok(water)

@@ -55,15 +55,15 @@ fn placed(n: usize, spec: &SourceSpec, area: &Area, terrain: &Terrain) -> Result
 fn outside(n: usize, source: &Source, obstacles: &Obstacles) -> Result<(), PlumeError> {
     match obstacles.containing(&source.p_W) {
         None => Ok(()),
-        Some(solid) => Err(PlumeError::Invalid {
-            field: format!("sources[{n}]"),
-            problem: format!("source \"{}\" stands inside obstacle \"{}\"; bring it outside", source.id, solid.id),
-        }),
+        Some(solid) => {
+            let problem = format!("source \"{}\" stands inside obstacle \"{}\"; bring it outside", source.id, solid.id);
+            Err(PlumeError::new(format!("sources[{n}]"), problem))
+        }
     }
 }
 
 fn invalid(n: usize, field: &str, problem: String) -> PlumeError {
-    PlumeError::Invalid { field: format!("sources[{n}].{field}"), problem }
+    PlumeError::new(format!("sources[{n}].{field}"), problem)
 }
 
 fn position(n: usize, spec: &SourceSpec, area: &Area, terrain: &Terrain) -> Result<Vector3<f64>, PlumeError> {

@@ -123,19 +123,14 @@ impl ReleaseSpec {
             ..self.clone()
         }
     }
-}
 
-impl ReleaseSpec {
     /// Buoyancy of the n-th source's release in water of this density; `None` if it is neutral.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
     pub fn curve(&self, n: usize, density_kg_m3: f64) -> Result<Option<Curve>, PlumeError> {
         let curve = self.buoyancy.curve(density_kg_m3);
-        curve.map_err(|(field, problem)| PlumeError::Invalid {
-            field: format!("sources[{n}].release.buoyancy.{field}"),
-            problem,
-        })
+        curve.map_err(|(field, problem)| PlumeError::new(format!("sources[{n}].release.buoyancy.{field}"), problem))
     }
 
     /// Volume that the n-th source releases (m³/s), and the radius at which it leaves it (m): the nozzle's, or that of a
@@ -147,27 +142,23 @@ impl ReleaseSpec {
         match (&self.nozzle, self.volume_l_s) {
             (Some(nozzle), None) => Ok((nozzle.volume_m3_s(), 0.5 * nozzle.diameter_m.get())),
             (None, Some(volume)) => Ok((1e-3 * volume.get(), 2.0 * self.initial_size_m.get())),
-            (nozzle, _) => Err(PlumeError::Invalid {
-                field: format!("sources[{n}].release.volume_l_s"),
-                problem: if nozzle.is_some() {
-                    "the nozzle sets the volume: leave it out".into()
-                } else {
-                    "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)".into()
-                },
-            }),
+            (nozzle, _) => {
+                let problem = match nozzle {
+                    Some(_) => "the nozzle sets the volume: leave it out",
+                    None => "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)",
+                };
+                Err(PlumeError::new(format!("sources[{n}].release.volume_l_s"), problem))
+            }
         }
     }
 
     /// What the filaments need in an area whose water carries them at `carries_m_s`. Filaments that eddies or slow
     /// water keep longer are not counted.
     pub fn cost(&self, area: &Area, carries_m_s: f64, times: &Times) -> Cost {
-        let (path, value, rate_hz, power) = match &self.nozzle {
-            None => ("rate_hz", self.rate_hz.get(), self.rate_hz.get(), 1.0),
-            Some(nozzle) => {
-                let size = nozzle.diameter_m.get() / 4.0;
-                let rate_hz = nozzle.speed_m_s.get() / size;
-                ("nozzle.diameter_m", nozzle.diameter_m.get(), rate_hz, -1.0)
-            }
+        let rate_hz = self.settled().rate_hz.get();
+        let (path, value, power) = match &self.nozzle {
+            None => ("rate_hz", rate_hz, 1.0),
+            Some(nozzle) => ("nozzle.diameter_m", nozzle.diameter_m.get(), -1.0),
         };
         let stays_s = (area.length_m + area.width_m) / carries_m_s.max(1e-9);
         let whole_s = times.whole_s();

@@ -65,11 +65,9 @@ pub(crate) fn problem(
             p[0], p[1], -p[2]
         )
     });
-    Some(PlumeError::Invalid {
-        field: format!("sources[{n}]"),
-        problem: format!(
-            "source \"{}\" lies in a cell of the blocked water that an obstacle closes or cuts off: no water comes by; {cure}",
-            source.id
-        ),
-    })
+    let problem = format!(
+        "source \"{}\" lies in a cell of the blocked water that an obstacle closes or cuts off: no water comes by; {cure}",
+        source.id
+    );
+    Some(PlumeError::new(format!("sources[{n}]"), problem))
 }

@@ -14,7 +14,6 @@ mod kept;
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use world::area::Area;
-use world::fields::Flow;
 use world::obstacles::Obstacles;
 
 use super::cells::{Cells, Faces, beyond};
@@ -22,8 +21,8 @@ use super::field::{self, FieldPair};
 use super::solve::{Projector, SolutionReport};
 use super::spec::BlockageSpec;
 use crate::error::PlumeError;
-use crate::flow::ground::{Floor, Ground};
-use crate::flow::water::{Column, Water};
+use crate::flow::free_water::{Column, FreeWater};
+use crate::flow::ground::Floor;
 
 /// How long after the latest advance questions may come, s.
 const AHEAD_S: f64 = 1.0;
@@ -38,7 +37,7 @@ pub struct ObstacleFlow {
     // `None` once steady water has been solved.
     projector: Option<Arc<Projector>>,
     // The unblocked water, advanced to the last of the three moments.
-    free: Box<Water>,
+    free: Box<FreeWater>,
     phi: Vec<f64>,
     // At `first`, `first + 1`, `first + 2` periods.
     fields: [Arc<Faces<f32>>; 3],
@@ -49,19 +48,17 @@ pub struct ObstacleFlow {
     drift: Option<Arc<Faces<f32>>>,
     // Mean depth of each column, m: that of its four corners.
     depth: Arc<Vec<f64>>,
-    still_bed: bool,
 }
 
 impl ObstacleFlow {
     pub(crate) fn new(
         spec: &BlockageSpec,
         area: &Area,
-        ground: &Ground,
         obstacles: &Obstacles,
-        free: Water,
+        free: FreeWater,
     ) -> Result<Self, PlumeError> {
-        let walled = free.walls().is_some();
-        let cells = Cells::new(spec, area, ground, obstacles, walled)?;
+        let ground = &free.ground;
+        let cells = Cells::new(spec, area, ground, obstacles, free.side_walls().is_some())?;
         let projector = Projector::new(&cells, ground);
         let [nx, ny, _] = cells.n;
         let corner = |i: usize, j: usize| -ground.floor(cells.place(i as f64, j as f64)).z;
@@ -77,12 +74,11 @@ impl ObstacleFlow {
             cells: Arc::new(cells),
             drift: None,
             depth: Arc::new(depth),
-            still_bed: free.stands_at_bed(),
             free: Box::new(free),
         };
         this.drift = this.stokes();
         let now = this.worked_out(0.0);
-        if this.free.is_steady() {
+        if this.free.steady {
             this.fields = [now.clone(), now.clone(), now];
             (this.projector, this.phi) = (None, Vec::new());
         } else {
@@ -152,7 +148,7 @@ impl ObstacleFlow {
                     }
                 }
             }
-            *[&mut flux.x, &mut flux.y][d] = all;
+            flux.0[d] = all;
         }
         let top = cells.d[0] * cells.d[1];
         for i in 0..nx {
@@ -160,12 +156,12 @@ impl ObstacleFlow {
                 let p = cells.place(i as f64 + 0.5, j as f64 + 0.5);
                 let column = self.free.column(p, t_s);
                 let floor = self.free.floor(p);
-                flux.s.push(0.0);
+                flux.0[2].push(0.0);
                 for s in &cells.s[1..nz] {
                     let v = velocity(&column, floor.z * (1.0 - s));
-                    flux.s.push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
+                    flux.0[2].push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
                 }
-                flux.s.push(0.0);
+                flux.0[2].push(0.0);
             }
         }
         flux
@@ -182,7 +178,7 @@ impl ObstacleFlow {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
-    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`] requires: along, across and
+    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`](world::fields::Flow::rates) requires: along, across and
     /// upwards, the speed at the lower and the upper face in cell sizes per second. Columns have one level less than
     /// nodes: cell (i, j, k) has the number (i·(ny + 1) + j)·nz + k and belongs to the flow grid's column at its lower
     /// corner.
@@ -202,7 +198,7 @@ impl ObstacleFlow {
                     for d in 0..3 {
                         for (side, face) in [[i, j, k], beyond(d, [i, j, k])].into_iter().enumerate() {
                             let at = cells.face(d, face);
-                            let of = |f: &Faces<f32>| f.across(d)[at];
+                            let of = |f: &Faces<f32>| f.0[d][at];
                             let v = field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));
                             rates[2 * d + side] = (v * per[d] / depth) as f32;
                         }
@@ -214,7 +210,7 @@ impl ObstacleFlow {
 
     /// Whether friction stops the water at the bed.
     pub(crate) fn still_bed(&self) -> bool {
-        self.still_bed
+        self.free.stands_at_bed()
     }
 
     /// Velocity, its gradient and rate of change; `None` outside the cells. The gradient is taken between the centres

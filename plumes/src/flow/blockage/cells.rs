@@ -19,32 +19,9 @@ use super::spec::{BlockageSpec, MOST_CELLS};
 use crate::error::PlumeError;
 use crate::flow::ground::Ground;
 
-/// Fluxes, velocities or conductances on the faces along (x), across (y) and upwards (s).
+/// Fluxes, velocities or conductances on the faces along, across and upwards; [`Cells::face`] numbers them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Faces<T> {
-    /// Face i (of nx + 1) of column row j, level k: (i·ny + j)·nz + k.
-    pub(super) x: Vec<T>,
-    /// Face j (of ny + 1): (i·(ny + 1) + j)·nz + k.
-    pub(super) y: Vec<T>,
-    /// Face k (of nz + 1): (i·ny + j)·(nz + 1) + k.
-    pub(super) s: Vec<T>,
-}
-
-impl<T> Faces<T> {
-    /// The values on the faces across a direction.
-    #[inline]
-    pub(super) fn across(&self, d: usize) -> &[T] {
-        [&self.x, &self.y, &self.s][d]
-    }
-
-    fn across_mut(&mut self, d: usize) -> &mut [T] {
-        match d {
-            0 => &mut self.x,
-            1 => &mut self.y,
-            _ => &mut self.s,
-        }
-    }
-}
+pub(crate) struct Faces<T>(pub(super) [Vec<T>; 3]);
 
 /// The next cell along a direction, and the face to it.
 pub(crate) fn beyond(d: usize, mut cell: [usize; 3]) -> [usize; 3] {
@@ -84,18 +61,18 @@ impl Cells {
     ) -> Result<Self, PlumeError> {
         spec.check()?;
         if walled && spec.margin_m.get() > 0.0 {
-            let field = "water.blockage.margin_m".to_owned();
             let problem = format!(
                 "must be 0 in an OpenChannel, whose walls are the sides of the area, got {}",
                 spec.margin_m.get()
             );
-            return Err(PlumeError::Invalid { field, problem });
+            return Err(PlumeError::new("water.blockage.margin_m", problem));
         }
-        // As the plume's flow grid places its nodes.
-        let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * spec.margin_m.get());
-        let count = extent.map(|e| (e / spec.cell_m.get()).ceil().max(1.0));
-        let nz = spec.levels as usize - 1;
-        let cells = count[0] * count[1] * nz as f64;
+        // The nodes of the plume's flow grid are the corners.
+        let shape = spec.grid_shape();
+        let extent = shape.extent_m(area);
+        let count = shape.nodes(area).map(|n| n - 1.0);
+        let nz = shape.levels - 1;
+        let cells = count.iter().product::<f64>();
         // NaN counts as too many.
         if !(cells <= MOST_CELLS) {
             let problem = format!(
@@ -106,22 +83,16 @@ impl Cells {
                 extent[0],
                 extent[1]
             );
-            let field = "water.blockage.cell_m".to_owned();
-            return Err(PlumeError::Invalid { field, problem });
+            return Err(PlumeError::new("water.blockage.cell_m", problem));
         }
-        let a = spec.stretch.get();
-        let s = (0..=nz).map(|k| {
-            let xi = k as f64 / nz as f64;
-            (1.0 - a) * xi + a * xi * xi
-        });
         let turned = area.axis.turned(std::f64::consts::FRAC_PI_2);
         let mut this = Self {
             corner: area.world(Vector2::new(-extent[0] / 2.0, -extent[1] / 2.0)),
             axes: [area.axis.unit(), turned.unit()],
             d: [0, 1].map(|d| extent[d] / count[d]),
             n: [count[0] as usize, count[1] as usize, nz],
-            stretch: a,
-            s: s.collect(),
+            stretch: shape.stretch,
+            s: (0..=nz).map(|k| shape.level(k)).collect(),
             open: vec![true; cells as usize],
             pass: Faces::default(),
             felt: Vec::new(),
@@ -140,8 +111,7 @@ impl Cells {
                 "no water that could flow is left in cells of {:.2} x {:.2} m: obstacles fill the area; make them smaller or leave blockage out",
                 this.d[0], this.d[1]
             );
-            let field = "water.blockage".to_owned();
-            return Err(PlumeError::Invalid { field, problem });
+            return Err(PlumeError::new("water.blockage", problem));
         }
         Ok(this)
     }
@@ -149,21 +119,18 @@ impl Cells {
     /// All faces except bed, surface and, between walls, the sides across.
     fn within(&self, walled: bool) -> Faces<bool> {
         let [nx, ny, nz] = self.n;
-        let mut pass = Faces {
-            x: vec![true; (nx + 1) * ny * nz],
-            y: vec![true; nx * (ny + 1) * nz],
-            s: vec![true; nx * ny * (nz + 1)],
-        };
-        for column in pass.s.chunks_exact_mut(nz + 1) {
+        let numbers = [(nx + 1) * ny * nz, nx * (ny + 1) * nz, nx * ny * (nz + 1)];
+        let [along, mut across, mut up] = numbers.map(|n| vec![true; n]);
+        for column in up.chunks_exact_mut(nz + 1) {
             (column[0], column[nz]) = (false, false);
         }
         if walled {
-            for row in pass.y.chunks_exact_mut((ny + 1) * nz) {
+            for row in across.chunks_exact_mut((ny + 1) * nz) {
                 row[..nz].fill(false);
                 row[ny * nz..].fill(false);
             }
         }
-        pass
+        Faces([along, across, up])
     }
 
     /// The columns over which an obstacle stands, plus `beside` columns on each side.
@@ -232,7 +199,7 @@ impl Cells {
                         let way = to - from;
                         if obstacle.ray(&from, &way, way.norm()).is_some() {
                             let face = self.face(d, next);
-                            self.pass.across_mut(d)[face] = false;
+                            self.pass.0[d][face] = false;
                             felt = true;
                         }
                     }
@@ -305,7 +272,7 @@ impl Cells {
         for d in 0..3 {
             self.each_face(d, |f| {
                 if !self.beside(d, f).iter().flatten().all(|c| self.open[*c]) {
-                    pass.across_mut(d)[self.face(d, f)] = false;
+                    pass.0[d][self.face(d, f)] = false;
                 }
             });
         }
@@ -385,6 +352,6 @@ impl Cells {
     /// Whether water can pass a face: open on its sides, not separated by a thin wall, and neither bed nor surface.
     #[inline]
     pub(crate) fn passes(&self, d: usize, face: [usize; 3]) -> bool {
-        self.pass.across(d)[self.face(d, face)]
+        self.pass.0[d][self.face(d, face)]
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn velocity(
     let ([i, j, k], part) = locate(cells, p, z, floor)?;
     let along = |d: usize| {
         let (one, two) = (cells.face(d, [i, j, k]), cells.face(d, beyond(d, [i, j, k])));
-        let of = |at: usize| mixed(|f: &Faces<f32>| f.across(d)[at], between);
+        let of = |at: usize| mixed(|f: &Faces<f32>| f.0[d][at], between);
         let (low, high) = (of(one), of(two));
         low + part[d] * (high - low)
     };

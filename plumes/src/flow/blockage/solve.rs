@@ -60,7 +60,7 @@ impl Projector {
         let empty = || vec![0.0; cells.open.len()];
         let mut next = [empty(), empty(), empty()];
         let mut edge = empty();
-        let mut conductances = |d: usize| {
+        let conductances = |d: usize| {
             let mut all = Vec::new();
             cells.each_face(d, |f| {
                 let [i, j, k] = f;
@@ -92,7 +92,7 @@ impl Projector {
             });
             all
         };
-        let through = Faces { x: conductances(0), y: conductances(1), s: conductances(2) };
+        let through = Faces([0, 1, 2].map(conductances));
         Self { grid: Multigrid::new(Level::new(n, next, edge)), through, depth }
     }
 
@@ -102,13 +102,9 @@ impl Projector {
     /// # Panics
     /// If the fluxes are not finite or the equation cannot be solved.
     pub(super) fn project(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &mut Vec<f64>) -> SolutionReport {
-        for (flux, through) in
-            [(&mut flux.x, &self.through.x), (&mut flux.y, &self.through.y), (&mut flux.s, &self.through.s)]
-        {
-            for (f, t) in flux.iter_mut().zip(through) {
-                if *t == 0.0 {
-                    *f = 0.0;
-                }
+        for (f, t) in flux.0.iter_mut().flatten().zip(self.through.0.iter().flatten()) {
+            if *t == 0.0 {
+                *f = 0.0;
             }
         }
         let fastest = self.fastest(cells, flux);
@@ -160,8 +156,8 @@ impl Projector {
     /// Fastest current through any face, m/s.
     fn fastest(&self, cells: &Cells, flux: &Faces<f64>) -> f64 {
         let mut fastest = 0.0_f64;
-        for (flux, through, d) in [(&flux.x, &self.through.x, 0), (&flux.y, &self.through.y, 1)] {
-            for (f, t) in flux.iter().zip(through).filter(|(_, t)| **t != 0.0) {
+        for d in 0..2 {
+            for (f, t) in flux.0[d].iter().zip(&self.through.0[d]).filter(|(_, t)| **t != 0.0) {
                 // Area = conductance · distance.
                 let speed = f.abs() / (t * cells.d[d]);
                 // Not `max`, which would ignore NaN.
@@ -187,7 +183,7 @@ impl Projector {
     /// What leaves each cell, m³/s.
     pub(super) fn outflow(&self, cells: &Cells, flux: &Faces<f64>) -> Vec<f64> {
         let mut out = vec![0.0; cells.open.len()];
-        for (d, flux) in [&flux.x, &flux.y, &flux.s].into_iter().enumerate() {
+        for (d, flux) in flux.0.iter().enumerate() {
             cells.each_face(d, |f| {
                 let through = flux[cells.face(d, f)];
                 let [below, above] = cells.beside(d, f);
@@ -203,8 +199,7 @@ impl Projector {
     }
 
     fn correct(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &[f64]) {
-        let sets = [(&mut flux.x, &self.through.x), (&mut flux.y, &self.through.y), (&mut flux.s, &self.through.s)];
-        for (d, (flux, through)) in sets.into_iter().enumerate() {
+        for (d, (flux, through)) in flux.0.iter_mut().zip(&self.through.0).enumerate() {
             cells.each_face(d, |f| {
                 let at = cells.face(d, f);
                 let [below, above] = cells.beside(d, f).map(|c| c.map_or(0.0, |c| phi[c]));
@@ -225,10 +220,7 @@ impl Projector {
             flux.iter().enumerate().map(per).collect()
         };
         let top = cells.d[0] * cells.d[1];
-        Faces {
-            x: side(&flux.x, cells.d[1]),
-            y: side(&flux.y, cells.d[0]),
-            s: flux.s.iter().map(|f| (f / top) as f32).collect(),
-        }
+        let [along, across, up] = &flux.0;
+        Faces([side(along, cells.d[1]), side(across, cells.d[0]), up.iter().map(|f| (f / top) as f32).collect()])
     }
 }

@@ -64,9 +64,8 @@ impl BlockageSpec {
 
     /// What it takes to lead the water round: in steady water once.
     pub fn cost(&self, area: &Area, steady: bool, times: &Times) -> Cost {
-        let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * self.margin_m.get());
-        let count = extent.map(|e| (e / self.cell_m.get()).ceil().max(1.0));
-        let cells = count[0] * count[1] * f64::from(self.levels);
+        let [along, across, levels] = self.grid_shape().nodes(area);
+        let cells = (along - 1.0) * (across - 1.0) * levels;
         let times_solved = if steady { 1.0 } else { 3.0 + times.whole_s() / self.period_s.get() };
         let part = Part::new("cell_m", format!("{cells:.1e} cells round obstacles"))
             .holds(cells * CELL_BYTES)
@@ -76,8 +75,7 @@ impl BlockageSpec {
     }
 
     pub(super) fn check(&self) -> Result<(), PlumeError> {
-        let wrong =
-            |field: &str, problem: String| PlumeError::Invalid { field: format!("water.blockage.{field}"), problem };
+        let wrong = |field: &str, problem: String| PlumeError::new(format!("water.blockage.{field}"), problem);
         if !(LEVELS.0..=LEVELS.1).contains(&self.levels) {
             return Err(wrong("levels", format!("must be from {} to {}, got {}", LEVELS.0, LEVELS.1, self.levels)));
         }

@@ -1,11 +1,7 @@
 //! Blocked water: free of divergence, tangent to everything, conserving mass, and unchanged where there is no obstacle.
 
 use super::BlockageSpec;
-use super::cells::Faces;
-use crate::flow::bed::BedSpec;
-use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
-use crate::flow::meander::MeanderSpec;
-use crate::flow::uniform::UniformSpec;
+use crate::flow::tests_kit::{layer, meander, rough, two_layers, uniform, wave};
 use crate::flow::{CurrentSpec, Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use std::path::Path;
@@ -39,8 +35,7 @@ impl BlockageSpec {
 }
 
 pub(crate) fn eastward(speed_m_s: f64, blockage: BlockageSpec) -> WaterSpec {
-    let uniform = UniformSpec { speed_m_s: NonNegative::new(speed_m_s), heading_deg: HeadingDeg::new(90.0) };
-    WaterSpec { currents: vec![CurrentSpec::new(uniform)], blockage: Some(blockage), ..WaterSpec::default() }
+    WaterSpec { currents: vec![uniform(speed_m_s, 90.0)], blockage: Some(blockage), ..WaterSpec::default() }
 }
 
 pub(crate) fn block(size: [f64; 3]) -> ShapeSpec {
@@ -73,36 +68,11 @@ fn everything() -> (Area, Terrain, Obstacles, WaterSpec) {
     let area = area(60.0, 40.0, 20.0);
     let bed = Terrain::sloping_over(&area, Heading::from_deg(290.0), 4.0, 8.0);
     let solids = solids(&[(block([9.0, 5.0, 3.0]), 8.0, -4.0, 50.0), (pile(2.5, 12.0), -4.0, -16.0, 0.0)], &bed);
-    let layer = |speed, heading, density| LayerSpec {
-        speed_m_s: NonNegative::new(speed),
-        heading_deg: HeadingDeg::new(heading),
-        density_kg_m3: Positive::new(density),
-    };
-    let wave = WaveSpec {
-        amplitude_m: NonNegative::new(0.3),
-        length_m: Positive::new(120.0),
-        period_s: Positive::new(600.0),
-        heading_deg: HeadingDeg::new(250.0),
-        phase_deg: None,
-    };
-    let layers = LayeredSpec {
-        layers: vec![layer(0.22, 20.0, 1020.0), layer(0.12, 170.0, 1024.0)],
-        interfaces: vec![InterfaceSpec {
-            depth_m: Positive::new(1.8),
-            thickness_m: Positive::new(0.8),
-            waves: vec![wave],
-        }],
-    };
-    let meander = MeanderSpec {
-        std_m_s: NonNegative::new(0.03),
-        omega_rad_s: Positive::new(0.02),
-        damping: Positive::new(0.1),
-        cell_m: Positive::new(10.0),
-        diffusivity_m2_s: None,
-    };
+    let waves = vec![wave(0.3, 120.0, 600.0, 250.0, None)];
+    let layers = two_layers([layer(0.22, 20.0, 1020.0), layer(0.12, 170.0, 1024.0)], 1.8, 0.8, waves);
     let water = WaterSpec {
-        currents: vec![CurrentSpec::new(layers), CurrentSpec::new(meander)],
-        bed: Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) }),
+        currents: vec![CurrentSpec::new(layers), meander(0.03, 0.02, 10.0)],
+        bed: rough(0.001, 2.0),
         blockage: Some(spec(1.5, 13, 15.0)),
         ..WaterSpec::default()
     };
@@ -159,8 +129,7 @@ fn nothing_passes_walls_bed_and_surface() {
     let cells = blocked.cells();
     assert!(blocked.solved().open_cells < cells.open.len());
     for n in 0..3 {
-        let Faces { x, y, s } = blocked.field(n);
-        for (d, values) in [x, y, s].into_iter().enumerate() {
+        for (d, values) in blocked.field(n).0.iter().enumerate() {
             let (mut shut, mut open) = (0, 0);
             cells.each_face(d, |f| {
                 let v = values[cells.face(d, f)];
@@ -217,7 +186,7 @@ fn every_section_of_a_channel_carries_the_same() {
     );
     let water = eastward(0.3, spec(1.0, 9, 5.0)).build_round(&area(60.0, 30.0, 90.0), &bed, &solids, 1).unwrap();
     let blocked = water.blocked().unwrap();
-    let (cells, x) = (blocked.cells(), &blocked.field(0).x);
+    let (cells, x) = (blocked.cells(), &blocked.field(0).0[0]);
     let through = |i: usize| -> f64 {
         let mut sum = 0.0;
         for j in 0..cells.n[1] {
@@ -245,7 +214,7 @@ fn every_section_of_a_channel_carries_the_same() {
 fn a_current_round_nothing_is_untouched() {
     let bed = Terrain::Level { depth_m: 6.0 };
     let mut water = eastward(0.3, spec(2.0, 11, 20.0));
-    water.bed = Some(BedSpec { roughness_m: Positive::new(0.001), thickness_m: Positive::new(2.0) });
+    water.bed = rough(0.001, 2.0);
     let area = area(40.0, 30.0, 33.0);
     let free = water.build(&area, &bed, 1).unwrap();
     let round = water.build_round(&area, &bed, &Obstacles::default(), 1).unwrap();

@@ -1,11 +1,10 @@
 //! Blocked water compared with potential theory, and over time.
 
 use super::tests::{area, block, eastward, pile, solids, spec};
-use crate::flow::meander::MeanderSpec;
-use crate::flow::{CurrentSpec, Water, WaterSpec};
+use crate::flow::tests_kit::meander;
+use crate::flow::{Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use world::fields::Flow;
-use world::ranges::{NonNegative, Positive};
 use world::terrain::Terrain;
 
 /// Potential flow past a cylinder of radius a: U − U a²/r² (cos 2θ, sin 2θ) (Milne-Thomson 1968, Theoretical
@@ -63,15 +62,8 @@ fn a_cylinder_bends_the_current_as_potential_theory_says() {
 fn meandering() -> Water {
     let bed = Terrain::Level { depth_m: 5.0 };
     let solids = solids(&[(block([10.0, 6.0, 3.0]), 4.0, -7.0, 60.0)], &bed);
-    let meander = MeanderSpec {
-        std_m_s: NonNegative::new(0.05),
-        omega_rad_s: Positive::new(0.02),
-        damping: Positive::new(0.1),
-        cell_m: Positive::new(10.0),
-        diffusivity_m2_s: None,
-    };
     let mut water: WaterSpec = eastward(0.2, spec(2.0, 6, 10.0));
-    water.currents.push(CurrentSpec::new(meander));
+    water.currents.push(meander(0.05, 0.02, 10.0));
     water.build_round(&area(60.0, 40.0, 90.0), &bed, &solids, 9).unwrap()
 }
 

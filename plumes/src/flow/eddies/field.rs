@@ -83,10 +83,10 @@ impl EddiesSpec {
     /// If the grid is too coarse or too fine, if the stream is not along the area's axis, or if the channel is narrower
     /// than deep.
     pub fn build(&self, field: &str, area: &Area, channel: &Channel, seed: Seed) -> Result<Eddies, PlumeError> {
-        let bad = |sub: &str, problem: String| PlumeError::Invalid { field: format!("{field}.{sub}"), problem };
+        let field = format!("{field}.eddies");
         if !(8..=32).contains(&self.cells_a_depth) {
             let problem = format!("must be from 8 to 32, got {}", self.cells_a_depth);
-            return Err(bad("eddies.cells_a_depth", problem));
+            return Err(PlumeError::new(format!("{field}.cells_a_depth"), problem));
         }
         let ratio = area.width_m / channel.depth_m;
         if !(2.0..=20.0).contains(&ratio) {
@@ -94,7 +94,7 @@ impl EddiesSpec {
                 "resolved eddies need a channel from 2 to 20 times as wide as deep; the area is {} m wide, the water {} m deep",
                 area.width_m, channel.depth_m
             );
-            return Err(bad("eddies", problem));
+            return Err(PlumeError::new(field, problem));
         }
         let cell = channel.depth_m / f64::from(self.cells_a_depth);
         let shape = Shape {
@@ -105,7 +105,7 @@ impl EddiesSpec {
             across: (area.width_m / cell).round() as usize,
         };
         let small = (self.small.as_ref())
-            .map(|s| s.build(&format!("{field}.eddies.small"), channel, shape.spectrum.k_c, seed))
+            .map(|s| s.build(&format!("{field}.small"), channel, shape.spectrum.k_c, seed))
             .transpose()?;
         let energy = channel.mean_of(|z| channel.energy(z));
         let dissipation = channel.mean_of(|z| channel.dissipation(z));

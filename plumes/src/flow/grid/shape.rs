@@ -75,9 +75,13 @@ impl GridShape {
 
     /// Number of nodes along, across and upwards. These are `f64`, so that a number that is too large can be reported.
     pub fn nodes(&self, area: &Area) -> [f64; 3] {
-        let [along, across] =
-            [area.length_m, area.width_m].map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
+        let [along, across] = self.extent_m(area).map(|e| (e / self.cell_m).ceil().max(1.0) + 1.0);
         [along, across, self.levels as f64]
+    }
+
+    /// Length and width with the margin, m.
+    pub(crate) fn extent_m(&self, area: &Area) -> [f64; 2] {
+        [area.length_m, area.width_m].map(|e| e + 2.0 * self.margin_m)
     }
 
     /// Height of level `k` above the bed, as a part of the depth.

@@ -1,12 +1,12 @@
 //! The layers at one place and time, asked at a height.
 //!
-//! *Source*: as `layered`.
+//! *Source*: as `layers`.
 //!
 //! *Parameters*: none.
 //!
 //! *Deviations*: none of its own.
 
-use super::{LayeredColumn, Profile, Sheet};
+use super::layers::{LayeredColumn, Profile, Sheet};
 use crate::flow::ground::Floor;
 use crate::flow::number::Number;
 use nalgebra::Vector2;

@@ -2,9 +2,11 @@
 
 mod airy;
 mod sea;
+mod spec;
 mod spectrum;
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use sea::{TrainSpec, Waves, WavesSpec};
+pub use sea::Waves;
+pub use spec::{TrainSpec, WavesSpec};
 pub use spectrum::SpectrumSpec;

@@ -4,12 +4,11 @@
 
 use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
-use plumes::flow::{CurrentParams, CurrentSlot, Currents, PlaneCurrent, Water};
+use plumes::flow::{CurrentParams, CurrentSlot, Currents, FreeWater, PlaneCurrent};
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 use world::catalogue::Entry;
 use world::ranges::Positive;
 use world::registry::{Listed, Registry};
@@ -31,9 +30,13 @@ impl Listed for Jet {
 
 /// How it joins the water. The water adds all currents up; this one is the same at all depths.
 impl CurrentParams for Jet {
-    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
-        water.add(Arc::new(self.clone()));
+    fn join(&self, water: &mut FreeWater, _: &CurrentSlot) -> Result<(), PlumeError> {
+        water.add(self.clone());
         Ok(())
+    }
+
+    fn is_steady(&self) -> bool {
+        true
     }
 }
 
@@ -42,10 +45,6 @@ impl PlaneCurrent for Jet {
     fn velocity(&self, p: Vector2<f64>, _t_s: f64) -> Vector2<f64> {
         let off = p.y / self.half_width_m.get();
         Vector2::new(self.speed_m_s.get() / (1.0 + off * off), 0.0)
-    }
-
-    fn is_steady(&self) -> bool {
-        true
     }
 }
 

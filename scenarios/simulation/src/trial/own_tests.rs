@@ -5,7 +5,7 @@ use crate::lanes::caught;
 use crate::scenario::{Loaded, Severity, check, load_text, template};
 use nalgebra::Vector2;
 use plumes::error::PlumeError;
-use plumes::flow::{CurrentParams, CurrentSlot, Currents, PlaneCurrent, Water};
+use plumes::flow::{CurrentParams, CurrentSlot, Currents, FreeWater, PlaneCurrent};
 use robots::error::RobotError;
 use robots::handoff::{
     Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings, Setting, Vertical,
@@ -14,7 +14,6 @@ use robots::sense::{Fitting, Sensor, SensorParams, Sensors, Surroundings};
 use robots::strategy::{Strategies, Strategy, StrategyParams};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 use world::catalogue::Entry;
 use world::registry::{Listed, Registry};
 use world::seeds::Stream;
@@ -111,13 +110,9 @@ impl Listed for Burst {
 }
 
 impl CurrentParams for Burst {
-    fn join(&self, water: &mut Water, _: &CurrentSlot) -> Result<(), PlumeError> {
-        water.add(Arc::new(self.clone()));
+    fn join(&self, water: &mut FreeWater, _: &CurrentSlot) -> Result<(), PlumeError> {
+        water.add(self.clone());
         Ok(())
-    }
-
-    fn is_steady(&self) -> bool {
-        false
     }
 }
 

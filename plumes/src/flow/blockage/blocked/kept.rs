@@ -4,7 +4,6 @@
 use super::{Faces, ObstacleFlow, SolutionReport};
 use std::sync::Arc;
 use world::bits::{Reader, Unreadable, Writer};
-use world::fields::Flow;
 
 impl ObstacleFlow {
     /// Writes what has changed since it was built.
@@ -22,17 +21,14 @@ impl ObstacleFlow {
             period_s: _,
             drift: _,
             depth: _,
-            still_bed: _,
         } = self;
         if projector.is_none() {
             return;
         }
         to.word(*first);
         to.write_list(phi);
-        for Faces { x, y, s } in fields.iter().map(|f| &**f) {
-            for list in [x, y, s] {
-                to.write_list(list);
-            }
+        for list in fields.iter().flat_map(|f| &f.0) {
+            to.write_list(list);
         }
         let SolutionReport { steps, divergence, open_cells: _, cells: _ } = solved;
         to.word(*steps as u64);
@@ -47,11 +43,8 @@ impl ObstacleFlow {
         self.first = from.word()?;
         self.phi = from.exactly(self.phi.len())?;
         for field in &mut self.fields {
-            *field = Arc::new(Faces {
-                x: from.exactly(field.x.len())?,
-                y: from.exactly(field.y.len())?,
-                s: from.exactly(field.s.len())?,
-            });
+            let [x, y, s] = field.0.each_ref().map(Vec::len);
+            *field = Arc::new(Faces([from.exactly(x)?, from.exactly(y)?, from.exactly(s)?]));
         }
         self.solved.steps = from.word::<u64>()? as usize;
         self.solved.divergence = from.word()?;

@@ -82,13 +82,11 @@ impl SmallSpec {
         let count = math::ln(longest_m / finest_m) / std::f64::consts::LN_2;
         let least = longest_m / f64::from(1_u32 << MOST_OCTAVES);
         if !(least..=longest_m / 2.0).contains(&finest_m) {
-            return Err(PlumeError::Invalid {
-                field: format!("{field}.finest_m"),
-                problem: format!(
-                    "must be from {least:.2e} to {:.2e}, an octave or more below the grid's shortest wave of {longest_m:.3} m, got {finest_m}",
-                    longest_m / 2.0
-                ),
-            });
+            let problem = format!(
+                "must be from {least:.2e} to {:.2e}, an octave or more below the grid's shortest wave of {longest_m:.3} m, got {finest_m}",
+                longest_m / 2.0
+            );
+            return Err(PlumeError::new(format!("{field}.finest_m"), problem));
         }
         let count = (count - 1e-9).ceil() as i32;
         let octaves = (0..count).map(|n| Octave::new(channel, k_c * 2.0_f64.powi(n)));

@@ -1,6 +1,6 @@
 //! The water over one place at one time, asked at heights.
 //!
-//! *Source*: as `water`.
+//! *Source*: as `free_water`.
 //!
 //! *Parameters*: none.
 //!
@@ -95,7 +95,7 @@ impl Column<'_> {
     }
 
     /// Velocity and diffusivities at a height, as from both methods, with the profile computed only once.
-    pub(super) fn both(&self, z: f64, u_star_m_s: f64) -> (Vector3<f64>, Mixing) {
+    pub(in crate::flow) fn both(&self, z: f64, u_star_m_s: f64) -> (Vector3<f64>, Mixing) {
         let z = self.inside(z);
         let profile = self.profile(z);
         let profile = profile.as_ref();
@@ -104,7 +104,7 @@ impl Column<'_> {
 
     /// Lets through interfaces that are thinner than the way between two heights no more than they do: between two heights
     /// with an interface between them, the diffusivity is that of both layers and the interface in series.
-    pub(super) fn keep_apart(&self, u_star_m_s: f64, heights_m: &[f64], out: &mut [(Vector3<f64>, Mixing)]) {
+    pub(in crate::flow) fn keep_apart(&self, u_star_m_s: f64, heights_m: &[f64], out: &mut [(Vector3<f64>, Mixing)]) {
         for (z, thickness_m) in self.layers.iter().flat_map(LayeredColumn::stops) {
             let above = heights_m.partition_point(|h| *h < z);
             if above == 0 || above == heights_m.len() {

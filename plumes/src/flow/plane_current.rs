@@ -1,0 +1,76 @@
+//! Currents that are the same at all depths: a velocity, and its slopes where the current knows them.
+
+use dyn_clone::DynClone;
+use nalgebra::Vector2;
+use world::limits::range::stream_m_s;
+
+use crate::flow::number::{Jet, Number};
+
+/// A current that is the same at all depths; the bed slows it. [`FreeWater::add`](crate::flow::FreeWater::add) takes one
+/// in. Every copy of the water copies it, so large tables belong behind an [`Arc`](std::sync::Arc).
+pub trait PlaneCurrent: std::fmt::Debug + DynClone + Send + Sync {
+    /// (east, north) at (east, north) `p` at time `t_s`, m/s.
+    fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64>;
+
+    /// The same with its slopes, for a place and a time that carry theirs. The slopes are those of central differences,
+    /// unless the current gives its own.
+    fn with_slopes(&self, p: Vector2<Jet>, t_s: Jet) -> Vector2<Jet> {
+        /// Small compared with a current's scales, large compared with rounding at places of 10³ m; m and s.
+        const H: f64 = 1e-3;
+        let (place, now_s) = (p.map(|v| v.value), t_s.value);
+        let at = |dx: f64, dy: f64, dt: f64| self.velocity(place + Vector2::new(dx, dy), now_s + dt);
+        let back = H.min(now_s);
+        let slopes = [
+            (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) / (2.0 * H),
+            (at(0.0, H, 0.0) - at(0.0, -H, 0.0)) / (2.0 * H),
+            (at(0.0, 0.0, H) - at(0.0, 0.0, -back)) / (H + back),
+        ];
+        let here = self.velocity(place, now_s);
+        Vector2::from_fn(|d, _| Jet::known(here[d], [p.x, p.y, t_s], slopes.map(|s| s[d])))
+    }
+
+    /// Brings inner state up to `t_s`, s, as [`Flow::advance`](world::fields::Flow::advance) does.
+    fn advance(&mut self, _t_s: f64) {}
+}
+
+dyn_clone::clone_trait_object!(PlaneCurrent);
+
+/// A current in the water.
+#[derive(Clone, Debug)]
+pub(super) struct JoinedCurrent {
+    /// Its name in scenarios.
+    pub(super) name: &'static str,
+    /// Whether another crate made it. Parameters of the others were checked; of this one, every value is.
+    pub(super) own: bool,
+    pub(super) current: Box<dyn PlaneCurrent>,
+}
+
+impl JoinedCurrent {
+    /// What is wrong with it at a place and a time.
+    pub(super) fn fault(&self, p: Vector2<f64>, t_s: f64) -> Option<String> {
+        if !self.own {
+            return None;
+        }
+        let (most, v) = (stream_m_s.1, self.current.velocity(p, t_s));
+        // This form also refuses what is not a number.
+        let wrong = !v.iter().all(|v| v.abs() <= most);
+        wrong.then(|| {
+            format!(
+                "the current {} flows at ({}, {}) m/s at east {} m, north {} m, {t_s} s: both must be within ±{most}; \
+                 correct the current",
+                self.name, v.x, v.y, p.x, p.y
+            )
+        })
+    }
+
+    /// Its velocity in numbers that may ask for its slopes, m/s.
+    ///
+    /// # Panics
+    /// If it flows faster than water does. A plume in such water would take steps without end.
+    pub(super) fn velocity<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
+        let fault = self.fault(p.map(Number::value), t_s.value());
+        assert!(fault.is_none(), "{}", fault.unwrap_or_default());
+        let current = &*self.current;
+        N::either(p, t_s, |p, t_s| current.velocity(p, t_s), |p, t_s| current.with_slopes(p, t_s))
+    }
+}
