@@ -2,22 +2,11 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown};
+use crate::handoff::{ExchangeTiming, Need, Setting};
+pub use crate::searcher::Strategy;
 use world::area::Area;
 use world::cost::{Cost, Times};
 use world::registry::Spec;
-use world::seeds::Stream;
-
-/// A strategy: takes one observation per tick and decides what to command the guidance.
-pub trait Strategy: std::fmt::Debug + Send + Sync {
-    /// One tick.
-    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
-
-    /// What it shows of itself; asked only when somebody looks.
-    fn shown(&self) -> Shown {
-        Shown::default()
-    }
-}
 
 /// Parameters of a strategy, and what they tell before it is built.
 pub trait StrategyParams: Spec {
