@@ -36,11 +36,11 @@
 mod own;
 mod searching;
 pub(crate) mod system;
-mod systems;
+mod turns;
 
 pub(crate) use own::{LaneComponents, own};
 pub(crate) use searching::{Known, NewSearcher, Searching};
-pub use systems::{BodiesMove, SystemTurn, Systems};
+pub use turns::{BodiesMove, SystemTurn, Systems};
 
 use crate::error::AssembleError;
 use bevy_ecs::prelude::World;
