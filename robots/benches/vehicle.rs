@@ -3,7 +3,7 @@
 
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};
-use robots::handoff::{Actuation, ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
+use robots::handoff::{Actuation, ActuatorCommand, Behaviour, Decision, HeadGoal};
 use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use world::area::Area;
 use world::fields::WaterSample;
@@ -85,20 +85,14 @@ fn gantry(bencher: Bencher) {
     let body = gantry.body_spec("gantry", &base, Vector2::new(0.5, 0.0));
     let id = physics.add_gantry(body.expect("inside its travel"));
     let mut rng = Stream::new(1, "gantry", "drives");
-    let mut decision = GantryDecision {
-        behaviour: GantryBehaviour::StepUp,
-        id: 0,
-        target_m: Vector2::zeros(),
-        speed_m_s: Vector2::new(0.061, 0.03),
-        working: TrackerState::default(),
-        stopped: None,
-    };
+    let speed_m_s = Vector2::new(0.061, 0.03);
+    let mut decision = Decision::new(Behaviour::StepUp, HeadGoal { speed_m_s, ..HeadGoal::default() });
     bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
         for i in 0..STEPS {
             if i % 100 == 0 {
-                decision.id += 1;
-                let side = if decision.id.is_multiple_of(2) { 1.0 } else { -1.0 };
-                decision.target_m = Vector2::new(1.0 + 0.05 * side, 0.025 * side);
+                decision.goal.id += 1;
+                let side = if decision.goal.id.is_multiple_of(2) { 1.0 } else { -1.0 };
+                decision.goal.target_m = Vector2::new(1.0 + 0.05 * side, 0.025 * side);
             }
             let joints = physics.joints(id);
             let drives = gantry.drive(&decision, &joints, STEP_S, &mut rng);

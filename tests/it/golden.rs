@@ -95,7 +95,7 @@ fn parts(trial: &Trial) -> String {
             of(frame, |f, d| {
                 for g in &f.gantries {
                     d.f64s(g.head_W.as_slice());
-                    d.text(g.decision.behaviour.name());
+                    d.text(g.behaviour.name());
                 }
             }),
         ),

@@ -2,7 +2,7 @@
 //!
 //! All decisions pass here, whichever way they come: those of strategies and those of searchers outside this program.
 
-use super::{Decision, Declaration, GantryDecision, Goal, HeadOrder, Manoeuvre, MoveOrder, Shown, Vertical};
+use super::{Behaviour, Decision, Declaration, Goal, HeadGoal, HeadOrder, Manoeuvre, MoveOrder, Shown, Vertical};
 use nalgebra::{Vector2, Vector3};
 use world::units::Heading;
 
@@ -139,6 +139,10 @@ impl HeadOrder {
         let speeds = self.speed_m_s.as_ref().map_or(&[][..], |v| v.as_slice());
         (bounds.above_0("speed_m_s", speeds, bounds.fast_m_s))
             .or_else(|| bounds.place("target_m", self.target_m.as_slice()))
+            .or_else(|| {
+                let wrong = !Behaviour::OF_GANTRY.contains(&self.behaviour);
+                wrong.then(|| format!("`behaviour` must be one of a gantry, got {:?}", self.behaviour.name()))
+            })
     }
 }
 
@@ -182,23 +186,20 @@ impl Shown {
     }
 }
 
-impl GantryDecision {
-    /// What of it cannot be carried out.
+impl Decision<HeadGoal> {
+    /// What of it cannot be carried out or shown.
     pub fn fault(&self, bounds: Bounds) -> Option<String> {
-        let order = HeadOrder {
-            id: Some(self.id),
-            target_m: self.target_m,
-            // Before its first motion there is no speed.
-            speed_m_s: (self.id > 0).then_some(self.speed_m_s),
-            behaviour: self.behaviour,
-        };
+        let HeadGoal { id, target_m, speed_m_s } = self.goal;
+        // Before its first motion there is no speed.
+        let order =
+            HeadOrder { id: Some(id), target_m, speed_m_s: (id > 0).then_some(speed_m_s), behaviour: self.behaviour };
         order.fault(bounds)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Behaviour, Evidence};
+    use super::super::Evidence;
     use super::*;
 
     fn goal(speed_m_s: f64) -> Goal {
@@ -240,6 +241,14 @@ mod tests {
         assert_eq!(goal(1e9).fault(Bounds::ANY), None);
         let told = goal(nan).fault(Bounds::ANY);
         assert_eq!(told.as_deref(), Some("`speed_m_s` must be a number, got NaN"));
+    }
+
+    #[test]
+    fn a_gantry_does_what_gantries_do() {
+        let said = |behaviour| Decision::new(behaviour, HeadGoal::default()).fault(Bounds::OWN);
+        assert_eq!(said(Behaviour::Sweep), None);
+        let told = said(Behaviour::GoHome);
+        assert_eq!(told.as_deref(), Some("`behaviour` must be one of a gantry, got \"go_home\""));
     }
 
     #[test]

@@ -8,11 +8,11 @@ use strum::IntoStaticStr;
 use world::digest::Digest;
 use world::seeds;
 
-/// What the vehicle is doing, in the terms of the field.
+/// What a vehicle or a gantry is doing, in the terms of the field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord, IntoStaticStr)]
 #[strum(serialize_all = "snake_case")]
 pub enum Behaviour {
-    /// Before the first decision.
+    /// Before the first decision; of a gantry: waiting.
     #[default]
     Idle,
     /// Actuators driven by a time table.
@@ -29,7 +29,7 @@ pub enum Behaviour {
     Reacquire,
     /// Going home after the declaration, or giving up.
     GoHome,
-    /// Mission over.
+    /// Mission over; of a gantry: at the end.
     Done,
     /// On a planned path to the believed source.
     FollowPath,
@@ -37,6 +37,14 @@ pub enum Behaviour {
     Avoid,
     /// Passing over a declared place with sidescan and camera.
     Survey,
+    /// Of a gantry: full sweep across the stream.
+    Sweep,
+    /// Of a gantry: to the best place of a sweep.
+    ToBest,
+    /// Of a gantry: a step up-stream.
+    StepUp,
+    /// Of a gantry: cast to a neighbouring place across the stream.
+    Cast,
     /// A behaviour of a strategy from another crate, named like those above: a-z, 0-9 and _.
     Other(&'static str),
 }
@@ -48,7 +56,7 @@ impl Serialize for Behaviour {
 }
 
 impl Behaviour {
-    /// All behaviours of this crate, for tables and legends.
+    /// All behaviours of vehicles in this crate, for tables and legends.
     pub const ALL: [Behaviour; 12] = [
         Behaviour::Idle,
         Behaviour::OpenLoop,
@@ -63,6 +71,10 @@ impl Behaviour {
         Behaviour::Avoid,
         Behaviour::Survey,
     ];
+
+    /// All behaviours of gantries.
+    pub const OF_GANTRY: [Behaviour; 6] =
+        [Behaviour::Idle, Behaviour::Sweep, Behaviour::ToBest, Behaviour::StepUp, Behaviour::Cast, Behaviour::Done];
 
     /// Name as it stands in files and topics.
     pub fn name(self) -> &'static str {
@@ -85,9 +97,9 @@ impl Behaviour {
         seen
     }
 
-    /// Its number in digests: its place in [`Self::ALL`]; for other behaviours a hash of the name.
-    pub fn number(self) -> f64 {
-        let own = Self::ALL.iter().position(|b| *b == self);
+    /// Its number in digests: its place among those of its kind of machine; for other behaviours a hash of the name.
+    pub fn number(self, among: &[Self]) -> f64 {
+        let own = among.iter().position(|b| *b == self);
         own.map_or_else(|| f64::from((seeds::key(0, self.name(), "behaviour") >> 32) as u32), |place| place as f64)
     }
 }
@@ -219,28 +231,36 @@ impl Declaration {
 pub enum Outcome {
     /// Came to its planned end.
     Completed,
-    /// Given up: too far outside the area.
+    /// Given up: too far outside the area; by a gantry because it found nothing.
     Aborted,
 }
 
-/// What a strategy decides in a tick.
+impl Outcome {
+    /// Of a search that ended where a source is, or was given up.
+    pub fn of_search(found: bool) -> Self {
+        if found { Self::Completed } else { Self::Aborted }
+    }
+}
+
+/// What a searcher decides in a tick: a strategy with a [`Goal`] for a vehicle's guidance, a gantry's searcher with a
+/// [`HeadGoal`](super::HeadGoal).
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub struct Decision {
+pub struct Decision<G: Send + Sync + 'static = Goal> {
     /// What it is doing.
     pub behaviour: Behaviour,
-    /// What it asks of the guidance.
-    pub goal: Goal,
-    /// Newly declared in this tick.
+    /// What it asks of its machine.
+    pub goal: G,
+    /// Newly declared in this tick. Of a gantry nobody looks at it: it declares where it stops.
     pub declared: Option<Declaration>,
-    /// Ask the camera for a picture.
+    /// Ask the camera, if there is one, for a picture.
     pub picture: bool,
     /// Set when the mission is over.
     pub outcome: Option<Outcome>,
 }
 
-impl Decision {
+impl<G: Send + Sync> Decision<G> {
     /// Going for a goal, and nothing else.
-    pub fn new(behaviour: Behaviour, goal: Goal) -> Self {
+    pub fn new(behaviour: Behaviour, goal: G) -> Self {
         Self { behaviour, goal, declared: None, picture: false, outcome: None }
     }
 }
@@ -287,11 +307,15 @@ mod tests {
     #[test]
     fn digests_number_behaviours_by_their_place_and_others_by_their_name() {
         for (place, b) in Behaviour::ALL.into_iter().enumerate() {
-            assert_eq!(b.number(), place as f64, "{b:?}");
+            assert_eq!(b.number(&Behaviour::ALL), place as f64, "{b:?}");
+        }
+        for (place, b) in Behaviour::OF_GANTRY.into_iter().enumerate() {
+            assert_eq!(b.number(&Behaviour::OF_GANTRY), place as f64, "{b:?}");
         }
         let spiral = Behaviour::Other("spiral");
-        assert_eq!((spiral.name(), spiral.number()), ("spiral", Behaviour::Other("spiral").number()));
-        assert!(spiral.number() > 255.0 && spiral.number() != Behaviour::Other("ladder").number());
+        let number = |b: Behaviour| b.number(&Behaviour::ALL);
+        assert_eq!((spiral.name(), number(spiral)), ("spiral", number(Behaviour::Other("spiral"))));
+        assert!(number(spiral) > 255.0 && number(spiral) != number(Behaviour::Other("ladder")));
         let seen = Behaviour::seen([spiral, Behaviour::Find, spiral, Behaviour::GoTo].into_iter());
         assert_eq!(seen, [Behaviour::GoTo, Behaviour::Find, spiral]);
     }

@@ -1,4 +1,5 @@
-//! What the parts of a gantry hand to each other: probe samples, joint readings, and where the head is to go.
+//! What the parts of a gantry hand to each other: probe samples, joint readings, what is known of the machine, and the
+//! state of its tracker. Where the head is to go is a [`HeadGoal`](super::HeadGoal).
 //!
 //! All positions are in the gantry's own frame: forward along x of its URDF's base (up-stream in the usual set-up in
 //! a flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame: it knows
@@ -7,7 +8,6 @@
 use super::ReplyOutcome;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
-use strum::IntoStaticStr;
 
 /// Most probes a head can carry.
 pub const MAX_PROBES: usize = 8;
@@ -78,60 +78,6 @@ pub struct GantryObservation {
     pub readings: GantryReadings,
     /// What a searcher outside this program was heard to say in this tick, if it was asked.
     pub told: Option<ReplyOutcome>,
-}
-
-/// What a gantry's searcher is doing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, IntoStaticStr)]
-#[strum(serialize_all = "snake_case")]
-#[repr(u8)]
-pub enum GantryBehaviour {
-    /// Waiting.
-    #[default]
-    Idle,
-    /// Full sweep across the stream.
-    Sweep,
-    /// To the best place of a sweep.
-    ToBest,
-    /// A step up-stream.
-    StepUp,
-    /// Cast to a neighbouring place across the stream.
-    Cast,
-    /// At the end.
-    Done,
-}
-
-impl GantryBehaviour {
-    /// All of them.
-    pub const ALL: [GantryBehaviour; 6] = [
-        GantryBehaviour::Idle,
-        GantryBehaviour::Sweep,
-        GantryBehaviour::ToBest,
-        GantryBehaviour::StepUp,
-        GantryBehaviour::Cast,
-        GantryBehaviour::Done,
-    ];
-
-    /// Its name in records and on the wire.
-    pub fn name(self) -> &'static str {
-        self.into()
-    }
-}
-
-/// What a gantry's searcher asks for.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
-pub struct GantryDecision {
-    /// What it is doing.
-    pub behaviour: GantryBehaviour,
-    /// Counts the motion commands: a new number is a new command; 0 is none yet.
-    pub id: u32,
-    /// Destination of the head's reference point (forward, left), m.
-    pub target_m: Vector2<f64>,
-    /// Speed of each axis (forward, left), m/s.
-    pub speed_m_s: Vector2<f64>,
-    /// The tracker's state, for records and figures.
-    pub working: TrackerState,
-    /// Set when the searcher has stopped: true if it declared the source found, false if it gave up.
-    pub stopped: Option<bool>,
 }
 
 /// Present state of the tracker's units, for records and figures. A searcher without such a unit leaves the default.

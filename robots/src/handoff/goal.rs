@@ -133,6 +133,17 @@ impl Goal {
     }
 }
 
+/// Where a gantry's head is to go, in the gantry's own frame; the drives begin a motion when `id` changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HeadGoal {
+    /// Number of the motion; each new motion has the next number, 0 is none yet.
+    pub id: u32,
+    /// Destination of the head's reference point (forward, left), m.
+    pub target_m: Vector2<f64>,
+    /// Speed of each axis (forward, left), m/s.
+    pub speed_m_s: Vector2<f64>,
+}
+
 /// How the guidance stands with a goal.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuidanceStatus {

@@ -36,10 +36,9 @@ pub use control::{
 pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict};
 pub use estimate::{Estimate, FlowEstimate, Observation, detects};
 pub use gantry::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES,
-    ProbeMount, ProbeScan, TrackerState,
+    GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES, ProbeMount, ProbeScan, TrackerState,
 };
-pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
+pub use goal::{Goal, GuidanceStatus, HeadGoal, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
 pub use need::Need;

@@ -1,6 +1,6 @@
 //! What a searcher outside this program answers, when its robot or gantry asks it.
 
-use super::{Behaviour, Decision, Declaration, GantryBehaviour, GantryDecision, Manoeuvre, Outcome, Vertical};
+use super::{Behaviour, Decision, Declaration, HeadGoal, Manoeuvre, Outcome, Vertical};
 use nalgebra::Vector2;
 
 /// How a searcher outside this program is asked.
@@ -59,7 +59,7 @@ pub struct HeadOrder {
     /// Speed of each axis (forward, left), m/s; `None` for the machine's greatest.
     pub speed_m_s: Option<Vector2<f64>>,
     /// What the searcher does.
-    pub behaviour: GantryBehaviour,
+    pub behaviour: Behaviour,
 }
 
 /// What came of a question.
@@ -91,20 +91,17 @@ impl From<&Decision> for Reply {
 }
 
 /// The answer that makes a gantry do what a searcher has decided.
-impl From<&GantryDecision> for Reply {
-    fn from(decision: &GantryDecision) -> Self {
-        let stopped = decision.stopped;
+impl From<&Decision<HeadGoal>> for Reply {
+    fn from(decision: &Decision<HeadGoal>) -> Self {
+        let HeadGoal { id, target_m, speed_m_s } = decision.goal;
         Self {
-            order: (decision.id > 0).then_some(MotionOrder::Head(HeadOrder {
-                id: Some(decision.id),
-                target_m: decision.target_m,
-                speed_m_s: Some(decision.speed_m_s),
+            order: (id > 0).then_some(MotionOrder::Head(HeadOrder {
+                id: Some(id),
+                target_m,
+                speed_m_s: Some(speed_m_s),
                 behaviour: decision.behaviour,
             })),
-            outcome: stopped.map(|found| match found {
-                true => Outcome::Completed,
-                false => Outcome::Aborted,
-            }),
+            outcome: decision.outcome,
             ..Self::default()
         }
     }

@@ -2,11 +2,11 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown};
+use crate::handoff::{ExchangeTiming, Need, Setting};
+pub use crate::searcher::Strategy;
 use world::area::Area;
 use world::cost::{Cost, Times};
 use world::registry::{Choice, Spec};
-use world::seeds::Stream;
 
 /// Strategies, which decide what a robot does from launch to the end of its mission. Their rows stand in the catalogue,
 /// for some hold another.
@@ -15,17 +15,6 @@ pub enum Strategies {}
 
 /// A strategy that is chosen by name.
 pub type StrategySpec = Choice<Strategies>;
-
-/// A strategy: takes one observation per tick and decides what to command the guidance.
-pub trait Strategy: std::fmt::Debug + Send + Sync {
-    /// One tick.
-    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
-
-    /// What it shows of itself; asked only when somebody looks.
-    fn shown(&self) -> Shown {
-        Shown::default()
-    }
-}
 
 /// Parameters of a strategy, and what they tell before it is built.
 pub trait StrategyParams: Spec {

@@ -13,9 +13,10 @@
 
 use super::acquire::Acquisition;
 use super::command::MotionCommand;
-use super::spec::{GantryStrategy, GantryStrategyParams};
+use super::spec::GantryStrategyParams;
 use crate::error::{RobotError, require};
-use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState};
+use crate::handoff::{Behaviour, Decision, GantryLayout, GantryObservation, HeadGoal, TrackerState};
+use crate::searcher::Strategy;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -53,7 +54,7 @@ impl Listed for ChemotaxisSpec {
 }
 
 impl GantryStrategyParams for ChemotaxisSpec {
-    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn Strategy<HeadGoal>>, RobotError> {
         Ok(Box::new(Chemotaxis::new(self, layout)?))
     }
 }
@@ -125,23 +126,23 @@ impl Chemotaxis {
             self.turned += 1;
             if self.turned >= self.turns {
                 self.stopped = Some(true);
-                self.command.go(t_s, GantryBehaviour::Done, here, self.speed_m_s);
+                self.command.go(t_s, Behaviour::Done, here, self.speed_m_s);
                 return;
             }
         }
         let across = if left == right { 0.0 } else { (left - right).signum() };
         let by = Vector2::new(self.along, across).component_mul(&self.step_m);
-        self.command.go(t_s, GantryBehaviour::StepUp, here + by, self.speed_m_s);
+        self.command.go(t_s, Behaviour::StepUp, here + by, self.speed_m_s);
     }
 }
 
-impl GantryStrategy for Chemotaxis {
-    fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> GantryDecision {
+impl Strategy<HeadGoal> for Chemotaxis {
+    fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> Decision<HeadGoal> {
         let (t, joints) = (seen.t_s, &seen.readings.joints);
         if self.stopped.is_none() {
             if !self.begun {
                 self.begun = true;
-                self.command.go(t, GantryBehaviour::Idle, joints.position_m, self.speed_m_s);
+                self.command.go(t, Behaviour::Idle, joints.position_m, self.speed_m_s);
             }
             let at = self.command.progress(t, joints);
             if let (Some(scan), Some(_)) = (&seen.readings.scan, at.rest_s) {
@@ -156,8 +157,11 @@ impl GantryStrategy for Chemotaxis {
                 self.next(t, at.here_m, at.blocked);
             }
         }
-        let working = TrackerState { magnitude_v: self.before_v.unwrap_or(0.0), ..Default::default() };
-        self.command.decision(joints, working, self.stopped)
+        self.command.decision(joints, self.stopped)
+    }
+
+    fn shown(&self) -> TrackerState {
+        TrackerState { magnitude_v: self.before_v.unwrap_or(0.0), ..Default::default() }
     }
 }
 

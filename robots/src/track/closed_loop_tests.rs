@@ -2,7 +2,7 @@
 
 use super::testing::{Puffs, Rig, SOURCE_M, layout};
 use super::*;
-use crate::handoff::GantryBehaviour as B;
+use crate::handoff::Behaviour as B;
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use world::seeds::Stream;

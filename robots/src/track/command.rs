@@ -8,7 +8,7 @@
 //! *Deviations*: targets beyond the travel are cut off at its end; the paper does not say what its tracker did there.
 //! A drive that gave up counts as arrived at its present place.
 
-use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, JointReadings, TrackerState};
+use crate::handoff::{Behaviour, Decision, GantryLayout, HeadGoal, JointReadings, Outcome};
 use nalgebra::Vector2;
 
 /// Time before the drives answer to a new command, s.
@@ -33,10 +33,8 @@ pub struct Progress {
 pub struct MotionCommand {
     travel_m: [[f64; 2]; 2],
     max_speed_m_s: Vector2<f64>,
-    behaviour: GantryBehaviour,
-    id: u32,
-    target_m: Vector2<f64>,
-    speed_m_s: Vector2<f64>,
+    behaviour: Behaviour,
+    goal: HeadGoal,
     since_s: f64,
     rest_since_s: Option<f64>,
     blocked: bool,
@@ -46,7 +44,8 @@ impl MotionCommand {
     /// Before the first command.
     pub fn new(layout: &GantryLayout) -> Self {
         let max_speed_m_s = Vector2::from(layout.max_speed_m_s);
-        Self { travel_m: layout.travel_m, max_speed_m_s, speed_m_s: max_speed_m_s, ..Self::default() }
+        let goal = HeadGoal { speed_m_s: max_speed_m_s, ..HeadGoal::default() };
+        Self { travel_m: layout.travel_m, max_speed_m_s, goal, ..Self::default() }
     }
 
     /// The nearest place within the travel.
@@ -56,15 +55,17 @@ impl MotionCommand {
     }
 
     /// A new command.
-    pub fn go(&mut self, t_s: f64, behaviour: GantryBehaviour, target_m: Vector2<f64>, speed_m_s: Vector2<f64>) {
+    pub fn go(&mut self, t_s: f64, behaviour: Behaviour, target_m: Vector2<f64>, speed_m_s: Vector2<f64>) {
         assert!(
             target_m.x.is_finite() && target_m.y.is_finite(),
             "the decision unit asks for {target_m:?}, which is not a place"
         );
         self.behaviour = behaviour;
-        self.id += 1;
-        self.target_m = self.within(target_m);
-        self.speed_m_s = speed_m_s.inf(&self.max_speed_m_s);
+        self.goal = HeadGoal {
+            id: self.goal.id + 1,
+            target_m: self.within(target_m),
+            speed_m_s: speed_m_s.inf(&self.max_speed_m_s),
+        };
         self.since_s = t_s;
         self.rest_since_s = None;
         self.blocked = false;
@@ -78,25 +79,24 @@ impl MotionCommand {
                 self.rest_since_s.get_or_insert(t_s);
             }
         }
-        let to_go = (self.target_m - joints.position_m).abs().component_div(&self.speed_m_s);
+        let HeadGoal { id, target_m, speed_m_s } = self.goal;
+        let to_go = (target_m - joints.position_m).abs().component_div(&speed_m_s);
         Progress {
             rest_s: self.rest_since_s.map(|since| t_s - since),
             to_go_s: to_go.x.max(to_go.y),
             blocked: self.blocked,
-            here_m: if self.blocked || self.id == 0 { joints.position_m } else { self.target_m },
+            here_m: if self.blocked || id == 0 { joints.position_m } else { target_m },
         }
     }
 
-    /// The present command as a decision; before the first one it holds the head in place.
-    pub fn decision(&self, joints: &JointReadings, working: TrackerState, stopped: Option<bool>) -> GantryDecision {
-        GantryDecision {
-            behaviour: self.behaviour,
-            id: self.id,
-            target_m: if self.id == 0 { self.within(joints.position_m) } else { self.target_m },
-            speed_m_s: self.speed_m_s,
-            working,
-            stopped,
+    /// The present command as a decision; before the first one it holds the head in place. `stopped` says whether a
+    /// search that has ended has found a source.
+    pub fn decision(&self, joints: &JointReadings, stopped: Option<bool>) -> Decision<HeadGoal> {
+        let mut goal = self.goal;
+        if goal.id == 0 {
+            goal.target_m = self.within(joints.position_m);
         }
+        Decision { outcome: stopped.map(Outcome::of_search), ..Decision::new(self.behaviour, goal) }
     }
 }
 
@@ -109,19 +109,19 @@ mod tests {
     fn targets_and_speeds_stay_within_the_machine() {
         let mut m = MotionCommand::new(&layout());
         let at = JointReadings { position_m: Vector2::new(0.3, 0.1), ..Default::default() };
-        let idle = m.decision(&at, TrackerState::default(), None);
+        let idle = m.decision(&at, None).goal;
         assert_eq!((idle.id, idle.target_m), (0, at.position_m));
-        m.go(0.0, GantryBehaviour::StepUp, Vector2::new(9.0, -9.0), Vector2::new(9.0, 0.01));
-        let d = m.decision(&at, TrackerState::default(), None);
-        assert_eq!((d.id, d.behaviour), (1, GantryBehaviour::StepUp));
-        assert_eq!(d.target_m, Vector2::new(2.0, -0.5));
-        assert_eq!(d.speed_m_s, Vector2::new(0.15, 0.01));
+        m.go(0.0, Behaviour::StepUp, Vector2::new(9.0, -9.0), Vector2::new(9.0, 0.01));
+        let d = m.decision(&at, None);
+        assert_eq!((d.goal.id, d.behaviour), (1, Behaviour::StepUp));
+        assert_eq!(d.goal.target_m, Vector2::new(2.0, -0.5));
+        assert_eq!(d.goal.speed_m_s, Vector2::new(0.15, 0.01));
     }
 
     #[test]
     fn an_old_answer_is_no_answer_and_a_block_ends_the_way() {
         let mut m = MotionCommand::new(&layout());
-        m.go(1.0, GantryBehaviour::StepUp, Vector2::new(0.1, 0.0), Vector2::new(0.05, 0.03));
+        m.go(1.0, Behaviour::StepUp, Vector2::new(0.1, 0.0), Vector2::new(0.05, 0.03));
         let mut joints = JointReadings { arrived: true, ..Default::default() };
         let p = m.progress(1.05, &joints);
         assert_eq!((p.rest_s, p.to_go_s), (None, 2.0));

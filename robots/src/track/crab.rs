@@ -13,14 +13,15 @@ use super::crab_spec::CrabSpec;
 use super::decide::{Ask, DecisionUnit, Memory};
 use super::history::History;
 use super::predictor::Predictor;
-use super::spec::{GantryStrategy, GantryStrategyParams};
+use super::spec::GantryStrategyParams;
 use super::spikes::SpikeAnalyser;
 use super::stop::StopRule;
 use super::threshold::ThresholdAnalyser;
 use crate::error::RobotError;
 use crate::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, JointReadings, ProbeScan, TrackerState,
+    Behaviour, Decision, GantryLayout, GantryObservation, HeadGoal, JointReadings, ProbeScan, TrackerState,
 };
+use crate::searcher::Strategy;
 use world::catalogue::Entry;
 use world::registry::Listed;
 use world::seeds::Stream;
@@ -35,7 +36,7 @@ impl Listed for CrabSpec {
 }
 
 impl GantryStrategyParams for CrabSpec {
-    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn Strategy<HeadGoal>>, RobotError> {
         Ok(Box::new(CrabTracker::new(self, layout)?))
     }
 }
@@ -104,11 +105,11 @@ impl CrabTracker {
     }
 }
 
-impl GantryStrategy for CrabTracker {
-    fn step(&mut self, seen: &GantryObservation, rng: &mut Stream) -> GantryDecision {
+impl Strategy<HeadGoal> for CrabTracker {
+    fn step(&mut self, seen: &GantryObservation, rng: &mut Stream) -> Decision<HeadGoal> {
         let (t, joints) = (seen.t_s, &seen.readings.joints);
         if self.stopped.is_some() {
-            return self.command.decision(joints, self.working, self.stopped);
+            return self.command.decision(joints, self.stopped);
         }
         if let Some(scan) = &seen.readings.scan {
             self.analyse(scan, joints);
@@ -132,11 +133,15 @@ impl GantryStrategy for CrabTracker {
                 Ask::Stop(found) => {
                     let hold = joints.position_m;
                     let speed = self.decision.speed_m_s();
-                    self.command.go(t, GantryBehaviour::Done, hold, speed);
+                    self.command.go(t, Behaviour::Done, hold, speed);
                     self.stopped = Some(found);
                 }
             }
         }
-        self.command.decision(joints, self.working, self.stopped)
+        self.command.decision(joints, self.stopped)
+    }
+
+    fn shown(&self) -> TrackerState {
+        self.working
     }
 }

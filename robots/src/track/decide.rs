@@ -20,7 +20,7 @@ use super::data::{StepRecord, Tally};
 use super::pace::PaceSpec;
 use super::steer::{ContrastSpec, Pull};
 use super::stop::StopRule;
-use crate::handoff::GantryBehaviour;
+use crate::handoff::Behaviour;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -67,7 +67,7 @@ pub struct Rules {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ask {
     /// A motion to a place (forward, left), m, with speeds, m/s.
-    Go(GantryBehaviour, Vector2<f64>, Vector2<f64>),
+    Go(Behaviour, Vector2<f64>, Vector2<f64>),
     /// The end, found or not.
     Stop(bool),
 }
@@ -172,7 +172,7 @@ impl DecisionUnit {
                 self.phase = TrackPhase::Sweeping;
                 let end = Vector2::new(at.here_m.x, self.rules.sweep_left_m[1]);
                 let speed = self.rules.pace.sweep_m_s(self.followed);
-                Some((Ask::Go(GantryBehaviour::Sweep, end, speed), Memory::Forget))
+                Some((Ask::Go(Behaviour::Sweep, end, speed), Memory::Forget))
             }
             TrackPhase::Sweeping if rest => Some(self.swept(at, step, map)),
             TrackPhase::ToBest if rest => {
@@ -199,7 +199,7 @@ impl DecisionUnit {
         self.cast = None;
         let start = Vector2::new(at.here_m.x, self.rules.sweep_left_m[0]);
         let speed = self.rules.pace.speed_m_s(0);
-        (Ask::Go(GantryBehaviour::Sweep, start, speed), Memory::Keep)
+        (Ask::Go(Behaviour::Sweep, start, speed), Memory::Keep)
     }
 
     /// A sweep has ended.
@@ -216,7 +216,7 @@ impl DecisionUnit {
             self.empty = 0;
             self.phase = TrackPhase::ToBest;
             let best = Vector2::new(at.here_m.x, left_m);
-            return (Ask::Go(GantryBehaviour::ToBest, best, speed), Memory::Keep);
+            return (Ask::Go(Behaviour::ToBest, best, speed), Memory::Keep);
         }
         self.empty += 1;
         if self.empty >= self.rules.empty_sweeps {
@@ -282,7 +282,7 @@ impl DecisionUnit {
         let place = Vector2::new(forward_m, map.trail_end_left_m(n)?);
         self.phase = TrackPhase::Last;
         let speed = self.rules.pace.speed_m_s(n);
-        Some((Ask::Go(GantryBehaviour::ToBest, place, speed), Memory::Keep))
+        Some((Ask::Go(Behaviour::ToBest, place, speed), Memory::Keep))
     }
 
     /// A step up-stream, measured from `from_m` (forward).
@@ -293,14 +293,14 @@ impl DecisionUnit {
         self.phase = TrackPhase::Step { up: true };
         let place = Vector2::new(from_m + self.rules.step_m.x, here.y + side * self.rules.step_m.y);
         let speed = self.rules.pace.speed_m_s(spikes);
-        Ask::Go(GantryBehaviour::StepUp, place, speed)
+        Ask::Go(Behaviour::StepUp, place, speed)
     }
 
     fn aside(&mut self, forward_m: f64, left_m: f64, spikes: usize) -> Ask {
         self.phase = TrackPhase::Step { up: false };
         let speed = self.rules.pace.speed_m_s(spikes);
         let place = Vector2::new(forward_m, left_m);
-        Ask::Go(GantryBehaviour::Cast, place, speed)
+        Ask::Go(Behaviour::Cast, place, speed)
     }
 
     /// There is an obstacle up-stream: moves to the side.

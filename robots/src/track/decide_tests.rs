@@ -1,7 +1,7 @@
 //! The decision unit, driven with steps written by hand.
 
 use super::*;
-use crate::handoff::GantryBehaviour as B;
+use crate::handoff::Behaviour as B;
 use crate::track::advance::{Gated, StepFrom};
 use crate::track::builder::Best;
 use crate::track::crab_spec::CrabSpec;

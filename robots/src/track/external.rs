@@ -6,12 +6,12 @@
 //!
 //! *Deviations*: none. Between two answers, and without one, the last order holds. The head waits before the first one.
 
-use super::spec::{GantryStrategy, GantryStrategyParams};
+use super::spec::GantryStrategyParams;
 use crate::error::RobotError;
 use crate::handoff::{
-    ExchangeTiming, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, MotionOrder, Outcome,
-    ReplyOutcome,
+    Behaviour, Decision, ExchangeTiming, GantryLayout, GantryObservation, HeadGoal, MotionOrder, Outcome, ReplyOutcome,
 };
+use crate::searcher::Strategy;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,12 +58,12 @@ impl Listed for ExternalSpec {
 }
 
 impl GantryStrategyParams for ExternalSpec {
-    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn Strategy<HeadGoal>>, RobotError> {
         Ok(Box::new(External {
             on_late: self.on_late,
             fastest_m_s: Vector2::from(layout.max_speed_m_s),
             travel_m: layout.travel_m,
-            last: GantryDecision::default(),
+            last: Decision::new(Behaviour::Idle, HeadGoal::default()),
         }))
     }
 
@@ -78,38 +78,38 @@ struct External {
     on_late: OnLate,
     fastest_m_s: Vector2<f64>,
     travel_m: [[f64; 2]; 2],
-    last: GantryDecision,
+    last: Decision<HeadGoal>,
 }
 
-impl GantryStrategy for External {
-    fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> GantryDecision {
-        if self.last.id == 0 {
-            self.last.target_m = seen.readings.joints.position_m;
+impl Strategy<HeadGoal> for External {
+    fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> Decision<HeadGoal> {
+        let id = self.last.goal.id;
+        if id == 0 {
+            self.last.goal.target_m = seen.readings.joints.position_m;
         }
         match &seen.told {
             Some(ReplyOutcome::Answer(told)) => {
                 if let Some(MotionOrder::Head(order)) = &told.order {
-                    self.last.id = order.id.unwrap_or(self.last.id.wrapping_add(1));
-                    self.last.target_m = self.within(order.target_m);
-                    let asked = order.speed_m_s.unwrap_or(self.fastest_m_s);
-                    self.last.speed_m_s = asked.inf(&self.fastest_m_s);
+                    self.last.goal = HeadGoal {
+                        id: order.id.unwrap_or(id.wrapping_add(1)),
+                        target_m: self.within(order.target_m),
+                        speed_m_s: order.speed_m_s.unwrap_or(self.fastest_m_s).inf(&self.fastest_m_s),
+                    };
                     self.last.behaviour = order.behaviour;
                 }
-                if let Some(outcome) = told.outcome {
-                    self.stop(outcome == Outcome::Completed);
-                }
+                told.outcome.into_iter().for_each(|outcome| self.stop(outcome));
             }
-            Some(ReplyOutcome::Nothing) if self.on_late == OnLate::Abort => self.stop(false),
+            Some(ReplyOutcome::Nothing) if self.on_late == OnLate::Abort => self.stop(Outcome::Aborted),
             Some(ReplyOutcome::Nothing) | None => {}
         }
-        self.last.clone()
+        self.last
     }
 }
 
 impl External {
-    fn stop(&mut self, found: bool) {
-        self.last.stopped.get_or_insert(found);
-        self.last.behaviour = GantryBehaviour::Done;
+    fn stop(&mut self, outcome: Outcome) {
+        self.last.outcome.get_or_insert(outcome);
+        self.last.behaviour = Behaviour::Done;
     }
 
     /// The nearest place that the axes reach.
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
     use crate::handoff::{GantryReadings, HeadOrder, Reply};
 
-    fn searcher(on_late: OnLate) -> Box<dyn GantryStrategy> {
+    fn searcher(on_late: OnLate) -> Box<dyn Strategy<HeadGoal>> {
         let layout = GantryLayout {
             travel_m: [[0.0, 2.0], [-0.5, 0.5]],
             max_speed_m_s: [0.1, 0.2],
@@ -146,7 +146,7 @@ mod tests {
                 id: None,
                 target_m: Vector2::new(forward, left),
                 speed_m_s: None,
-                behaviour: GantryBehaviour::Cast,
+                behaviour: Behaviour::Cast,
             })),
             ..Reply::default()
         })))
@@ -156,12 +156,12 @@ mod tests {
     fn orders_stay_within_the_machine_and_hold() {
         let mut s = searcher(OnLate::Hold);
         let mut rng = Stream::new(1, "crab0", "tracker");
-        assert_eq!(s.step(&seen(None), &mut rng).id, 0);
+        assert_eq!(s.step(&seen(None), &mut rng).goal.id, 0);
         let told = s.step(&seen(to(3.0, -0.2)), &mut rng);
-        assert_eq!((told.id, told.target_m), (1, Vector2::new(2.0, -0.2)));
-        assert_eq!(told.speed_m_s, Vector2::new(0.1, 0.2));
+        assert_eq!((told.goal.id, told.goal.target_m), (1, Vector2::new(2.0, -0.2)));
+        assert_eq!(told.goal.speed_m_s, Vector2::new(0.1, 0.2));
         assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng), told);
-        assert_eq!(s.step(&seen(to(1.0, 0.0)), &mut rng).id, 2);
+        assert_eq!(s.step(&seen(to(1.0, 0.0)), &mut rng).goal.id, 2);
     }
 
     #[test]
@@ -170,8 +170,8 @@ mod tests {
         let over =
             Some(ReplyOutcome::Answer(Box::new(Reply { outcome: Some(Outcome::Completed), ..Reply::default() })));
         let mut s = searcher(OnLate::Hold);
-        assert_eq!(s.step(&seen(over), &mut rng).stopped, Some(true));
+        assert_eq!(s.step(&seen(over), &mut rng).outcome, Some(Outcome::Completed));
         let mut s = searcher(OnLate::Abort);
-        assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng).stopped, Some(false));
+        assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng).outcome, Some(Outcome::Aborted));
     }
 }

@@ -37,7 +37,7 @@ pub use history::{HistorySpec, Over, Since};
 pub use pace::{Adaptive as AdaptivePace, Fixed as FixedPace, PaceSpec};
 pub use predictor::{Mean, PredictorSpec, Trend};
 pub use rate::Count;
-pub use spec::{GantryStrategy, GantryStrategyParams};
+pub use spec::GantryStrategyParams;
 pub use steer::{Adaptive as AdaptiveContrast, ContrastSpec, Fixed as FixedContrast, Peak};
 pub use stop::{Experience, SpikeRate, StopSpec};
 pub use threshold::{Averaged, HalfMean, Level, ThresholdSpec};

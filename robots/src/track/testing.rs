@@ -1,11 +1,11 @@
 //! Shared by the tracker's tests: a machine, records written by hand, a head that follows commands, a plume of puffs.
 
 use super::data::{Sample, Spike};
-use super::spec::GantryStrategy;
 use crate::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES,
+    Behaviour, Decision, GantryLayout, GantryObservation, GantryReadings, HeadGoal, JointReadings, MAX_PROBES, Outcome,
     ProbeMount, ProbeScan,
 };
+use crate::searcher::Strategy;
 use nalgebra::{Vector2, Vector3};
 use world::math;
 use world::seeds::Stream;
@@ -47,10 +47,10 @@ const DT_S: f64 = 0.01;
 
 /// A head that moves to its target at the commanded speeds, up to a wall if there is one.
 pub(super) struct Rig {
-    strategy: Box<dyn GantryStrategy>,
+    strategy: Box<dyn Strategy<HeadGoal>>,
     layout: GantryLayout,
     joints: JointReadings,
-    decision: Option<GantryDecision>,
+    decision: Option<Decision<HeadGoal>>,
     tick: u64,
     stuck_s: f64,
     rng: Stream,
@@ -58,17 +58,17 @@ pub(super) struct Rig {
     /// Where the head cannot be.
     pub(super) wall: fn(Vector2<f64>) -> bool,
     /// First decision of each command: time, s, behaviour, target, m, and the head's place, m.
-    pub(super) log: Vec<(f64, GantryBehaviour, Vector2<f64>, Vector2<f64>)>,
+    pub(super) log: Vec<(f64, Behaviour, Vector2<f64>, Vector2<f64>)>,
     /// Distance moved by the head since the first step up-stream, m.
     pub(super) way_m: f64,
 }
 
 impl Rig {
-    pub(super) fn new(strategy: Box<dyn GantryStrategy>, start_m: Vector2<f64>) -> Self {
+    pub(super) fn new(strategy: Box<dyn Strategy<HeadGoal>>, start_m: Vector2<f64>) -> Self {
         Self::seeded(strategy, start_m, 1)
     }
 
-    pub(super) fn seeded(strategy: Box<dyn GantryStrategy>, start_m: Vector2<f64>, seed: u64) -> Self {
+    pub(super) fn seeded(strategy: Box<dyn Strategy<HeadGoal>>, start_m: Vector2<f64>, seed: u64) -> Self {
         Self {
             strategy,
             layout: layout(),
@@ -93,12 +93,13 @@ impl Rig {
     }
 
     pub(super) fn stopped(&self) -> Option<bool> {
-        self.decision.as_ref().and_then(|d| d.stopped)
+        let outcome = self.decision.as_ref().and_then(|d| d.outcome);
+        outcome.map(|o| o == Outcome::Completed)
     }
 
     /// When and where the first sweep had ended.
     pub(super) fn swept(&self) -> Option<(f64, Vector2<f64>)> {
-        let first = self.log.iter().find(|l| l.1 == GantryBehaviour::ToBest)?;
+        let first = self.log.iter().find(|l| l.1 == Behaviour::ToBest)?;
         Some((first.0, first.3))
     }
 
@@ -126,24 +127,25 @@ impl Rig {
             GantryObservation { t_s, readings: GantryReadings { scan: scanned, joints: self.joints }, told: None };
         let d = self.strategy.step(&seen, &mut self.rng);
         let travel = self.layout.travel_m;
-        for (v, [least, greatest]) in d.target_m.iter().zip(travel) {
-            assert!((least..=greatest).contains(v), "target {:?}", d.target_m);
+        let HeadGoal { id, target_m, speed_m_s } = d.goal;
+        for (v, [least, greatest]) in target_m.iter().zip(travel) {
+            assert!((least..=greatest).contains(v), "target {target_m:?}");
         }
-        assert!(d.speed_m_s.iter().all(|v| *v > 0.0 && *v <= 0.15));
-        let w = &d.working;
+        assert!(speed_m_s.iter().all(|v| *v > 0.0 && *v <= 0.15));
+        let w = &self.strategy.shown();
         let numbers = [w.spike_hz, w.magnitude_v, w.contrast, w.predicted_v.unwrap_or(0.0)];
         assert!(numbers.iter().chain(&w.threshold_v).all(|v| v.is_finite()));
         assert!(w.contrast.abs() <= 1.0 && w.magnitude_v >= 0.0);
-        if self.decision.as_ref().is_none_or(|before| before.id != d.id) {
+        if self.decision.as_ref().is_none_or(|before| before.goal.id != id) {
             let at = self.joints.position_m;
-            self.log.push((t_s, d.behaviour, d.target_m, at));
+            self.log.push((t_s, d.behaviour, target_m, at));
             self.stuck_s = 0.0;
         }
         let before = self.joints.position_m;
         let mut to = before;
         for i in 0..2 {
-            let most = d.speed_m_s[i] * DT_S;
-            to[i] += (d.target_m[i] - to[i]).clamp(-most, most);
+            let most = speed_m_s[i] * DT_S;
+            to[i] += (target_m[i] - to[i]).clamp(-most, most);
         }
         if (self.wall)(to) {
             to = before;
@@ -152,7 +154,7 @@ impl Rig {
         self.joints = JointReadings {
             position_m: to,
             speed_m_s: (to - before) / DT_S,
-            arrived: (d.target_m - to).norm() < 1e-6,
+            arrived: (target_m - to).norm() < 1e-6,
             blocked: self.stuck_s > 0.5,
         };
         if self.swept().is_some() {

@@ -85,7 +85,7 @@ impl Progress {
         }
         self.told = frame.abnormal.len();
         let declared = frame.robots.iter().map(|r| r.declarations.len()).sum();
-        let stopped = frame.gantries.iter().any(|g| g.decision.stopped.is_some());
+        let stopped = frame.gantries.iter().any(|g| g.outcome.is_some());
         if frame.step.is_multiple_of(50) || declared > self.declared || stopped {
             self.declared = declared;
             let mut doing: Vec<String> = (frame.robots.iter())
@@ -110,10 +110,9 @@ impl Progress {
     }
 
     fn gantry(&self, g: &GantryFrame) -> String {
-        let d = &g.decision;
         let away = (self.sources.iter().map(|s| (s - g.head_W.xy()).norm())).min_by(f64::total_cmp);
         let away = away.map_or_else(String::new, |m| format!(", {:.0} cm away", 100.0 * m));
-        format!("{}{away}, {:.1} spikes/s", d.behaviour.name(), d.working.spike_hz)
+        format!("{}{away}, {:.1} spikes/s", g.behaviour.name(), g.shown.spike_hz)
     }
 
     /// Removes the bar. If there are results, prints how the run ended and where they are.

@@ -232,10 +232,10 @@ pub(crate) fn scored(frames: &[Frame]) -> Score {
             let n = place(&mut score, &g.id);
             let own = &mut score.searchers[n];
             own.moved(&g.head_W);
-            if g.decision.working.spike.contains(&true) {
+            if g.shown.spike.contains(&true) {
                 own.detected(f.t_s, g.head_W.xy());
             }
-            g.declaration.iter().for_each(|d| own.declared(*d));
+            g.declarations.iter().for_each(|d| own.declared(*d));
         }
         score.abnormal.clone_from(&f.abnormal);
     }

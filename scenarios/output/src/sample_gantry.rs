@@ -2,11 +2,11 @@
 
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::gantry::GantryFrame;
-use robots::handoff::{GantryBehaviour, GantryDecision, JointReadings, TrackerState};
+use robots::handoff::{Behaviour, HeadGoal, JointReadings, TrackerState};
 use world::physics::JointState;
 
 /// A gantry that faces west, with its head at (east, north), m.
-pub(crate) fn gantry(east_m: f64, north_m: f64, behaviour: GantryBehaviour) -> GantryFrame {
+pub(crate) fn gantry(east_m: f64, north_m: f64, behaviour: Behaviour) -> GantryFrame {
     let head_W = Vector3::new(east_m, north_m, -0.125);
     GantryFrame {
         id: "crab0".into(),
@@ -17,15 +17,11 @@ pub(crate) fn gantry(east_m: f64, north_m: f64, behaviour: GantryBehaviour) -> G
         head_W,
         tips_W: vec![head_W],
         scan: None,
-        decision: GantryDecision {
-            behaviour,
-            id: 1,
-            target_m: Vector2::zeros(),
-            speed_m_s: Vector2::zeros(),
-            working: TrackerState::default(),
-            stopped: None,
-        },
+        behaviour,
+        goal: HeadGoal { id: 1, ..HeadGoal::default() },
+        outcome: None,
+        shown: TrackerState::default(),
         touching: None,
-        declaration: None,
+        declarations: Vec::new(),
     }
 }

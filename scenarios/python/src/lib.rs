@@ -11,7 +11,6 @@ mod arrays;
 mod batch;
 mod cache;
 mod columns;
-mod columns_gantry;
 mod controllers;
 mod error;
 mod result;

@@ -1,7 +1,6 @@
 //! `Result` and `Figure`: what a run has left.
 
-use super::columns::RobotColumns;
-use super::columns_gantry::GantryColumns;
+use super::columns::MachineColumns;
 use super::error::{apart, other};
 use output::follow::RunResults;
 use output::report::Figure;
@@ -24,8 +23,8 @@ pub(crate) struct FigureSource {
 pub(crate) struct FinishedRun {
     pub(crate) ended: RunEnd,
     pub(crate) kept: FigureSource,
-    pub(crate) robots: Vec<RobotColumns>,
-    pub(crate) gantries: Vec<GantryColumns>,
+    pub(crate) robots: Vec<MachineColumns>,
+    pub(crate) gantries: Vec<MachineColumns>,
 }
 
 /// The result of a run.
@@ -65,14 +64,11 @@ impl PyRunResult {
     /// Of a run that is over.
     pub(crate) fn new(py: Python<'_>, made: FinishedRun) -> PyResult<Self> {
         let summary = &made.kept.gathered.summary;
-        let track = PyDict::new(py);
-        for robot in &made.robots {
-            track.set_item(robot.id(), robot.arrays(py)?)?;
-        }
-        let probes = PyDict::new(py);
-        for gantry in &made.gantries {
-            probes.set_item(gantry.id(), gantry.arrays(py)?)?;
-        }
+        let by_id = |machines: &[MachineColumns]| {
+            let dict = PyDict::new(py);
+            machines.iter().try_for_each(|m| dict.set_item(&m.id, m.arrays(py)?))?;
+            PyResult::Ok(dict.into_any().unbind())
+        };
         let good = [RunOutcome::Found, RunOutcome::Completed];
         Ok(Self {
             facts: Facts {
@@ -86,8 +82,8 @@ impl PyRunResult {
                 summary: summary.json(),
             },
             files: made.kept.gathered.out().map(|out| out.dir().to_owned()),
-            track: track.into_any().unbind(),
-            probes: probes.into_any().unbind(),
+            track: by_id(&made.robots)?,
+            probes: by_id(&made.gantries)?,
             kept: Some(Mutex::new(made.kept)),
             figures: OnceLock::new(),
         })

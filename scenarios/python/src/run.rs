@@ -1,8 +1,7 @@
 //! `run`: a whole run of a scenario.
 
 use super::cache::{Cache, opened, tell_fault};
-use super::columns::RobotColumns;
-use super::columns_gantry::GantryColumns;
+use super::columns::MachineColumns;
 use super::controllers::{Decider, aground, given, take_over, unanswered};
 use super::error::{FirstError, apart, other, scenario_error, warn_of, warn_of_run, whole};
 use super::result::{FigureSource, FinishedRun, PyRunResult};
@@ -21,8 +20,8 @@ use std::path::PathBuf;
 /// Follows a run: its results, its columns, and Ctrl-C.
 struct Watcher {
     results: Follower,
-    robots: Vec<RobotColumns>,
-    gantries: Vec<GantryColumns>,
+    robots: Vec<MachineColumns>,
+    gantries: Vec<MachineColumns>,
     signals: Signals,
     raised: FirstError,
 }
@@ -32,8 +31,8 @@ impl Observer for Watcher {
         self.results.see(event);
         match event {
             Event::Frame(frame) => {
-                RobotColumns::push(&mut self.robots, frame);
-                GantryColumns::push(&mut self.gantries, frame);
+                MachineColumns::push_robots(&mut self.robots, frame);
+                MachineColumns::push_gantries(&mut self.gantries, frame);
             }
             Event::Exchange(exchange) => self.raised.look_at(exchange),
             _ => {}
@@ -75,7 +74,7 @@ fn made(loaded: &Loaded, asked: RunOptions, kept: Option<&SpinUps>) -> PyResult<
         results.write_into(&out, asked.recording).map_err(other)?;
     }
     let mut watcher = Watcher {
-        robots: results.robots().iter().map(RobotColumns::new).collect(),
+        robots: results.robots().iter().map(MachineColumns::of_robot).collect(),
         gantries: Vec::new(),
         results,
         signals: Signals::default(),

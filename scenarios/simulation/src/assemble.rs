@@ -10,6 +10,7 @@ use crate::outbox::{Frames, Outbox};
 use crate::registry::topics;
 use crate::scenario::Scenario;
 use crate::score::Score;
+use crate::searchers::Roster;
 use crate::tick::Tick;
 use crate::topic::Topics;
 use bevy_ecs::component::ComponentId;
@@ -219,6 +220,7 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
     let mut ocean = world.resource_mut::<Ocean>();
     ocean.step_at_most(scenario.time.drift_period_s.get());
     RunParts::new(scenario, world.resource()).put_into(world);
+    world.insert_resource(Roster::default());
     world.insert_resource(WaterLight(Box::new(optics)));
     Ok(())
 }

@@ -1,6 +1,10 @@
-//! The names of searchers, and access to their components.
+//! What all searchers have, whatever their machine: a name, a time aboard, and what decides.
 
-use bevy_ecs::prelude::Component;
+use bevy_ecs::prelude::{Component, Entity, Resource};
+use robots::handoff::{Bounds, Goal};
+use robots::searcher::{MachineGoal, Strategy};
+use world::clock::Clock;
+use world::seeds::Stream;
 
 /// Name and place of a searcher. The physics, the digest, the score and frames go through searchers in the order of the
 /// scenario, not in the order in which entities happen to be stored.
@@ -10,6 +14,35 @@ pub struct SearcherId {
     pub name: String,
     /// Its place in [`Score::searchers`](crate::score::Score::searchers).
     pub place: usize,
+}
+
+/// The time aboard: the clock, which is nearer at hand here than among the resources. The instruments set it at the
+/// beginning of each tick.
+#[derive(Component, Clone, Copy, Debug)]
+pub(crate) struct OnboardTime(pub(crate) Clock);
+
+/// What decides, and its random numbers.
+#[derive(Component)]
+pub struct SearcherParts<G: MachineGoal = Goal> {
+    /// The strategy.
+    pub strategy: Box<dyn Strategy<G>>,
+    /// Its name in scenarios.
+    pub name: &'static str,
+    /// Within what its numbers must lie.
+    pub bounds: Bounds,
+    /// Its random numbers. Apart, because few strategies draw any.
+    pub rng: Box<Stream>,
+}
+
+/// All searchers of a run, in the scenario's order.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Roster {
+    /// Robots.
+    pub robots: Vec<Entity>,
+    /// Gantries.
+    pub gantries: Vec<Entity>,
+    /// Those that ask a searcher outside this program.
+    pub(crate) asking: Vec<Entity>,
 }
 
 /// Ends the run if there is a fault in what a searcher has decided.

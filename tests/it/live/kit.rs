@@ -10,8 +10,8 @@ use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
-    GantryBehaviour, GantryDecision, Goal, JointReadings, Layer, LayerState, MAX_PROBES, Manoeuvre, PictureEvidence,
-    ProbeScan, Region, RegionState, Regions, Setpoint, Shown, TrackerState, Vertical, Zone,
+    Goal, HeadGoal, JointReadings, Layer, LayerState, MAX_PROBES, Manoeuvre, Outcome, PictureEvidence, ProbeScan,
+    Region, RegionState, Regions, Setpoint, Shown, TrackerState, Vertical, Zone,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -170,16 +170,12 @@ fn gantry() -> GantryFrame {
         head_W,
         tips_W: vec![head_W],
         scan: Some(ProbeScan { t_s: 0.35, volts, count: 1 }),
-        decision: GantryDecision {
-            behaviour: GantryBehaviour::Done,
-            id: 12,
-            target_m: Vector2::zeros(),
-            speed_m_s: Vector2::zeros(),
-            working: TrackerState { predicted_v: Some(0.4), ..TrackerState::default() },
-            stopped: Some(true),
-        },
+        behaviour: Behaviour::Done,
+        goal: HeadGoal { id: 12, ..HeadGoal::default() },
+        outcome: Some(Outcome::Completed),
+        shown: TrackerState { predicted_v: Some(0.4), ..TrackerState::default() },
         touching: Some("block".to_owned()),
-        declaration: Some(Declaration::first(0.3, head_W.xy(), "stop")),
+        declarations: vec![Declaration::first(0.3, head_W.xy(), "stop")],
     }
 }
 

@@ -42,13 +42,7 @@ impl Behaviours {
             Behaviour::TrackOut => Some(self.track_out.as_mut()),
             Behaviour::Reacquire => Some(self.reacquire.as_mut()),
             Behaviour::GoHome => Some(&mut self.go_home),
-            Behaviour::Idle
-            | Behaviour::OpenLoop
-            | Behaviour::FollowPath
-            | Behaviour::Avoid
-            | Behaviour::Survey
-            | Behaviour::Done
-            | Behaviour::Other(_) => None,
+            _ => None,
         }
     }
 }

@@ -228,21 +228,15 @@ impl Subregions {
 
     /// Where the plume crosses the region's up-flow edge, if it has been traced there.
     fn traced(&mut self, region: Region, behaviour: Behaviour, seen: &Observation) -> Option<Vector2<f64>> {
-        let tracing = match behaviour {
-            Behaviour::Find
-            | Behaviour::TrackIn
-            | Behaviour::TrackOut
-            | Behaviour::Reacquire
-            | Behaviour::FollowPath
-            | Behaviour::Avoid
-            | Behaviour::Other(_) => true,
+        let tracing = !matches!(
+            behaviour,
             Behaviour::Idle
-            | Behaviour::OpenLoop
-            | Behaviour::GoTo
-            | Behaviour::Survey
-            | Behaviour::GoHome
-            | Behaviour::Done => false,
-        };
+                | Behaviour::OpenLoop
+                | Behaviour::GoTo
+                | Behaviour::Survey
+                | Behaviour::GoHome
+                | Behaviour::Done
+        );
         if !(tracing && detects(seen)) {
             return None;
         }

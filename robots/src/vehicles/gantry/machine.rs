@@ -13,7 +13,7 @@ use super::drive::Drive;
 use super::frame::{self, Frame};
 use super::spec::{CrabGantrySpec, GantrySpec};
 use crate::error::{RobotError, require};
-use crate::handoff::{GantryDecision, GantryLayout, JointReadings};
+use crate::handoff::{Decision, GantryLayout, HeadGoal, JointReadings};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use world::frames::Pose;
@@ -131,7 +131,7 @@ impl Gantry {
     /// If a target or speed is not finite or a speed is negative.
     pub fn drive(
         &mut self,
-        decision: &GantryDecision,
+        decision: &Decision<HeadGoal>,
         joints: &[JointState; 2],
         dt_s: f64,
         rng: &mut Stream,
@@ -143,18 +143,18 @@ impl Gantry {
                 drive.home(joint, spec);
             }
         }
-        let (target, speed) = (decision.target_m, decision.speed_m_s);
+        let HeadGoal { id, target_m: target, speed_m_s: speed } = decision.goal;
         assert!(
             target.iter().all(|v| v.is_finite()) && speed.iter().all(|v| v.is_finite() && *v >= 0.0),
             "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher must give finite places and speeds >= 0"
         );
-        if decision.stopped.is_some() {
+        if decision.outcome.is_some() {
             if !self.halted {
                 self.halted = true;
                 self.drives.iter_mut().for_each(|d| d.halt(spec));
             }
-        } else if decision.id != 0 && self.latest != Some(decision.id) {
-            self.latest = Some(decision.id);
+        } else if id != 0 && self.latest != Some(id) {
+            self.latest = Some(id);
             self.blocked = false;
             for (drive, slide) in self.drives.iter_mut().zip(&self.frame.slides) {
                 let joint_m = target[slide.axis] * slide.sign;

@@ -4,7 +4,7 @@ use super::super::files::InMemory;
 use super::machine::Gantry;
 use super::spec::{CrabGantrySpec, GantrySpec};
 use super::test_frame::OTHER;
-use crate::handoff::{GantryBehaviour, GantryDecision, JointReadings, TrackerState};
+use crate::handoff::{Behaviour, Decision, HeadGoal, JointReadings, Outcome};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
 use world::area::Area;
@@ -27,7 +27,7 @@ struct Bench {
     physics: Physics,
     id: GantryId,
     rng: Stream,
-    decision: GantryDecision,
+    decision: Decision<HeadGoal>,
     /// The farthest forward place that a block allows the head, m.
     stop_m: f64,
 }
@@ -45,14 +45,7 @@ impl Bench {
             physics,
             id,
             rng: Stream::new(5, "g", "drives"),
-            decision: GantryDecision {
-                behaviour: GantryBehaviour::StepUp,
-                id: 0,
-                target_m: Vector2::zeros(),
-                speed_m_s: Vector2::zeros(),
-                working: TrackerState::default(),
-                stopped: None,
-            },
+            decision: Decision::new(Behaviour::StepUp, HeadGoal::default()),
             stop_m: f64::INFINITY,
         }
     }
@@ -62,9 +55,9 @@ impl Bench {
     }
 
     fn go(&mut self, forward: f64, left: f64, speed: (f64, f64)) {
-        self.decision.id += 1;
-        self.decision.target_m = Vector2::new(forward, left);
-        self.decision.speed_m_s = Vector2::new(speed.0, speed.1);
+        self.decision.goal.id += 1;
+        self.decision.goal.target_m = Vector2::new(forward, left);
+        self.decision.goal.speed_m_s = Vector2::new(speed.0, speed.1);
     }
 
     fn step(&mut self) -> JointReadings {
@@ -228,7 +221,7 @@ fn a_searcher_that_stops_stops_the_head() {
         bench.step();
     }
     let before = bench.head().x;
-    bench.decision.stopped = Some(true);
+    bench.decision.outcome = Some(Outcome::Completed);
     for _ in 0..50 {
         bench.step();
     }

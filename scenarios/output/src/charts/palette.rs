@@ -1,6 +1,6 @@
 //! Colours for the colour-blind (Okabe & Ito 2008), and ramps that also differ in lightness.
 
-use robots::handoff::{Behaviour, GantryBehaviour};
+use robots::handoff::Behaviour;
 
 /// Ink of axes and frames.
 pub const INK: &str = "#222222";
@@ -34,6 +34,10 @@ pub fn behaviour_look(b: Behaviour) -> (&'static str, &'static str) {
         Behaviour::FollowPath => ("#009e73", "Follow path"),
         Behaviour::Avoid => ("#f0e442", "Avoid"),
         Behaviour::Survey => ("#6a3d9a", "Survey"),
+        Behaviour::Sweep => ("#0072b2", "Full sweep"),
+        Behaviour::ToBest => ("#56b4e9", "To best place"),
+        Behaviour::StepUp => ("#d55e00", "Step up-stream"),
+        Behaviour::Cast => ("#cc79a7", "Cast"),
         Behaviour::Other(name) => ("#a6761d", name),
     }
 }
@@ -49,21 +53,12 @@ pub fn vehicle(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 
-/// Colour of a gantry's behaviour, and its name for people.
-pub fn gantry_look(b: GantryBehaviour) -> (&'static str, &'static str) {
+/// The same of a gantry, which stops where others have done.
+pub fn gantry_look(b: Behaviour) -> (&'static str, &'static str) {
     match b {
-        GantryBehaviour::Idle => ("#bbbbbb", "Idle"),
-        GantryBehaviour::Sweep => ("#0072b2", "Full sweep"),
-        GantryBehaviour::ToBest => ("#56b4e9", "To best place"),
-        GantryBehaviour::StepUp => ("#d55e00", "Step up-stream"),
-        GantryBehaviour::Cast => ("#cc79a7", "Cast"),
-        GantryBehaviour::Done => ("#888888", "Stopped"),
+        Behaviour::Done => ("#888888", "Stopped"),
+        b => behaviour_look(b),
     }
-}
-
-/// Colour of a gantry's behaviour.
-pub fn gantry_behaviour(b: GantryBehaviour) -> &'static str {
-    gantry_look(b).0
 }
 
 fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {

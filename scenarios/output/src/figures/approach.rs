@@ -9,7 +9,7 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, GREY, INK};
 use crate::charts::panel::{Panel, range_of};
 use crate::results::{GantryRow, GantryTrack, RunReport};
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 
 const LEFT: f64 = 92.0;
 const WIDTH: f64 = 800.0;
@@ -21,7 +21,7 @@ const SHADES: [&str; 2] = ["#eef3f8", "#f8f3ea"];
 
 /// One motion of the head, with the rest that follows.
 struct Motion {
-    behaviour: GantryBehaviour,
+    behaviour: Behaviour,
     /// Mean distance down-stream of the source, cm.
     away: f64,
     /// Mean distance from the line along the stream through the source, cm.
@@ -75,7 +75,7 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         let line: Vec<_> = motions.iter().map(|m| panel.position([m.away, of(m)])).collect();
         c.polyline(line, &Style::line(GREY, 0.8));
         for m in &motions {
-            let colour = palette::gantry_behaviour(m.behaviour);
+            let colour = palette::behaviour(m.behaviour);
             c.circle(panel.position([m.away, of(m)]), 4.0, &Style::fill(colour).edged("#ffffff", 0.8));
         }
         c.unclip();
@@ -94,10 +94,10 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
 
 /// From the first step up-stream to the stop.
 fn tracking(t: &GantryTrack) -> &[GantryRow] {
-    let steps = |r: &GantryRow| matches!(r.behaviour, GantryBehaviour::StepUp | GantryBehaviour::Cast);
+    let steps = |r: &GantryRow| matches!(r.behaviour, Behaviour::StepUp | Behaviour::Cast);
     let begin = t.rows.iter().position(steps).unwrap_or(t.rows.len());
     let rows = &t.rows[begin..];
-    let end = rows.iter().position(|r| r.behaviour == GantryBehaviour::Done);
+    let end = rows.iter().position(|r| r.behaviour == Behaviour::Done);
     &rows[..end.unwrap_or(rows.len())]
 }
 
@@ -136,7 +136,7 @@ fn mean_of(c: &mut Canvas, panel: &Panel, [a, b]: [f64; 2], mean: f64, unit: &st
 
 fn key(c: &mut Canvas, motions: &[Motion]) {
     let mut x = LEFT + 6.0;
-    for b in GantryBehaviour::ALL {
+    for b in Behaviour::OF_GANTRY {
         if motions.iter().any(|m| m.behaviour == b) {
             let (colour, words) = palette::gantry_look(b);
             c.circle([x, 43.0], 4.0, &Style::fill(colour));

@@ -10,7 +10,7 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, FLOW, INK};
 use crate::charts::panel::Panel;
 use crate::results::{GantryRow, GantryTrack, RunReport};
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 
 /// Largest size of the panel, px.
 const LARGEST: [f64; 2] = [820.0, 700.0];
@@ -98,7 +98,7 @@ fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
     let at = |r: &GantryRow| panel.position(axes.cm(r.head));
     c.polyline(thinned(t.rows.iter().map(at)), &Style::line("#ffffff", 4.4).faint(0.8));
     for (_, rows) in stretches(&t.rows, |r| r.behaviour) {
-        let style = Style::line(palette::gantry_behaviour(rows[0].behaviour), 2.2);
+        let style = Style::line(palette::behaviour(rows[0].behaviour), 2.2);
         c.polyline(thinned(rows.iter().map(at)), &style);
     }
     for pair in t.rows.windows(2).skip(1).filter(|pair| pair[0].command != pair[1].command) {
@@ -133,10 +133,9 @@ fn marks(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
 fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 2]) -> f64 {
     let mut y = top + 6.0;
     heading(c, x, &mut y, "Track of the head");
-    let seen = |b: &GantryBehaviour| t.rows.iter().any(|r| r.behaviour == *b);
+    let seen = |b: &Behaviour| t.rows.iter().any(|r| r.behaviour == *b);
     // In the states idle and stopped it does not move, so there is no line to explain.
-    let moving =
-        (GantryBehaviour::ALL.into_iter()).filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
+    let moving = (Behaviour::OF_GANTRY.into_iter()).filter(|b| !matches!(b, Behaviour::Idle | Behaviour::Done));
     for b in moving.filter(seen) {
         let (colour, words) = palette::gantry_look(b);
         line(c, x, &mut y, &Style::line(colour, 2.6), words);

@@ -8,7 +8,7 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, DETECTION, GREY, INK};
 use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten, ticks};
 use crate::results::{GantryRow, GantryTrack, RunReport};
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 use world::math;
 
 const LEFT: f64 = 100.0;
@@ -172,7 +172,7 @@ fn volts_of_effluent(t: &GantryTrack) -> Option<f64> {
 }
 
 fn behaviour(c: &mut Canvas, panel: &Panel, t: &GantryTrack) {
-    let seen: Vec<GantryBehaviour> = (GantryBehaviour::ALL.into_iter())
+    let seen: Vec<Behaviour> = (Behaviour::OF_GANTRY.into_iter())
         .filter(|b| t.rows.iter().filter(|r| r.behaviour == *b).count() > 1)
         .collect();
     let kinds: Vec<Band> = seen.iter().map(|b| palette::gantry_look(*b)).collect();

@@ -139,8 +139,8 @@ impl Mailbox {
                 robot.readings.fill(&before.readings);
             }
             for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
-                let spikes = &mut gantry.decision.working.spike;
-                for (spike, earlier) in spikes.iter_mut().zip(before.decision.working.spike) {
+                let spikes = &mut gantry.shown.spike;
+                for (spike, earlier) in spikes.iter_mut().zip(before.shown.spike) {
                     *spike |= earlier;
                 }
             }
@@ -281,13 +281,13 @@ mod tests {
         let mailbox = hour_between_states();
         let mut detected = frame(0);
         detected.robots[0].detected = true;
-        detected.gantries[0].decision.working.spike[0] = true;
+        detected.gantries[0].shown.spike[0] = true;
         detected.robots[0].readings.depth = Some(TimedReading { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
-        assert!(sent.gantries[0].decision.working.spike[0]);
+        assert!(sent.gantries[0].shown.spike[0]);
         let depth = sent.robots[0].readings.depth.as_ref();
         assert_eq!(depth.map(|d| (d.t_s, d.value.depth_m)), Some((0.5, 3.0)));
     }

@@ -111,7 +111,7 @@ pub(super) mod tests {
     use nalgebra::{Vector2, Vector3};
     use rheotaxis::frame::{GantryFrame, RobotFrame};
     use rheotaxis::topic::TopicValue;
-    use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan};
+    use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, ProbeScan};
     use serde_json::{Value, json};
     use world::frames::{Pose, Truth};
     use world::units::Heading;
@@ -154,7 +154,7 @@ pub(super) mod tests {
             t_s: 0.1,
             step,
             robots: vec![robot],
-            gantries: vec![sample::gantry(1.0, 0.0, GantryBehaviour::StepUp)],
+            gantries: vec![sample::gantry(1.0, 0.0, Behaviour::StepUp)],
             abnormal: Vec::new(),
             published: Vec::new(),
         }
@@ -212,7 +212,7 @@ pub(super) mod tests {
 
     #[test]
     fn only_the_probes_there_are_speak_and_only_once_they_were_read() {
-        let mut g = sample::gantry(1.0, 0.2, GantryBehaviour::Cast);
+        let mut g = sample::gantry(1.0, 0.2, Behaviour::Cast);
         assert_eq!(said(&g, "probes"), None);
         g.scan = Some(ProbeScan { t_s: 2.4, volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0], count: 1 });
         let probes = said(&g, "probes").unwrap();

@@ -25,7 +25,7 @@ impl GantryRecorder {
         let mut put =
             |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
         put("joint_states", MessageKind::JointState, t, &slides(t, WORLD, g))?;
-        let w = &g.decision.working;
+        let w = &g.shown;
         if let Some(scan) = g.scan.filter(|s| self.scanned_s != Some(s.t_s)) {
             self.scanned_s = Some(scan.t_s);
             let at = nanoseconds(scan.t_s);
@@ -37,14 +37,14 @@ impl GantryRecorder {
             }
             put("spike_hz", MessageKind::Float64, at, &float64(w.spike_hz))?;
         }
-        let behaviour = g.decision.behaviour.name();
+        let behaviour = g.behaviour.name();
         if self.behaviour != Some(behaviour) {
             self.behaviour = Some(behaviour);
             put("behaviour", MessageKind::Text, t, &text(behaviour))?;
         }
-        if let (Some(d), false) = (g.declaration, self.declared) {
+        if let (Some(d), false) = (g.declarations.first(), self.declared) {
             self.declared = true;
-            put("declaration", MessageKind::PoseStamped, t, &declared(WORLD, &d, g.head_W.z))?;
+            put("declaration", MessageKind::PoseStamped, t, &declared(WORLD, d, g.head_W.z))?;
         }
         Ok(())
     }

@@ -87,8 +87,8 @@ impl LogState {
 
     fn gantry(&mut self, g: &GantryFrame) -> impl Iterator<Item = (LogLevel, String)> {
         let mut lines = Vec::new();
-        lines.extend(self.behaves(g.decision.behaviour.name()));
-        lines.extend(g.declaration.iter().filter_map(|d| self.declares(d)));
+        lines.extend(self.behaves(g.behaviour.name()));
+        lines.extend(g.declarations.iter().filter_map(|d| self.declares(d)));
         let mut lines: Vec<_> = lines.into_iter().map(|l| (LogLevel::Info, l)).collect();
         if self.touching != g.touching {
             self.touching.clone_from(&g.touching);

@@ -65,7 +65,7 @@ impl WayRecorder {
         }
         for g in &frame.gantries {
             self.pass(["/", &g.id, "/head/path"].concat(), g.head_W);
-            let declared: Vec<_> = g.declaration.iter().map(|d| d.position).collect();
+            let declared: Vec<_> = g.declarations.iter().map(|d| d.position).collect();
             self.mark(file, t_ns, &g.id, g.head_W.z, [&[], &[], &declared])?;
         }
         Ok(())

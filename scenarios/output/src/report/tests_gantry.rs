@@ -11,7 +11,7 @@ use crate::sample_gantry as sample;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
-use robots::handoff::{Declaration, GantryBehaviour, MAX_PROBES, ProbeScan};
+use robots::handoff::{Behaviour, Declaration, MAX_PROBES, Outcome, ProbeScan};
 use std::fs;
 use std::path::{Path, PathBuf};
 use world::area::Area;
@@ -59,29 +59,30 @@ fn frames() -> Vec<Frame> {
         .map(|k| {
             let t_s = f64::from(k) * DT_S;
             let (x, y, behaviour) = if t_s < 20.0 {
-                (1.14, -0.3 + 0.03 * t_s, GantryBehaviour::Sweep)
+                (1.14, -0.3 + 0.03 * t_s, Behaviour::Sweep)
             } else if t_s < DECLARED_S {
                 let s = (t_s - 20.0) / (DECLARED_S - 20.0);
-                (1.14 - s, 0.3 * (1.0 - s), GantryBehaviour::StepUp)
+                (1.14 - s, 0.3 * (1.0 - s), Behaviour::StepUp)
             } else {
-                (0.14, 0.0, GantryBehaviour::Done)
+                (0.14, 0.0, Behaviour::Done)
             };
             let mut g = sample::gantry(x, y, behaviour);
             let scan = k / 2;
             let mut volts = [-5.0; MAX_PROBES];
             volts[0] += if scan % 10 == 9 { 0.4 } else { 0.02 };
             g.scan = Some(ProbeScan { t_s: f64::from(scan) * 2.0 * DT_S, volts, count: 1 });
-            g.decision.id = match behaviour {
-                GantryBehaviour::Sweep => 1,
-                GantryBehaviour::StepUp => 2 + (t_s - 20.0) as u32 / 3,
+            g.goal.id = match behaviour {
+                Behaviour::Sweep => 1,
+                Behaviour::StepUp => 2 + (t_s - 20.0) as u32 / 3,
                 _ => 99,
             };
-            let w = &mut g.decision.working;
+            let w = &mut g.shown;
             w.threshold_v[0] = -4.9;
             w.spike[0] = scan > 0 && scan % 10 == 0;
             w.spike_hz = 2.0;
-            g.decision.stopped = (behaviour == GantryBehaviour::Done).then_some(true);
-            g.declaration = g.decision.stopped.map(|_| Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop"));
+            g.outcome = (behaviour == Behaviour::Done).then_some(Outcome::Completed);
+            let declared = Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop");
+            g.declarations = g.outcome.map(|_| declared).into_iter().collect();
             Frame {
                 t_s,
                 step: u64::from(k),
@@ -144,7 +145,7 @@ fn a_long_record_is_thinned_and_keeps_its_spikes() {
         f.t_s = 0.05 * f64::from(k);
         let g = &mut f.gantries[0];
         g.scan.as_mut().unwrap().t_s = f.t_s;
-        g.decision.working.spike[0] = k % 1000 == 7;
+        g.shown.spike[0] = k % 1000 == 7;
         tables.push(&f).unwrap();
     }
     let track = &tables.finish()[0];

@@ -10,7 +10,7 @@ use super::{DeclarationSummary, SourceTruth};
 use nalgebra::Vector2;
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::score::{Consultations, SearcherScore};
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 use serde::Serialize;
 
 /// Ranges of distance to the source along the stream that Fig. 11 compares, m.
@@ -81,30 +81,29 @@ impl GantryPath {
     pub fn observe(&mut self, t_s: f64, g: &GantryFrame) {
         let head = g.head_W.xy();
         self.last = head;
-        let d = &g.decision;
-        if d.id != self.latest {
-            self.latest = d.id;
-            match d.behaviour {
-                GantryBehaviour::StepUp => self.steps += 1,
-                GantryBehaviour::Cast => self.casts += 1,
-                GantryBehaviour::Sweep => self.sweeps += 1,
+        if g.goal.id != self.latest {
+            self.latest = g.goal.id;
+            match g.behaviour {
+                Behaviour::StepUp => self.steps += 1,
+                Behaviour::Cast => self.casts += 1,
+                Behaviour::Sweep => self.sweeps += 1,
                 _ => {}
             }
         }
-        match d.behaviour {
-            GantryBehaviour::Sweep => self.swept = true,
-            GantryBehaviour::Idle => {}
+        match g.behaviour {
+            Behaviour::Sweep => self.swept = true,
+            Behaviour::Idle => {}
             _ if self.swept => {
                 self.sweep_s.get_or_insert(t_s);
             }
             _ => {}
         }
-        let tracking = matches!(d.behaviour, GantryBehaviour::StepUp | GantryBehaviour::Cast);
+        let tracking = matches!(g.behaviour, Behaviour::StepUp | Behaviour::Cast);
         if self.stopped.is_none() && (tracking || !self.track.is_empty()) {
             self.track.push((t_s, head));
         }
         self.blocked |= g.readings.blocked;
-        self.stopped = self.stopped.or(d.stopped);
+        self.stopped = self.stopped.or(g.stopped());
     }
 
     /// Its id in the scenario.
@@ -177,18 +176,18 @@ mod tests {
         };
         let at = |t_s: f64, x: f64, y: f64, behaviour| (t_s, sample::gantry(x, y, behaviour));
         let mut frames = vec![
-            at(0.0, 1.0, -0.4, GantryBehaviour::Sweep),
-            at(20.0, 1.0, 0.4, GantryBehaviour::Sweep),
-            at(21.0, 1.0, 0.4, GantryBehaviour::ToBest),
+            at(0.0, 1.0, -0.4, Behaviour::Sweep),
+            at(20.0, 1.0, 0.4, Behaviour::Sweep),
+            at(21.0, 1.0, 0.4, Behaviour::ToBest),
         ];
         let line = |k: f64| 0.999 - 0.03 * k;
         frames.extend((0..20).map(|k| {
             let k = f64::from(k);
-            at(30.0 + k, line(k), 0.1, GantryBehaviour::StepUp)
+            at(30.0 + k, line(k), 0.1, Behaviour::StepUp)
         }));
         frames.extend((1..=5).map(|k| {
             let k = f64::from(k);
-            at(49.0 + k, line(19.0) - 0.06 * k, 0.1, GantryBehaviour::StepUp)
+            at(49.0 + k, line(19.0) - 0.06 * k, 0.1, Behaviour::StepUp)
         }));
         let mut path = GantryPath::new(&frames[0].1);
         for (t_s, g) in &frames {

@@ -14,6 +14,7 @@ mod run;
 mod sources;
 mod summary;
 mod summary_builder;
+mod table_file;
 mod thinning;
 mod track;
 pub(crate) mod track_columns;

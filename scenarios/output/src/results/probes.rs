@@ -1,16 +1,14 @@
 //! `probes-<gantry>.csv`: readings of each gantry's probes, what its searcher derived from them, and the position of
 //! its head. The same data are kept for the figures.
 
+use super::table_file::TableFile;
 use super::thinning::Thinning;
 use crate::columns::{ColumnInfo, columns, header};
-use crate::decimal::push_decimal;
 use crate::files::ReportError;
 use rheotaxis::frame::Frame;
 use rheotaxis::gantry::GantryFrame;
-use robots::handoff::{GantryBehaviour, MAX_PROBES};
-use std::fmt::Write as _;
-use std::io::Write as _;
-use world::files::{Folder, Output};
+use robots::handoff::{Behaviour, MAX_PROBES};
+use world::files::Folder;
 
 /// What tables and figures need to know about a gantry beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,7 +43,7 @@ pub struct GantryRow {
     /// Recent rate of spikes, Hz.
     pub spike_hz: f64,
     /// What the searcher was doing.
-    pub behaviour: GantryBehaviour,
+    pub behaviour: Behaviour,
     /// Number of its motion command.
     pub command: u32,
 }
@@ -87,16 +85,16 @@ impl GantryTrack {
             head: [g.head_W.x, g.head_W.y],
             speed_m_s: (along * along + across * across).sqrt(),
             volts: g.scan.map(|s| s.volts),
-            threshold_v: g.decision.working.threshold_v,
-            spike: new_scan.map_or([false; MAX_PROBES], |_| g.decision.working.spike),
-            spike_hz: g.decision.working.spike_hz,
-            behaviour: g.decision.behaviour,
-            command: g.decision.id,
+            threshold_v: g.shown.threshold_v,
+            spike: new_scan.map_or([false; MAX_PROBES], |_| g.shown.spike),
+            spike_hz: g.shown.spike_hz,
+            behaviour: g.behaviour,
+            command: g.goal.id,
         };
         self.forward = [g.forward.x, g.forward.y];
         self.tips = g.tips_W.iter().map(|p| [p.x, p.y, p.z]).collect();
-        self.declared = self.declared.or(g.declaration.map(|d| [d.position.x, d.position.y]));
-        self.stopped = self.stopped.or(g.decision.stopped.map(|found| (t_s, found)));
+        self.declared = self.declared.or(g.declarations.first().map(|d| d.position.into()));
+        self.stopped = self.stopped.or(g.stopped().map(|found| (t_s, found)));
         self.keep(row);
         row
     }
@@ -129,11 +127,10 @@ fn join(kept: &mut GantryRow, left_out: &GantryRow) {
     }
 }
 
-/// The tables being written. Every row is passed to the system at once, so a kill loses nothing.
+/// The tables being written.
 #[derive(Debug)]
 pub struct ProbeTables {
-    files: Vec<Output>,
-    line: String,
+    files: Vec<TableFile>,
     tracks: Vec<GantryTrack>,
 }
 
@@ -146,17 +143,14 @@ impl ProbeTables {
         let mut files = Vec::with_capacity(gantries.len());
         for info in &gantries {
             let path = folder.file(&format!("probes-{}.csv", file_name(&info.id)))?;
-            let mut file = Output::create(&path)?;
-            (file.write_all(names(info).as_bytes())).map_err(|e| file.failed(e))?;
-            file.place()?;
-            files.push(file);
+            files.push(TableFile::create(&path, &names(info))?);
         }
         Ok(Self { files, ..Self::in_memory(gantries) })
     }
 
     /// Keeps data for the figures only, without files.
     pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
-        Self { files: Vec::new(), line: String::new(), tracks: gantries.into_iter().map(GantryTrack::new).collect() }
+        Self { files: Vec::new(), tracks: gantries.into_iter().map(GantryTrack::new).collect() }
     }
 
     /// Adds a row for each gantry.
@@ -170,9 +164,8 @@ impl ProbeTables {
             };
             let row = track.push(frame.t_s, g);
             if let Some(file) = self.files.get_mut(k) {
-                self.line.clear();
-                line(&mut self.line, g, &row);
-                (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
+                line(file, g, &row);
+                file.end_row()?;
             }
         }
         Ok(())
@@ -188,8 +181,6 @@ impl ProbeTables {
 pub(crate) fn file_name(id: &str) -> String {
     id.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
 }
-
-const TEXT: &str = "writing to a String succeeds";
 
 /// The columns of every gantry.
 pub(crate) const COLUMNS: [ColumnInfo; 18] = columns! {
@@ -229,48 +220,29 @@ fn names(info: &GantryInfo) -> String {
         text.push(',');
         text.push_str(&header(&OF_PROBE).replace("<probe>", &file_name(probe)));
     }
-    text.push('\n');
     text
 }
 
-fn line(out: &mut String, g: &GantryFrame, row: &GantryRow) {
-    let decimal = |out: &mut String, v: f64, places: usize| {
-        push_decimal(out, v, places);
-        out.push(',');
-    };
-    let flag = |out: &mut String, v: bool| out.push_str(if v { "1," } else { "0," });
-    // What is not known stays empty.
-    let known = |out: &mut String, v: Option<f64>, places: usize| match v {
-        Some(v) => decimal(out, v, places),
-        None => out.push(','),
-    };
-    decimal(out, row.t_s, 3);
-    known(out, g.scan.map(|s| s.t_s), 3);
-    write!(out, "{},{},", row.behaviour.name(), row.command).expect(TEXT);
-    for v in [g.head_W.x, g.head_W.y, g.head_W.z] {
-        decimal(out, v, 4);
-    }
+fn line(table: &mut TableFile, g: &GantryFrame, row: &GantryRow) {
+    table.number(row.t_s, 3);
+    table.number(g.scan.map(|s| s.t_s), 3);
+    table.text(row.behaviour.name());
+    table.number(f64::from(row.command), 0);
+    g.head_W.iter().for_each(|v| table.number(*v, 4));
     let [a, b] = &g.joints;
-    for v in [a.position_m, b.position_m, a.speed_m_s, b.speed_m_s] {
-        decimal(out, v, 5);
+    for v in [a.position_m, b.position_m, a.speed_m_s, b.speed_m_s, row.speed_m_s] {
+        table.number(v, 5);
     }
-    decimal(out, row.speed_m_s, 5);
-    flag(out, g.readings.arrived);
-    flag(out, g.readings.blocked);
-    decimal(out, row.spike_hz, 3);
-    let w = &g.decision.working;
-    decimal(out, w.magnitude_v, 4);
-    known(out, w.predicted_v, 4);
-    decimal(out, w.contrast, 4);
+    table.flag(g.readings.arrived);
+    table.flag(g.readings.blocked);
+    table.number(row.spike_hz, 3);
+    table.number(g.shown.magnitude_v, 4);
+    table.number(g.shown.predicted_v, 4);
+    table.number(g.shown.contrast, 4);
     for (n, tip) in g.tips_W.iter().enumerate() {
-        for v in [tip.x, tip.y, tip.z] {
-            decimal(out, v, 4);
-        }
-        known(out, row.volts.map(|v| v[n]), 4);
-        decimal(out, row.threshold_v[n], 4);
-        flag(out, row.spike[n]);
+        tip.iter().for_each(|v| table.number(*v, 4));
+        table.number(row.volts.map(|v| v[n]), 4);
+        table.number(row.threshold_v[n], 4);
+        table.flag(row.spike[n]);
     }
-    // The last comma.
-    out.pop();
-    out.push('\n');
 }

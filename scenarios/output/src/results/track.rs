@@ -1,16 +1,13 @@
 //! `track.csv`: where each robot was, and what it believed, read and did. The same data are kept for the figures.
 
+use super::table_file::TableFile;
 use super::thinning::Thinning;
-use super::track_columns::{COLUMNS, DECIMALS, columns, numbers};
+use super::track_columns::{DECIMALS, columns, numbers};
 use crate::columns::header;
-use crate::decimal::push_decimal;
 use crate::files::ReportError;
-use csv::StringRecord;
 use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Behaviour, Declaration, Layer, Region, Vertical, region_name};
-use std::io::Write as _;
 use std::path::Path;
-use world::files::Output;
 
 /// What tables and figures need to know about a robot beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -185,10 +182,10 @@ impl RobotTrack {
     }
 }
 
-/// The table being written. Every row is passed to the system at once, so a kill loses nothing.
+/// The table being written.
 #[derive(Debug)]
 pub struct TrackTable {
-    file: Option<csv::Writer<Output>>,
+    file: Option<TableFile>,
     layered: bool,
     track: Track,
     /// Whether the table has the column of subregions.
@@ -205,13 +202,9 @@ impl TrackTable {
         if robots.is_empty() {
             return Ok(Self::in_memory(robots));
         }
-        let mut file = Output::create(path)?;
         // There is a column for layers or subregions only if a robot has them.
         let mut table = Self::in_memory(robots);
-        let header = header(&columns(table.regions, table.layered)) + "\n";
-        (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
-        file.place()?;
-        table.file = Some(csv::Writer::from_writer(file));
+        table.file = Some(TableFile::create(path, &header(&columns(table.regions, table.layered)))?);
         Ok(table)
     }
 
@@ -242,18 +235,15 @@ impl TrackTable {
             let robot = &mut self.track.robots[k];
             robot.push(frame.t_s, r);
             if let Some(file) = &mut self.file {
-                let mut fields = row(frame.t_s, r, &robot.info);
+                row(file, frame.t_s, r, &robot.info);
                 if self.regions {
-                    fields.push_field(&r.shown.regions.now.map_or_else(String::new, region_name));
+                    file.text(&r.shown.regions.now.map_or_else(String::new, region_name));
                 }
                 if self.layered {
-                    fields.push_field(r.holding_layer().unwrap_or(""));
+                    file.text(r.holding_layer().unwrap_or(""));
                 }
-                (file.write_record(&fields)).map_err(|e| file.get_ref().failed(e.into()))?;
+                file.end_row()?;
             }
-        }
-        if let Some(file) = &mut self.file {
-            file.flush().map_err(|e| file.get_ref().failed(e))?;
         }
         Ok(())
     }
@@ -264,22 +254,12 @@ impl TrackTable {
     }
 }
 
-/// The fields of a row.
-fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> StringRecord {
-    let mut fields = StringRecord::with_capacity(256, COLUMNS.len() + 5);
-    let mut text = String::new();
-    let mut field = |fields: &mut StringRecord, number: Option<f64>, places: usize| {
-        text.clear();
-        if let Some(v) = number {
-            push_decimal(&mut text, v, places);
-        }
-        fields.push_field(&text);
-    };
-    field(&mut fields, Some(t_s), 3);
-    fields.push_field(&r.id);
+/// The fields that every row has.
+fn row(table: &mut TableFile, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
+    table.number(t_s, 3);
+    table.text(&r.id);
     for (number, places) in numbers(r, info.full_scale_ug_l).into_iter().zip(DECIMALS) {
-        field(&mut fields, number, places);
+        table.number(number, places);
     }
-    fields.push_field(r.behaviour.name());
-    fields
+    table.text(r.behaviour.name());
 }

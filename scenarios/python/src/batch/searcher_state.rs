@@ -3,11 +3,11 @@
 use super::Rules;
 use super::agent::{Agent, Machine};
 use nalgebra::Vector2;
-use rheotaxis::control::{HeadGathered, Question, QuestionContent, ReadingsOfRobot};
+use rheotaxis::control::{Gathered, Question, QuestionContent};
 use rheotaxis::trial::Trial;
 use robots::handoff::{
-    Declaration, GantryBehaviour, GantryLayout, GantryObservation, HeadOrder, Manoeuvre, MotionOrder, MoveOrder,
-    Observation, Outcome, Reply, Vertical,
+    Behaviour, Declaration, GantryLayout, GantryObservation, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Observation,
+    Outcome, Reply, Vertical,
 };
 
 /// Time since a hit after which it does not matter how long it was, s.
@@ -74,7 +74,7 @@ impl SearcherState {
         self.seen = Some(question.seen);
     }
 
-    fn see_robot(&mut self, seen: &Observation, gathered: &ReadingsOfRobot, time: f64) {
+    fn see_robot(&mut self, seen: &Observation, gathered: &Gathered, time: f64) {
         let e = &seen.estimate;
         let heading = e.attitude.heading;
         let left = heading.turned(-std::f64::consts::FRAC_PI_2).unit();
@@ -108,7 +108,7 @@ impl SearcherState {
         self.features = numbers.map(|v| v as f32).to_vec();
     }
 
-    fn see_gantry(&mut self, seen: &GantryObservation, gathered: &HeadGathered, layout: &GantryLayout, time: f64) {
+    fn see_gantry(&mut self, seen: &GantryObservation, gathered: &Gathered, layout: &GantryLayout, time: f64) {
         let joints = &seen.readings.joints;
         let share = |axis: usize| {
             let [low, high] = layout.travel_m[axis];
@@ -161,7 +161,7 @@ impl SearcherState {
                         id: None,
                         target_m: here + Vector2::new(reach(0), reach(1)),
                         speed_m_s: None,
-                        behaviour: GantryBehaviour::StepUp,
+                        behaviour: Behaviour::StepUp,
                     })),
                     outcome: declares.then_some(Outcome::Completed),
                     ..Reply::default()

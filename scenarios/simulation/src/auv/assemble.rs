@@ -3,16 +3,16 @@
 use super::report::system as kept;
 use super::shown::system as shown;
 use super::vehicle_pool::{VehiclePool, build};
-use super::{Briefing, Hull, Log, Mapping, OnboardTime, Robots, SearcherParts, system};
-use crate::control::exchanges::{ExchangeState, Exchanges};
+use super::{Briefing, Hull, Log, Mapping, system};
+use crate::control::exchanges::ExchangeState;
 use crate::error::AssembleError;
 use crate::incidents::{FaultLog, IncidentMonitor};
-use crate::machines::{BodiesMove, Launch, Machine, Systems};
+use crate::machines::system as common;
+use crate::machines::{BodiesMove, Launch, Machine, NewSearcher, Systems};
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
 use crate::scenario::RobotSpec;
-use crate::score::Score;
-use crate::searchers::SearcherId;
+use crate::searchers::Roster;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::actuate::Pilot;
@@ -21,7 +21,7 @@ use robots::estimate::Start;
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Setting, Vertical,
+    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Battery;
@@ -56,10 +56,10 @@ impl Machine for RobotSpec {
             systems.add_blind(Stage::Map, system::update_map);
         }
         if systems.has::<ExchangeState>() {
-            systems.add_blind_after(Stage::Map, system::ask, system::update_map);
+            systems.add_blind_after(Stage::Map, common::ask::<Goal>, system::update_map);
         }
         systems
-            .add_blind(Stage::Decide, system::decide)
+            .add_blind(Stage::Decide, common::decide::<Goal>)
             .add_blind(Stage::Guide, system::guide)
             .add_blind(Stage::Actuate, system::actuate)
             .add(Stage::Physics, (system::push_bodies.before(BodiesMove), system::read_bodies.after(BodiesMove)))
@@ -110,11 +110,17 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
         vertical: Vertical::Depth(-p_W.z),
         speed_m_s: 0.0,
     };
-    let strategy = spec.strategy.build(setting)?;
+    let searcher = NewSearcher {
+        id,
+        strategy: spec.strategy.build(setting)?,
+        name: spec.strategy.name(),
+        is_own: spec.strategy.is_own(),
+        first: Decision::new(Behaviour::Idle, goal),
+        consulted: spec.strategy.consulted(),
+        drives: Some(still.named().count()),
+    };
     let mapper = (spec.map.as_ref()).map(|map| map.build(&setting.area, Stream::new(seed, id, "map"))).transpose()?;
-    let place = world.resource_mut::<Score>().join(id);
-    let mut robot = world.spawn((
-        SearcherId { name: id.to_string(), place },
+    let machine = (
         truth,
         Hull { vehicle, body },
         suite,
@@ -122,14 +128,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
         spec.estimator.build(start, dt_s),
         estimate,
         (
-            SearcherParts {
-                strategy,
-                name: spec.strategy.name(),
-                bounds: Bounds::for_origin(spec.strategy.is_own()),
-                rng: Box::new(Stream::new(seed, id, "strategy")),
-            },
             Briefing { area: setting.area, home: fix, able },
-            Decision::new(Behaviour::Idle, goal),
             Guidance::new(&spec.guidance).carried(carried).hovering(able.hovers).turning(able.turning_radius_m),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
@@ -138,12 +137,11 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
             Log::default(),
             IncidentMonitor::default(),
         ),
-        (
-            OnboardTime(Clock::new(dt_s)),
-            SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
-            DriveFaults::new(&spec.faults, dt_s, &drives),
-        ),
-    ));
+        (SensorFaults::new(&spec.faults, &spec.sensors, dt_s), DriveFaults::new(&spec.faults, dt_s, &drives)),
+    );
+    let robot = searcher.join(world, launch, machine);
+    world.resource_mut::<Roster>().robots.push(robot);
+    let mut robot = world.entity_mut(robot);
     if !spec.faults.is_empty() {
         robot.insert(FaultLog::new(&spec.faults, dt_s));
     }
@@ -155,14 +153,5 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
     if let Some(energy) = &spec.energy {
         robot.insert(Battery::new(energy));
     }
-    let consulted = spec.strategy.consulted();
-    if let Some(consulted) = consulted {
-        robot.insert(ExchangeState::robot(consulted, still.named().count(), dt_s));
-    }
-    let robot = robot.id();
-    if consulted.is_some() {
-        world.get_resource_or_init::<Exchanges>().0.push(robot);
-    }
-    world.get_resource_or_init::<Robots>().0.push(robot);
     Ok(())
 }

@@ -15,25 +15,13 @@ pub(crate) use vehicle_pool::VehiclePool;
 pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 
 use crate::frame::NewestReadings;
-use bevy_ecs::prelude::{Component, Entity, Resource};
+use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
-use robots::handoff::{Bounds, Capabilities, ChemicalReading};
+use robots::handoff::{Capabilities, ChemicalReading};
 use robots::map::Mapper;
-use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
 use world::area::Area;
-use world::clock::Clock;
 use world::physics::BodyId;
-use world::seeds::Stream;
-
-/// The time aboard: the clock, which is nearer at hand here than among the resources. The instruments set it at the
-/// beginning of each tick.
-#[derive(Component, Clone, Copy, Debug)]
-pub(crate) struct OnboardTime(pub(crate) Clock);
-
-/// All robots, in the scenario's order.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Robots(pub Vec<Entity>);
 
 /// A robot's vehicle and its body in the physics.
 #[derive(Component)]
@@ -42,19 +30,6 @@ pub struct Hull {
     pub vehicle: Vehicle,
     /// The body that it moves.
     pub body: BodyId,
-}
-
-/// A robot's strategy and its random numbers.
-#[derive(Component)]
-pub struct SearcherParts {
-    /// The strategy.
-    pub strategy: Box<dyn Strategy>,
-    /// Its name in scenarios.
-    pub name: &'static str,
-    /// Within what its numbers must lie.
-    pub bounds: Bounds,
-    /// Its random numbers. Apart, because few strategies draw any.
-    pub rng: Box<Stream>,
 }
 
 /// What a robot is told before its mission.

@@ -1,10 +1,10 @@
 //! All components of a robot: what it keeps while the robot of another run has its turn in the same world.
 
-use super::{Briefing, Hull, Log, Mapping, OnboardTime, SearcherParts};
+use super::{Briefing, Hull, Log, Mapping};
 use crate::control::exchanges::ExchangeState;
 use crate::incidents::{FaultLog, IncidentMonitor};
 use crate::machines::own;
-use crate::searchers::SearcherId;
+use crate::searchers::{OnboardTime, SearcherId, SearcherParts};
 use robots::actuate::Pilot;
 use robots::estimate::DeadReckoning;
 use robots::faults::{DriveFaults, SensorFaults};

@@ -1,13 +1,13 @@
 //! The systems of robots: each passes components and the ocean to plain state machines.
 
-use super::{Briefing, Hull, Mapping, OnboardTime, SearcherParts};
+use super::{Briefing, Hull, Mapping};
 use crate::assemble::WaterLight;
-use crate::control::QuestionContent;
-use crate::control::exchanges::{ExchangeState, ReadingsSince};
+use crate::control::{Gathered, QuestionContent};
 use crate::incidents::FaultLog;
+use crate::machines::{Known, Searching};
 use crate::ocean::Ocean;
 use crate::score::Score;
-use crate::searchers::{SearcherId, must_be_sound};
+use crate::searchers::{OnboardTime, SearcherId};
 use bevy_ecs::prelude::{Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
@@ -15,7 +15,7 @@ use robots::estimate::DeadReckoning;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{
-    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, ReplyOutcome,
+    Actuation, Belief, Command, Decision, Estimate, Goal, GuidanceStatus, Observation, Readings, ReplyOutcome,
 };
 use robots::map::MapObservation;
 use robots::sense::{SensorRequests, SensorSuite, Surroundings};
@@ -70,59 +70,36 @@ pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estim
     }
 }
 
-type ObservationParts<'a> = (&'a Readings, &'a Estimate, &'a GuidanceStatus, &'a Briefing, Option<&'a Belief>);
+impl Searching for Goal {
+    type Known =
+        (&'static Readings, &'static Estimate, &'static GuidanceStatus, &'static Briefing, Option<&'static Belief>);
+    const WORDS: [&'static str; 2] = ["robot", "strategy"];
 
-/// What a robot sees in this tick, with what it was told.
-fn observation(parts: ObservationParts, told: Option<ReplyOutcome>) -> Observation {
-    let (readings, estimate, guidance, briefing, belief) = parts;
-    Observation {
-        // The estimate is of this tick.
-        t_s: estimate.t_s,
-        estimate: *estimate,
-        chemical: readings.chemical,
-        guidance: *guidance,
-        area: briefing.area,
-        home: briefing.home,
-        able: briefing.able,
-        belief: belief.cloned(),
-        ranging: readings.ranging.clone(),
-        sidescan: readings.sidescan.clone(),
-        picture: readings.picture.clone(),
-        other: readings.other.clone(),
-        told,
-    }
-}
-
-/// Asks the searchers outside this program; the answers come between this stage and the next.
-pub(crate) fn ask(
-    clock: Res<Clock>,
-    mut robots: Query<(ObservationParts, &SearcherId, &Decision, &mut ExchangeState)>,
-) {
-    for (parts, id, decision, mut consulting) in &mut robots {
-        if let ReadingsSince::Robot(gathered) = &mut consulting.kept {
-            gathered.add(clock.t_s(), parts.0);
-        }
-        if decision.outcome.is_none() && consulting.due(&clock) {
-            consulting.ask(&clock, &id.name, |kept| {
-                let seen = Box::new(observation(parts, None));
-                QuestionContent::Robot(seen, Box::new(kept.take_robot()))
-            });
+    fn see((readings, estimate, guidance, briefing, belief): &Known<Self>, told: Option<ReplyOutcome>) -> Observation {
+        Observation {
+            // The estimate is of this tick.
+            t_s: estimate.t_s,
+            estimate: **estimate,
+            chemical: readings.chemical,
+            guidance: **guidance,
+            area: briefing.area,
+            home: briefing.home,
+            able: briefing.able,
+            belief: belief.cloned(),
+            ranging: readings.ranging.clone(),
+            sidescan: readings.sidescan.clone(),
+            picture: readings.picture.clone(),
+            other: readings.other.clone(),
+            told,
         }
     }
-}
 
-type DecideParts<'a> =
-    (&'a SearcherId, ObservationParts<'a>, &'a mut SearcherParts, &'a mut Decision, Option<&'a mut ExchangeState>);
+    fn gather(t_s: f64, (readings, ..): &Known<Self>, gathered: &mut Gathered) {
+        gathered.add(t_s, readings);
+    }
 
-pub(crate) fn decide(mut robots: Query<DecideParts>) {
-    for (id, parts, mut searching, mut decision, consulting) in &mut robots {
-        let told = consulting.and_then(|mut c| c.take_told());
-        let seen = observation(parts, told);
-        let searching = &mut *searching;
-        *decision = searching.strategy.step(&seen, &mut searching.rng);
-        let fault = decision.fault(searching.bounds);
-        let decides = ["strategy", searching.name];
-        must_be_sound(fault, ["robot", &id.name], decides, seen.t_s);
+    fn ask(seen: Observation, gathered: Gathered) -> QuestionContent {
+        QuestionContent::Robot(Box::new(seen), Box::new(gathered))
     }
 }
 

@@ -4,8 +4,7 @@ use super::forms::{AnswerForm, DeclareForm, DrivesForm, GoalForm, HeadForm, Slid
 use super::names::{behaviour, lasting};
 use nalgebra::Vector2;
 use robots::handoff::{
-    Behaviour, Declaration, DriveCommand, GantryBehaviour, HeadOrder, MOST_DRIVES, Manoeuvre, MotionOrder, MoveOrder,
-    Reply, Vertical,
+    Behaviour, Declaration, DriveCommand, HeadOrder, MOST_DRIVES, Manoeuvre, MotionOrder, MoveOrder, Reply, Vertical,
 };
 use serde_json::Value;
 use world::units::Heading;
@@ -195,7 +194,7 @@ impl DrivesForm {
 impl HeadForm {
     fn order(self) -> Result<MotionOrder, String> {
         let named = |name: &String| {
-            let all = GantryBehaviour::ALL;
+            let all = Behaviour::OF_GANTRY;
             all.into_iter().find(|b| b.name() == name).ok_or_else(|| {
                 let names: Vec<_> = all.iter().map(|b| b.name()).collect();
                 format!("`behaviour` must be one of {}, got {name:?}", names.join(", "))
@@ -206,7 +205,7 @@ impl HeadForm {
             id: self.id,
             target_m: self.target_m.into(),
             speed_m_s: self.speed_m_s.map(Into::into),
-            behaviour: behaviour.unwrap_or(GantryBehaviour::StepUp),
+            behaviour: behaviour.unwrap_or(Behaviour::StepUp),
         }))
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{Exchange, Question, QuestionContent, Response};
 use crate::score::Score;
-use crate::searchers::SearcherId;
-use bevy_ecs::prelude::{Component, Entity, Resource, World};
+use crate::searchers::{Roster, SearcherId};
+use bevy_ecs::prelude::{Component, Entity, World};
 use robots::handoff::{
     Bounds, ChemicalReading, ExchangeTiming, MotionOrder, Picture, ProbeScan, RangeScan, Readings, Reply, ReplyOutcome,
     SidescanPing,
@@ -11,13 +11,9 @@ use robots::handoff::{
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 
-/// All machines that ask, in the order of the scenario.
-#[derive(Resource, Clone, Debug, Default)]
-pub(crate) struct Exchanges(pub Vec<Entity>);
-
-/// What a robot's instruments said since the last question.
+/// What a machine's instruments said since the last question.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct ReadingsOfRobot {
+pub struct Gathered {
     /// Readings of the chemical sensor.
     pub readings: u32,
     /// Those of them with a detection.
@@ -36,10 +32,12 @@ pub struct ReadingsOfRobot {
     pub sidescan: Option<SidescanPing>,
     /// The newest picture.
     pub picture: Option<Picture>,
+    /// All scans of a gantry's probes, oldest first.
+    pub scans: Vec<ProbeScan>,
 }
 
-impl ReadingsOfRobot {
-    /// Adds the readings of a tick.
+impl Gathered {
+    /// Adds a robot's readings of a tick.
     pub(crate) fn add(&mut self, t_s: f64, readings: &Readings) {
         if let Some(reading) = readings.chemical {
             self.readings += 1;
@@ -68,20 +66,6 @@ impl ReadingsOfRobot {
     }
 }
 
-/// What a gantry's probes said since the last question.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct HeadGathered {
-    /// All scans, oldest first.
-    pub scans: Vec<ProbeScan>,
-}
-
-/// The gathered of a robot or of a gantry.
-#[derive(Clone, Debug)]
-pub(crate) enum ReadingsSince {
-    Robot(Box<ReadingsOfRobot>),
-    Gantry(HeadGathered),
-}
-
 /// A machine that asks a searcher outside this program.
 #[derive(Component, Clone, Debug)]
 pub(crate) struct ExchangeState {
@@ -90,32 +74,20 @@ pub(crate) struct ExchangeState {
     /// Drives of a robot that an order may set; `None` for a gantry.
     drives: Option<usize>,
     asked: u64,
-    pub(crate) kept: ReadingsSince,
+    pub(crate) gathered: Gathered,
     question: Option<Box<Question>>,
     told: Option<ReplyOutcome>,
 }
 
 impl ExchangeState {
-    /// A robot with so many drives.
-    pub(crate) fn robot(consulted: ExchangeTiming, drives: usize, dt_s: f64) -> Self {
-        Self::new(consulted, Some(drives), dt_s)
-    }
-
-    /// A gantry.
-    pub(crate) fn gantry(consulted: ExchangeTiming, dt_s: f64) -> Self {
-        Self::new(consulted, None, dt_s)
-    }
-
-    fn new(consulted: ExchangeTiming, drives: Option<usize>, dt_s: f64) -> Self {
+    /// Of a robot with so many drives, or of a gantry.
+    pub(crate) fn new(consulted: ExchangeTiming, drives: Option<usize>, dt_s: f64) -> Self {
         Self {
             every: Every::period(consulted.period_s, dt_s),
             deadline_s: consulted.deadline_s,
             drives,
             asked: 0,
-            kept: match drives {
-                Some(_) => ReadingsSince::Robot(Box::default()),
-                None => ReadingsSince::Gantry(HeadGathered::default()),
-            },
+            gathered: Gathered::default(),
             question: None,
             told: None,
         }
@@ -127,14 +99,14 @@ impl ExchangeState {
     }
 
     /// Asks.
-    pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(&mut ReadingsSince) -> QuestionContent) {
+    pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(Gathered) -> QuestionContent) {
         self.question = Some(Box::new(Question {
             robot: robot.to_string(),
             number: self.asked,
             step: clock.step,
             t_s: clock.t_s(),
             deadline_s: self.deadline_s,
-            seen: see(&mut self.kept),
+            seen: see(self.gathered.take()),
         }));
         self.asked += 1;
     }
@@ -158,84 +130,58 @@ impl ExchangeState {
     }
 }
 
-impl ReadingsSince {
-    /// What a robot gathered.
-    pub(crate) fn take_robot(&mut self) -> ReadingsOfRobot {
-        match self {
-            ReadingsSince::Robot(gathered) => gathered.take(),
-            ReadingsSince::Gantry(_) => ReadingsOfRobot::default(),
-        }
-    }
-
-    /// What a gantry gathered.
-    pub(crate) fn take_gantry(&mut self) -> HeadGathered {
-        match self {
-            ReadingsSince::Gantry(gathered) => std::mem::take(gathered),
-            ReadingsSince::Robot(_) => HeadGathered::default(),
-        }
-    }
+/// The machine of a name among those that ask.
+fn named(world: &World, name: &str) -> Option<Entity> {
+    let is = |e: &&Entity| (world.get::<SearcherId>(**e)).is_some_and(|id| id.name == name);
+    world.resource::<Roster>().asking.iter().find(is).copied()
 }
 
 /// The true state of a robot that asks; `None` for a gantry.
 pub(crate) fn truth_of(world: &World, name: &str) -> Option<Truth> {
-    let asking = world.get_resource::<Exchanges>()?;
-    let named = |e: &&Entity| (world.get::<SearcherId>(**e)).is_some_and(|id| id.name == name);
-    let entity = asking.0.iter().find(named)?;
-    world.get::<Truth>(*entity).copied()
+    world.get::<Truth>(named(world, name)?).copied()
 }
 
 /// The questions of this tick that nobody has taken, in the order of the scenario.
 pub(crate) fn take_questions(world: &mut World) -> Vec<Question> {
     let mut open = Vec::new();
-    for n in 0.. {
-        let Some(entity) = asking(world, n) else {
-            break;
-        };
-        if let Some(mut consulting) = world.get_mut::<ExchangeState>(entity) {
-            open.extend(consulting.question.take().map(|question| *question));
-        }
+    let mut n = 0;
+    while let Some(entity) = world.resource::<Roster>().asking.get(n).copied() {
+        let consulting = world.get_mut::<ExchangeState>(entity);
+        open.extend(consulting.and_then(|mut c| c.question.take()).map(|question| *question));
+        n += 1;
     }
     open
-}
-
-/// The machine in this place among those that ask.
-fn asking(world: &World, n: usize) -> Option<Entity> {
-    world.get_resource::<Exchanges>()?.0.get(n).copied()
 }
 
 /// Counts what came of a question, tells it to the machine that asked, and returns it as observers see it. An answer that
 /// the machine cannot carry out counts as nonsense.
 pub(crate) fn put_in(world: &mut World, mut exchange: Exchange) -> Exchange {
-    for n in 0.. {
-        let Some(entity) = asking(world, n) else {
-            break;
-        };
-        let own = (world.get::<SearcherId>(entity)).filter(|id| id.name == exchange.robot);
-        let Some(place) = own.map(|id| id.place) else {
-            continue;
-        };
-        let Some(mut consulting) = world.get_mut::<ExchangeState>(entity) else {
-            continue;
-        };
-        if let Response::Answer(answer) = &exchange.response
-            && let Some(fault) = consulting.fault(answer)
-        {
-            exchange.response = Response::Nonsense(fault);
-        }
-        consulting.told = Some(match &exchange.response {
-            Response::Answer(answer) => ReplyOutcome::Answer(Box::new(answer.clone())),
-            _ => ReplyOutcome::Nothing,
-        });
-        let mut score = world.resource_mut::<Score>();
-        let own = score.searchers[place].consulted.get_or_insert_default();
-        own.asked += 1;
-        *match &exchange.response {
-            Response::Answer(_) => &mut own.answered,
-            Response::Late => &mut own.late,
-            Response::Absent => &mut own.absent,
-            Response::Gone => &mut own.gone,
-            Response::Nonsense(_) => &mut own.nonsense,
-        } += 1;
+    let Some(entity) = named(world, &exchange.robot) else {
+        return exchange;
+    };
+    let mut asked = world.entity_mut(entity);
+    let place = asked.get::<SearcherId>().map(|id| id.place);
+    let (Some(place), Some(mut consulting)) = (place, asked.get_mut::<ExchangeState>()) else {
+        return exchange;
+    };
+    if let Response::Answer(answer) = &exchange.response
+        && let Some(fault) = consulting.fault(answer)
+    {
+        exchange.response = Response::Nonsense(fault);
     }
+    consulting.told = Some(match &exchange.response {
+        Response::Answer(answer) => ReplyOutcome::Answer(Box::new(answer.clone())),
+        _ => ReplyOutcome::Nothing,
+    });
+    let mut score = world.resource_mut::<Score>();
+    let own = score.searchers[place].consulted.get_or_insert_default();
+    own.asked += 1;
+    *match &exchange.response {
+        Response::Answer(_) => &mut own.answered,
+        Response::Late => &mut own.late,
+        Response::Absent => &mut own.absent,
+        Response::Gone => &mut own.gone,
+        Response::Nonsense(_) => &mut own.nonsense,
+    } += 1;
     exchange
 }

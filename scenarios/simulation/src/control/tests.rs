@@ -4,9 +4,8 @@ use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, load_text, template};
 use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use nalgebra::Vector2;
-use robots::handoff::{Declaration, GantryLayout, Manoeuvre, MotionOrder, MoveOrder};
+use robots::handoff::{Declaration, GantryLayout, HeadGoal, Manoeuvre, MotionOrder, MoveOrder};
 use robots::strategy::Strategy;
-use robots::track::GantryStrategy;
 use robots::vehicles::Gantry;
 use world::registry::Registry;
 use world::seeds::{Seed, Stream};
@@ -256,7 +255,7 @@ fn a_question_tells_what_was_sensed_since_the_last_one() {
 }
 
 /// A searcher of a gantry, built anew by a user of the library.
-fn own_tracker(loaded: &Loaded) -> (Box<dyn GantryStrategy>, Stream) {
+fn own_tracker(loaded: &Loaded) -> (Box<dyn Strategy<HeadGoal>>, Stream) {
     let block = &loaded.scenario.gantries[0];
     let gantry = Gantry::load(&block.gantry, &crate::scenario::FolderFiles(&loaded.base_dir));
     let layout: GantryLayout = block.layout(&gantry.expect("legal"));

@@ -1,7 +1,7 @@
 //! A gantry at one instant.
 
 use nalgebra::{Vector2, Vector3};
-use robots::handoff::{Declaration, GantryDecision, JointReadings, ProbeScan};
+use robots::handoff::{Behaviour, Declaration, HeadGoal, JointReadings, Outcome, ProbeScan, TrackerState};
 use world::physics::JointState;
 
 /// One gantry at one instant.
@@ -23,10 +23,23 @@ pub struct GantryFrame {
     pub tips_W: Vec<Vector3<f64>>,
     /// Latest scan of its probes.
     pub scan: Option<ProbeScan>,
-    /// What its searcher decided.
-    pub decision: GantryDecision,
+    /// What it is doing.
+    pub behaviour: Behaviour,
+    /// Where its searcher wants the head.
+    pub goal: HeadGoal,
+    /// How its search ended.
+    pub outcome: Option<Outcome>,
+    /// What its searcher shows of itself.
+    pub shown: TrackerState,
     /// What it touches, by name.
     pub touching: Option<String>,
-    /// Its declaration, once made.
-    pub declaration: Option<Declaration>,
+    /// Its declarations so far, by number.
+    pub declarations: Vec<Declaration>,
+}
+
+impl GantryFrame {
+    /// Set when it has stopped: whether it declared a source.
+    pub fn stopped(&self) -> Option<bool> {
+        self.outcome.map(|outcome| outcome == Outcome::Completed)
+    }
 }

@@ -1,19 +1,17 @@
 //! Brings gantries into a run.
 
-use super::Gantries;
-use super::system::{self, Head, Rig, Searcher};
-use crate::control::exchanges::{ExchangeState, Exchanges};
+use super::system::{self, Head, Rig};
+use crate::control::exchanges::ExchangeState;
 use crate::error::AssembleError;
-use crate::machines::{Launch, Machine, Systems};
+use crate::machines::system as common;
+use crate::machines::{Launch, Machine, NewSearcher, Systems};
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
 use crate::scenario::{FolderFiles, GantryBlock};
-use crate::score::Score;
-use crate::searchers::SearcherId;
+use crate::searchers::Roster;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
-use nalgebra::Vector2;
 use robots::error::RobotError;
-use robots::handoff::{Bounds, GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
+use robots::handoff::{Behaviour, Decision, GantryReadings, HeadGoal};
 use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use world::catalogue::Entry;
@@ -42,12 +40,12 @@ impl Machine for GantryBlock {
     fn systems(&self, systems: &mut Systems) {
         systems
             .add(Stage::Sense, system::read_probes)
-            .add_blind(Stage::Decide, system::track)
+            .add_blind(Stage::Decide, common::decide::<HeadGoal>)
             .add(Stage::Actuate, system::drive_gantries)
-            .add(Stage::Report, (system::digest_gantries.after(digest_plume), system::keep_score).chain())
+            .add(Stage::Report, system::report.after(digest_plume))
             .add_to_frame(system::picture);
         if systems.has::<ExchangeState>() {
-            systems.add_blind(Stage::Map, system::ask);
+            systems.add_blind(Stage::Map, common::ask::<HeadGoal>);
         }
     }
 }
@@ -63,37 +61,17 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
     let joints = world.resource_mut::<Physics>().add_gantry(body);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
     let probes = Probes::new(&block.probes, &names, &OnBoard::new(id, seed, dt_s))?;
-    let strategy = block.tracker.build(&layout)?;
-    let place = world.resource_mut::<Score>().join(id);
-    let mut gantry = world.spawn((
-        SearcherId { name: id.to_string(), place },
-        Rig { gantry, joints, base, rng: Stream::new(seed, id, "drives") },
-        Head::new(probes),
-        GantryReadings::default(),
-        Searcher {
-            strategy,
-            name: block.tracker.name(),
-            bounds: Bounds::for_origin(block.tracker.is_own()),
-            rng: Stream::new(seed, id, "tracker"),
-            stopped_s: None,
-        },
-        GantryDecision {
-            behaviour: GantryBehaviour::Idle,
-            id: 0,
-            target_m: block.start_m(),
-            speed_m_s: Vector2::zeros(),
-            working: TrackerState::default(),
-            stopped: None,
-        },
-    ));
-    let consulted = block.tracker.consulted();
-    if let Some(consulted) = consulted {
-        gantry.insert(ExchangeState::gantry(consulted, dt_s));
-    }
-    let gantry = gantry.id();
-    if consulted.is_some() {
-        world.get_resource_or_init::<Exchanges>().0.push(gantry);
-    }
-    world.get_resource_or_init::<Gantries>().0.push(gantry);
+    let searcher = NewSearcher {
+        id,
+        strategy: block.tracker.build(&layout)?,
+        name: block.tracker.name(),
+        is_own: block.tracker.is_own(),
+        first: Decision::new(Behaviour::Idle, HeadGoal { target_m: block.start_m(), ..HeadGoal::default() }),
+        consulted: block.tracker.consulted(),
+        drives: None,
+    };
+    let rig = Rig { gantry, joints, base, rng: Stream::new(seed, id, "drives") };
+    let gantry = searcher.join(world, launch, (rig, Head::new(probes), GantryReadings::default()));
+    world.resource_mut::<Roster>().gantries.push(gantry);
     Ok(())
 }

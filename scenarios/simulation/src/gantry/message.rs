@@ -7,7 +7,6 @@ use crate::topic::{Said, chunk};
 /// All messages of a gantry in a frame.
 pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Said {
     let mut said = Said::below(format!("gantry/{}", chunk(&g.id)));
-    let d = &g.decision;
     let joints = JointsMessage {
         t_s,
         name: g.joint_names.to_vec(),
@@ -16,7 +15,7 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Said {
         effort_n: g.joints.iter().map(|j| j.force_N).collect(),
         head_m: g.head_W.into(),
         encoder_m: g.readings.position_m.into(),
-        target_m: d.target_m.into(),
+        target_m: g.goal.target_m.into(),
         arrived: g.readings.arrived,
         blocked: g.readings.blocked,
         touching: g.touching.clone(),
@@ -27,7 +26,7 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Said {
         said.add("probes", &ProbesMessage { t_s: scan.t_s, position_m, volts: scan.volts[..scan.count].to_vec() });
     }
     let n = g.tips_W.len();
-    let w = &d.working;
+    let w = &g.shown;
     let spikes = SpikesMessage {
         t_s,
         threshold_v: w.threshold_v[..n].to_vec(),
@@ -38,9 +37,10 @@ pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Said {
         contrast: w.contrast,
     };
     said.add("spikes", &spikes);
-    let doing = GantryBehaviourMessage { t_s, behaviour: d.behaviour.name(), r#move: d.id, found: d.stopped };
+    let (behaviour, r#move, found) = (g.behaviour.name(), g.goal.id, g.stopped());
+    let doing = GantryBehaviourMessage { t_s, behaviour, r#move, found };
     said.add("behaviour", &doing);
-    if let Some(d) = &g.declaration {
+    if let Some(d) = g.declarations.first() {
         let declared = GantryDeclarationMessage { t_s: d.t_s, position_m: d.position.into(), rule: d.rule };
         said.add("declaration", &declared);
     }

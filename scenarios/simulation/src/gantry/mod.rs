@@ -8,9 +8,3 @@ pub mod topics;
 
 pub use crate::frame::GantryFrame;
 pub(crate) use own::GantryOwn;
-
-use bevy_ecs::prelude::{Entity, Resource};
-
-/// All gantries, in the scenario's order.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Gantries(pub Vec<Entity>);

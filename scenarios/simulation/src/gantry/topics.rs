@@ -2,7 +2,7 @@
 
 use crate::topic::Topic;
 use crate::topic::run::STATE_RATE;
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -78,7 +78,7 @@ pub struct GantryBehaviourMessage {
     /// Simulated time, s; zero is the start of the mission.
     pub t_s: f64,
     /// Its name.
-    #[schemars(extend("enum" = GantryBehaviour::ALL.map(GantryBehaviour::name)))]
+    #[schemars(extend("enum" = Behaviour::OF_GANTRY.map(Behaviour::name)))]
     pub behaviour: &'static str,
     /// Number of the motion command, growing by one with each new one.
     pub r#move: u32,

@@ -8,16 +8,15 @@
 
 use super::{LaneError, assembled, caught, lend, take_back};
 use crate::assemble::{RunParts, launch};
-use crate::auv::{RobotOwn, Robots, VehiclePool};
-use crate::control::exchanges::Exchanges;
+use crate::auv::{RobotOwn, VehiclePool};
 use crate::extend::Addition;
 use crate::fleet::Fleet;
-use crate::gantry::{Gantries, GantryOwn};
+use crate::gantry::GantryOwn;
 use crate::machines::LaneComponents;
 use crate::ocean::{Ocean, Origin};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
-use crate::searchers::SearcherId;
+use crate::searchers::{Roster, SearcherId};
 use crate::trial::{Progress, Trial};
 use bevy_ecs::prelude::{Entity, With, World};
 use bevy_ecs::query::QueryState;
@@ -51,14 +50,6 @@ pub(super) struct LaneParts {
     robots: Vec<RobotOwn>,
     gantries: Vec<GantryOwn>,
     progress: Progress,
-}
-
-/// The machines of a world, by kind.
-#[derive(Default)]
-struct Rosters {
-    robots: Option<Robots>,
-    gantries: Option<Gantries>,
-    asking: Option<Exchanges>,
 }
 
 impl Worlds {
@@ -97,8 +88,7 @@ impl Common {
         let frames = Frames::Unmade;
         let mut trial = assembled(ocean, world, loaded, origin, origin.seed(), frames)?;
         let world = &mut trial.simulation.world;
-        let robots = world.get_resource::<Robots>().map_or(Vec::new(), |r| r.0.clone());
-        let gantries = world.get_resource::<Gantries>().map_or(Vec::new(), |g| g.0.clone());
+        let Roster { robots, gantries, .. } = world.resource::<Roster>().clone();
         Ok(Self { robots: Machines::new(world, robots), gantries: Machines::new(world, gantries), trial })
     }
 
@@ -123,23 +113,21 @@ impl Common {
         let world = &mut self.trial.simulation.world;
         let mut parts = RunParts::new(&loaded.scenario, world.resource());
         parts.exchange(world);
-        let mut rosters = Rosters::default();
-        rosters.exchange(world);
+        let mut roster = Roster::default();
+        swap(&mut *world.resource_mut::<Roster>(), &mut roster);
         let fleet = Fleet::from_scenario(&loaded.scenario);
         let launched = caught(|| launch(world, &fleet, &loaded.scenario, &loaded.base_dir, seed));
-        rosters.exchange(world);
+        swap(&mut *world.resource_mut::<Roster>(), &mut roster);
         parts.exchange(world);
         if !matches!(launched, Ok(Ok(()))) {
             self.expel();
         }
         launched.map_err(LaneError::Panicked)??;
         let world = &mut self.trial.simulation.world;
-        let robots = rosters.robots.map_or(Vec::new(), |r| r.0);
-        let gantries = rosters.gantries.map_or(Vec::new(), |g| g.0);
         Ok(LaneParts {
             parts,
-            robots: robots.iter().map(|m| LaneComponents::take(world, *m)).collect(),
-            gantries: gantries.iter().map(|m| LaneComponents::take(world, *m)).collect(),
+            robots: roster.robots.iter().map(|m| LaneComponents::take(world, *m)).collect(),
+            gantries: roster.gantries.iter().map(|m| LaneComponents::take(world, *m)).collect(),
             progress: Progress::new(sources),
         })
     }
@@ -189,27 +177,6 @@ impl<O: LaneComponents> Machines<O> {
     fn exchange(&mut self, world: &mut World, own: &mut [O]) {
         for (machine, own) in self.all.iter().zip(own) {
             own.exchange(&mut self.parts, world, *machine);
-        }
-    }
-}
-
-impl Rosters {
-    /// Takes what is in a world, and leaves this in its place.
-    fn exchange(&mut self, world: &mut World) {
-        let there = Self {
-            robots: world.remove_resource(),
-            gantries: world.remove_resource(),
-            asking: world.remove_resource(),
-        };
-        let own = std::mem::replace(self, there);
-        if let Some(robots) = own.robots {
-            world.insert_resource(robots);
-        }
-        if let Some(gantries) = own.gantries {
-            world.insert_resource(gantries);
-        }
-        if let Some(asking) = own.asking {
-            world.insert_resource(asking);
         }
     }
 }

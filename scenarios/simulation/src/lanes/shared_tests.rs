@@ -4,7 +4,7 @@ use crate::lanes::caught;
 use crate::scenario::{load_text, template};
 use bevy_ecs::prelude::{Local, Resource};
 use nalgebra::Vector2;
-use robots::handoff::{GantryBehaviour, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Reply};
+use robots::handoff::{Behaviour, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Reply};
 use robots::strategy::{ExternalSpec, StrategySpec};
 use world::registry::Registry;
 use world::stage::Stage;
@@ -160,7 +160,7 @@ fn gantries_share_a_flume() {
                 id: None,
                 target_m: Vector2::new(0.05 * question.number as f64, left),
                 speed_m_s: None,
-                behaviour: GantryBehaviour::StepUp,
+                behaviour: Behaviour::StepUp,
             })),
             ..Reply::default()
         })

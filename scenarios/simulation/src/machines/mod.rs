@@ -2,7 +2,7 @@
 //!
 //! An [`Machine`] is the part of a scenario that describes one machine. It puts its entities into the world, adds its
 //! systems to the stages of the tick, and says what the summary shows of it. A robot ([`crate::auv`]) and a gantry
-//! ([`crate::gantry`]) are two of them; neither the tick nor the assembly knows their names.
+//! ([`crate::gantry`]) are two of them, on one common searcher; neither the tick nor the assembly knows their names.
 //!
 //! # A third kind
 //!
@@ -29,15 +29,18 @@
 //! refuses it if it does. A system that only measures, judges or publishes may read the truth: add it with
 //! [`Systems::add`].
 //!
-//! What a searcher may know are these components of `robots::handoff`: `Readings`, `Estimate`, `Belief`, `Decision`,
-//! `Command`, `GuidanceStatus`, `Actuation`, and of a gantry `GantryReadings` and `GantryDecision`; also
+//! What a searcher may know are these components of `robots::handoff`: `Decision`, of a robot `Readings`, `Estimate`,
+//! `Belief`, `Command`, `GuidanceStatus`, `Actuation`, and of a gantry `GantryReadings`; also
 //! [`Briefing`](crate::auv::Briefing).
 
 mod own;
-mod systems;
+mod searching;
+pub(crate) mod system;
+mod turns;
 
 pub(crate) use own::{LaneComponents, own};
-pub use systems::{BodiesMove, SystemTurn, Systems};
+pub(crate) use searching::{Known, NewSearcher, Searching};
+pub use turns::{BodiesMove, SystemTurn, Systems};
 
 use crate::error::AssembleError;
 use bevy_ecs::prelude::World;

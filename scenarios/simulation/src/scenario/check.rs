@@ -1,7 +1,7 @@
 //! Checks of what a scenario means. They find contradictions that reading alone cannot see; each has the field's path.
 
-use super::fault::Severity;
-use super::fault::UnplacedFault;
+use super::check_path::{names, robot_error, twins};
+use super::fault::{Severity, UnplacedFault};
 use super::folder_files::FolderFiles;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
@@ -66,8 +66,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     }
     check_obstacles::known("permeable", &scenario.permeable, &scenario.obstacles, &mut found);
     check_sources::sources(scenario, &area, &terrain, &solid, &mut found);
-    let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
-    twins("robots", &robot_ids, &mut found);
+    machines(scenario, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
         let step_s = scenario.time.step_s.get();
@@ -95,18 +94,11 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         check_noise::fluorometer(i, robot, &mut found);
     }
     check_berth::berths(&scenario.robots, &terrain, &mut found);
-    let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
-    twins("gantries", &gantry_ids, &mut found);
     for (i, gantry) in scenario.gantries.iter().enumerate() {
         let step_s = scenario.time.step_s.get();
         super::check_gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
         check_noise::probes(i, gantry, &mut found);
-        if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
-            let problem = format!("\"{}\" is already the name of robots[{robot}]", gantry.id.as_str());
-            found.push(UnplacedFault::error(format!("gantries[{i}].id"), problem));
-        }
     }
-    added(scenario, &robot_ids, &gantry_ids, &mut found);
     check_able::declarations(scenario, &mut found);
     check_times::times(scenario, &mut found);
     check_able::purpose(scenario, &mut found);
@@ -120,16 +112,22 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     found
 }
 
-/// The ids of machines of other crates.
-fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Vec<UnplacedFault>) {
-    let ids: Vec<&str> = scenario.apparatus.iter().map(|a| a.id()).collect();
-    names("apparatus", &ids, found);
-    twins("apparatus", &ids, found);
-    for (i, id) in ids.iter().enumerate() {
-        for (list, others) in [("robots", robots), ("gantries", gantries)] {
-            if let Some(twin) = others.iter().position(|other| other == id) {
-                let problem = format!("\"{id}\" is already the name of {list}[{twin}]");
-                found.push(UnplacedFault::error(format!("apparatus[{i}].id"), problem));
+/// The names of all machines: none is that of another.
+fn machines(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
+    let lists: [(&str, Vec<&str>); 3] = [
+        ("robots", scenario.robots.iter().map(|r| r.id.as_str()).collect()),
+        ("gantries", scenario.gantries.iter().map(|g| g.id.as_str()).collect()),
+        ("apparatus", scenario.apparatus.iter().map(|a| a.id()).collect()),
+    ];
+    names("apparatus", &lists[2].1, found);
+    for (k, (list, ids)) in lists.iter().enumerate() {
+        twins(list, ids, found);
+        for (i, id) in ids.iter().enumerate() {
+            for (before, others) in &lists[..k] {
+                if let Some(twin) = others.iter().position(|other| other == id) {
+                    let problem = format!("\"{id}\" is already the name of {before}[{twin}]");
+                    found.push(UnplacedFault::error(format!("{list}[{i}].id"), problem));
+                }
             }
         }
     }
@@ -257,50 +255,4 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
         }
     }
     None
-}
-
-/// An error of a part of a robot or gantry, with the path from the scenario's root.
-pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> UnplacedFault {
-    match error {
-        RobotError::File { .. } => UnplacedFault::error(format!("{robot}.{part}.urdf"), error.to_string())
-            .hint("paths are relative to the scenario file"),
-        RobotError::Invalid { field, problem } => UnplacedFault::error(within(robot, part, &field), problem),
-    }
-}
-
-/// Checks names that become parts of keys and file names.
-pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<UnplacedFault>) {
-    for (i, id) in ids.iter().enumerate() {
-        if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
-            found.push(UnplacedFault::error(format!("{list}[{i}].id"), problem));
-        }
-    }
-}
-
-pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<UnplacedFault>) {
-    for (i, id) in ids.iter().enumerate() {
-        if let Some(twin) = ids[..i].iter().position(|other| other == id) {
-            found.push(UnplacedFault::error(
-                format!("{list}[{i}].id"),
-                format!("\"{id}\" is already the name of {list}[{twin}]"),
-            ));
-        }
-    }
-}
-
-/// The path of a part's field from the scenario's root. Parts name their fields by as much of the path as they know.
-pub(super) fn within(whole: &str, part: &str, field: &str) -> String {
-    // A variant (`OpenLoop` in `strategy.OpenLoop.table`) is a value and no part of a path.
-    let fields = field.split('.').filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
-    let field = fields.collect::<Vec<_>>().join(".");
-    let list = whole.split('[').next().unwrap_or(whole);
-    if field.starts_with(&format!("{list}[")) {
-        field
-    } else if field.is_empty() {
-        format!("{whole}.{part}")
-    } else if field == part || field.starts_with(&format!("{part}.")) {
-        format!("{whole}.{field}")
-    } else {
-        format!("{whole}.{part}.{field}")
-    }
 }

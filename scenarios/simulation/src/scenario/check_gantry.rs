@@ -1,6 +1,6 @@
 //! Checks of a gantry; each finding has the field's path.
 
-use super::check::robot_error;
+use super::check_path::robot_error;
 use super::fault::UnplacedFault;
 use super::folder_files::FolderFiles;
 use super::gantry::GantryBlock;

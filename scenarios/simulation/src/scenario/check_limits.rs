@@ -1,6 +1,6 @@
 //! Limits of what a computer can hold and of what exists at sea, for numbers that are legal one by one.
 
-use super::check::robot_error;
+use super::check_path::robot_error;
 use super::fault::UnplacedFault;
 use super::schema::{RobotSpec, Scenario};
 use nalgebra::{Vector2, Vector3};

@@ -1,6 +1,6 @@
 //! Checks of obstacles: shapes that cannot be built, sizes and places that make no sense, and water without a way.
 
-use super::check::{names, twins, within};
+use super::check_path::{names, twins, within};
 use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use plumes::error::PlumeError;

@@ -1,6 +1,6 @@
 //! Checks of the sources: where they are, what they are called, and what they release.
 
-use super::check::{names, twins};
+use super::check_path::{names, twins};
 use super::fault::UnplacedFault;
 use super::schema::Scenario;
 use plumes::error::PlumeError;

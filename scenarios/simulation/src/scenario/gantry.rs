@@ -1,6 +1,6 @@
 //! A gantry in a scenario.
 
-use super::schema::Id;
+use super::id::Id;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::GantryLayout;
 use robots::sense::ProbesSpec;

@@ -1,41 +1,12 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
-use super::{Event, Observer, RunPhase, Trial};
+use super::controlled::{NotControlled, controlled};
+use super::observer::{Event, Observer};
+use super::run::Trial;
 use crate::control::exchanges::{put_in, take_questions, truth_of};
 use crate::control::{Controller, Exchange, Question, Response};
-use crate::scenario::Scenario;
-use robots::handoff::ExchangeTiming;
 use std::sync::Arc;
 use world::frames::Truth;
-
-/// A robot that nobody outside this program can control.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no robot or gantry {robot:?} has the strategy External; {}", those(.outside))]
-pub struct NotControlled {
-    /// Its id.
-    pub robot: String,
-    /// Ids of those that can be controlled.
-    pub outside: Vec<String>,
-}
-
-fn those(outside: &[String]) -> String {
-    if outside.is_empty() { "none has".to_string() } else { format!("those that have: {}", outside.join(", ")) }
-}
-
-/// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
-pub fn consulted(scenario: &Scenario) -> Vec<(String, ExchangeTiming)> {
-    let robots = scenario.robots.iter();
-    let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.consulted()?)));
-    let gantries = scenario.gantries.iter();
-    let gantries = gantries.filter_map(|g| Some((g.id.as_str(), g.tracker.consulted()?)));
-    let all = robots.chain(gantries);
-    all.map(|(id, consulted)| (id.to_string(), consulted)).collect()
-}
-
-/// Their ids.
-pub fn controlled(scenario: &Scenario) -> Vec<String> {
-    consulted(scenario).into_iter().map(|(id, _)| id).collect()
-}
 
 impl Trial {
     /// The tick up to the step of the ocean, with the answers of searchers outside this program. Questions that nobody
@@ -91,25 +62,6 @@ impl Trial {
     /// The true state of a robot whose strategy is `External`: for rewards and scores, never for its searcher.
     pub fn truth(&self, robot: &str) -> Option<Truth> {
         truth_of(&self.simulation.world, robot)
-    }
-
-    /// Runs to the next questions that no controller answers, with the spin-up before the first. The answers are given
-    /// with [`Self::answer`]; then this, [`Self::step`] or [`Self::run`] goes on. Without questions the run is over.
-    pub fn until_asked(&mut self, observer: &mut dyn Observer) -> Vec<Question> {
-        if self.progress.phase == RunPhase::Assembled {
-            self.run_spin_up(observer);
-        }
-        if self.progress.open.is_some() && !self.advance(observer) {
-            return Vec::new();
-        }
-        while self.going() {
-            let open = self.observe(observer);
-            if !open.is_empty() {
-                return open;
-            }
-            self.advance(observer);
-        }
-        Vec::new()
     }
 
     /// Whether questions of this tick are open.

@@ -83,8 +83,8 @@ impl LatchedTopics {
                 of.put_named(&topics::PROBE, probe, float64(*volts));
             }
         }
-        self.behaviour(of, g.decision.behaviour.name());
-        if let Some(d) = &g.declaration {
+        self.behaviour(of, g.behaviour.name());
+        for d in &g.declarations {
             self.declaration(of, d, g.head_W.z);
         }
     }

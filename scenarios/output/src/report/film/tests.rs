@@ -7,7 +7,7 @@ use crate::sample::{area, frames, plume, source, terrain};
 use crate::sample_gantry::gantry;
 use nalgebra::Vector3;
 use rheotaxis::frame::Frame;
-use robots::handoff::GantryBehaviour;
+use robots::handoff::Behaviour;
 use serde_json::Value;
 
 fn data(track: &Track, gantries: &[GantryTrack], plume_film: &PlumeFilm) -> Option<Value> {
@@ -113,7 +113,7 @@ fn a_gantry_is_shown_in_centimetres_down_stream_of_the_source() {
     let run: Vec<Frame> = (0..100)
         .map(|k| {
             let east = at.x + 1.0 - 0.005 * f64::from(k);
-            let mut g = gantry(east, at.y + 0.1, GantryBehaviour::StepUp);
+            let mut g = gantry(east, at.y + 0.1, Behaviour::StepUp);
             g.tips_W = vec![g.head_W + Vector3::new(0.0, 0.05, 0.0)];
             Frame { t_s: 0.1 * f64::from(k), gantries: vec![g], ..Frame::default() }
         })

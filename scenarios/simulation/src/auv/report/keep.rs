@@ -47,7 +47,7 @@ pub(super) fn digest(
     }
     let behaviour = decision.behaviour;
     let known = number.filter(|(known, _)| *known == behaviour);
-    let (_, behaviour) = *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number())));
+    let (_, behaviour) = *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number(&Behaviour::ALL))));
     digest.f64(f64::from(decision.goal.id));
     digest.f64(behaviour);
     // Only when it is new: a map is large and changes seldom.

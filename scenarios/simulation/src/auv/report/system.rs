@@ -2,12 +2,12 @@
 //! find what is written to than to write.
 
 use super::keep::{RobotEnd, digest, log, score, watch};
-use crate::auv::{Log, Mapping, OnboardTime, Robots};
+use crate::auv::{Log, Mapping};
 use crate::incidents::IncidentMonitor;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::whole;
+use crate::searchers::{OnboardTime, Roster, whole};
 use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use robots::handoff::{Behaviour, Belief};
 use world::digest::Digest;
@@ -18,7 +18,7 @@ type RobotLogs<'a> =
 
 /// Adds robots to the digest and the score, and watches for what is abnormal.
 pub(crate) fn report(
-    places: (Res<Robots>, Res<Ocean>, Res<Physics>),
+    places: (Res<Roster>, Res<Ocean>, Res<Physics>),
     kept: (ResMut<Digest>, ResMut<Score>),
     robots: Query<RobotLogs>,
     number: Local<Option<(Behaviour, f64)>>,
@@ -28,7 +28,7 @@ pub(crate) fn report(
 
 /// The same in a run with frames, for which it also notes what happens between two of them.
 pub(crate) fn report_and_log(
-    places: (Res<Robots>, Res<Ocean>, Res<Physics>),
+    places: (Res<Roster>, Res<Ocean>, Res<Physics>),
     kept: (ResMut<Digest>, ResMut<Score>),
     robots: Query<RobotLogs>,
     number: Local<Option<(Behaviour, f64)>>,
@@ -38,14 +38,14 @@ pub(crate) fn report_and_log(
 }
 
 fn each(
-    (roster, ocean, physics): (Res<Robots>, Res<Ocean>, Res<Physics>),
+    (roster, ocean, physics): (Res<Roster>, Res<Ocean>, Res<Physics>),
     (mut hashed, mut scored): (ResMut<Digest>, ResMut<Score>),
     mut robots: Query<RobotLogs>,
     // Of the newest behaviour: some are hashed, and they seldom change.
     mut number: Local<Option<(Behaviour, f64)>>,
     mut outbox: Option<&mut Outbox>,
 ) {
-    let mut each = robots.iter_many_mut(&roster.0);
+    let mut each = robots.iter_many_mut(&roster.robots);
     while let Some((now, robot, map, mut lookout, mut kept)) = each.fetch_next().map(whole) {
         let clock = &now.0;
         digest(&robot, map, &mut hashed, &mut number);

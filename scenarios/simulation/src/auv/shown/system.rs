@@ -1,11 +1,11 @@
 //! The system that puts robots into frames.
 
-use crate::auv::{Briefing, Log, Robots, SearcherParts};
+use crate::auv::{Briefing, Log};
 use crate::frame::RobotFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::{SearcherId, must_be_sound, whole};
+use crate::searchers::{Roster, SearcherId, SearcherParts, must_be_sound, whole};
 use bevy_ecs::prelude::{Query, Res, ResMut};
 use robots::handoff::{Actuation, Belief, Command, Decision, Estimate};
 use world::frames::Truth;
@@ -25,7 +25,7 @@ type FrameParts<'a> = (
 
 pub(crate) fn picture(
     ocean: Res<Ocean>,
-    roster: Res<Robots>,
+    roster: Res<Roster>,
     score: Res<Score>,
     mut outbox: ResMut<Outbox>,
     mut robots: Query<FrameParts>,
@@ -33,7 +33,7 @@ pub(crate) fn picture(
     let Some(frame) = &mut outbox.open else {
         return;
     };
-    let mut each = robots.iter_many_mut(&roster.0);
+    let mut each = robots.iter_many_mut(&roster.robots);
     while let Some(parts) = each.fetch_next().map(whole) {
         let (id, briefing, truth, estimate, searcher, decision, command, set, belief, mut log) = parts;
         let p = truth.pose.p_WB;

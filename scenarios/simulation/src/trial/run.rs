@@ -1,20 +1,8 @@
-//! One run of a scenario from the spin-up to its end. It writes no files and draws nothing: an [`Observer`] does.
-//!
-//! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be
-//! read in between. All three give the same run, bit for bit.
+//! The state of a run, its spin-up, and what each of its ticks shows.
 
-mod asking;
-mod observer;
-#[cfg(test)]
-mod own_tests;
-mod progress;
-mod water;
-
-pub use asking::{NotControlled, consulted, controlled};
-pub use observer::{Event, Observer, Unwatched, Wants};
-
-pub(crate) use progress::Progress;
-
+use super::observer::{Event, Observer};
+use super::progress::{Progress, RunPhase};
+use super::water::pictured;
 use crate::assemble::Simulation;
 use crate::control::Controller;
 use crate::error::AssembleError;
@@ -28,7 +16,6 @@ use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::score::Score;
 use crate::topic::{TopicValue, Topics};
 use nalgebra::Vector3;
-use progress::RunPhase;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -59,8 +46,8 @@ pub struct RunEnd {
 pub struct Trial {
     /// Its world and its tick.
     pub simulation: Simulation,
-    scenario: Scenario,
-    controllers: BTreeMap<String, Box<dyn Controller>>,
+    pub(super) scenario: Scenario,
+    pub(super) controllers: BTreeMap<String, Box<dyn Controller>>,
     pub(crate) progress: Progress,
 }
 
@@ -112,7 +99,7 @@ impl Trial {
         Ok(())
     }
 
-    fn run_spin_up(&mut self, observer: &mut dyn Observer) {
+    pub(super) fn run_spin_up(&mut self, observer: &mut dyn Observer) {
         self.start_afresh();
         let mut stopped = false;
         self.simulation.ocean_mut().spin_up(|share| {
@@ -151,41 +138,6 @@ impl Trial {
         world.resource_scope::<Digest, ()>(|world, mut digest| {
             world.resource::<Ocean>().plume().digest_into(&mut digest);
         });
-    }
-
-    /// Makes the run to its end: the spin-up, unless it is done or taken over, and the rest of the mission.
-    pub fn run(&mut self, observer: &mut dyn Observer) -> RunEnd {
-        while self.advance(observer) {}
-        self.ended()
-    }
-
-    /// One tick of the mission, with the spin-up before the first one; `false` once the run is over.
-    pub fn step(&mut self) -> bool {
-        self.advance(&mut Unwatched)
-    }
-
-    /// Ticks until a time of the mission, s; `false` if the run was over before.
-    pub fn until(&mut self, t_s: f64) -> bool {
-        while self.simulation.t_s() < t_s - 1e-9 {
-            if !self.step() {
-                return false;
-            }
-        }
-        true
-    }
-
-    /// One tick with an observer; `false` once the run is over or `observer` stopped it.
-    fn advance(&mut self, observer: &mut dyn Observer) -> bool {
-        if self.progress.phase == RunPhase::Assembled {
-            self.run_spin_up(observer);
-        }
-        if !self.going() {
-            return false;
-        }
-        self.search(observer);
-        self.simulation.drift();
-        self.simulation.report();
-        self.close_tick(observer)
     }
 
     /// Whether the mission has begun and lasts.
@@ -238,11 +190,6 @@ impl Trial {
         }
         digest.text(outcome.label());
         digest.hex()
-    }
-
-    /// Makes the run to its end without an observer.
-    pub fn finish_quietly(mut self) -> RunEnd {
-        self.run(&mut Unwatched)
     }
 
     /// The newest frame; `None` before the first. `record.frame_period_s` of the scenario says how often there is one.
@@ -301,7 +248,7 @@ impl Trial {
             // A steady flow is shown once.
             let shown = std::mem::replace(&mut self.progress.water_shown, true);
             if wants.water && !(shown && self.simulation.ocean().is_steady()) {
-                observer.see(&Event::Water(Arc::new(water::pictured(self.simulation.ocean(), t_s))));
+                observer.see(&Event::Water(Arc::new(pictured(self.simulation.ocean(), t_s))));
             }
         }
     }
