@@ -19,7 +19,5 @@ pub mod places;
 pub mod plan;
 pub mod sense;
 pub mod strategy;
-pub mod survey;
 pub mod track;
 pub mod vehicles;
-pub mod vision;

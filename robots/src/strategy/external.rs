@@ -10,12 +10,13 @@
 //! only the answers.
 
 use super::catalogue::StrategySpec;
+use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
-    Reply, ReplyOutcome, Setting, Shown, Vertical,
+    Reply, ReplyOutcome, Shown, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

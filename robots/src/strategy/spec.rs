@@ -1,8 +1,9 @@
 //! What a scenario can say about the strategy.
 
+use super::setting::Setting;
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Setting, Shown};
+use crate::handoff::{Decision, ExchangeTiming, Need, Observation, Shown};
 use world::area::Area;
 use world::cost::{Cost, Times};
 use world::registry::Spec;

@@ -1,12 +1,13 @@
 //! Parameters of a mission over subregions.
 
 use super::super::catalogue::StrategySpec;
+use super::super::setting::Setting;
 use super::super::spec::{Strategy, StrategyParams};
 use super::super::wishes::VerticalSpec;
 use super::super::wishes::Wishes;
 use super::machine::Subregions;
 use crate::error::RobotError;
-use crate::handoff::{Need, Setting};
+use crate::handoff::Need;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;

@@ -7,7 +7,8 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette;
 use crate::charts::panel::Panel;
 use crate::results::{RobotEchoes, RobotTrack, RunReport};
-use robots::survey::{DetectSpec, Row, Waterfall, detect};
+use eyes::sidescan::{Row, Waterfall, detect};
+use robots::strategy::DetectSpec;
 
 /// Largest number of waterfalls, and the greatest length shown of one, m.
 const MOST: usize = 3;

@@ -5,8 +5,8 @@ use crate::files::ReportError;
 use crate::results::Echoes;
 use crate::ros::{MessageKind, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud};
 use crate::scene::frames::transform;
+use eyes::sidescan::Row;
 use rheotaxis::frame::{PictureFrame, PlumeFrame, WaterFrame};
-use robots::survey::Row;
 use world::frames::Pose;
 
 impl Recorder {

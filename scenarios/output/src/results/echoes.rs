@@ -1,7 +1,7 @@
 //! Echoes of sidescan sonars, kept as pictures of straight passes for figure and recording.
 
+use eyes::sidescan::{Row, Waterfall};
 use rheotaxis::frame::PingFrame;
-use robots::survey::{Row, Waterfall};
 
 /// A vehicle that turns faster than this makes no picture, rad/s.
 const TURNING_RAD_S: f64 = 0.05;

@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p rheotaxis-studies --example studies mosaic mosaic.png`
 
+use eyes::camera::{CameraModel, Optics, Scene, looking, render};
+use eyes::vision::place::{Mosaic, PlaceEvidence, PlacePictures, Stand};
 use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -10,8 +12,8 @@ use rheotaxis::ocean::Origin;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
 use robots::handoff::Picture;
-use robots::sense::camera::{CameraModel, CameraSpec, Optics, Scene, looking, render, turned};
-use robots::vision::place::{AddUpSpec, Mosaic, PlaceEvidence, PlacePictures, Stand};
+use robots::sense::{CameraSpec, turned};
+use robots::strategy::AddUpSpec;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;

@@ -1,6 +1,7 @@
 //! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
 use super::draw::{Content, SceneDraw};
+use eyes::camera::{CameraModel, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render};
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
@@ -8,9 +9,7 @@ use plumes::flow::eddies::EddiesSpec;
 use plumes::flow::open_channel::OpenChannelSpec;
 use plumes::flow::{CurrentSpec, GridShape, WaterSpec};
 use plumes::release::{ReleaseSpec, SourceSpec};
-use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render,
-};
+use robots::sense::CameraSpec;
 use std::path::Path;
 use world::area::Area;
 use world::fields::{Clean, Concentration, Flow};

@@ -140,7 +140,7 @@ mod tests {
     use super::super::methods::METHODS;
     use super::super::pixels::Counts;
     use super::*;
-    use robots::vision::VerifierSpec;
+    use robots::strategy::VerifierSpec;
 
     fn rows() -> Vec<SceneRow> {
         (0..24)
