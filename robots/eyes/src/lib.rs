@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 pub mod camera;
+mod numbers;
 pub mod sidescan;
 pub mod survey;
 #[cfg(test)]

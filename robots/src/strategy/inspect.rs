@@ -120,7 +120,7 @@ impl Inspect {
         Ok(Self {
             places: spec.places.iter().map(place).collect(),
             vertical,
-            post: PostDeclaration::for_told_places(&after, eyes)?,
+            post: PostDeclaration::new(&after, eyes, true)?,
             now: 0,
             surveying: false,
             goal: Goal::none_yet(vertical, spec.speed_m_s.get()),

@@ -47,6 +47,16 @@ pub(super) struct DyeGrid {
     pub any: bool,
 }
 
+/// Whether number `i` of `n` is among those that are evaluated first: every other one, and the last.
+fn coarse(i: usize, n: usize) -> bool {
+    i.is_multiple_of(2) || i + 1 == n
+}
+
+/// Those among `n` numbers.
+fn coarse_of(n: usize) -> impl Iterator<Item = usize> {
+    (0..n).filter(move |i| coarse(*i, n))
+}
+
 /// Steps towards the sun end here, m.
 const TOWARDS: [f64; 7] = [0.05, 0.13, 0.28, 0.55, 1.1, 2.2, 4.5];
 
@@ -75,11 +85,10 @@ impl DyeGrid {
             if rho < least { 0.0 } else { rho as f32 }
         };
         let [nx, ny] = lines.n;
-        let coarse = |i: usize, n: usize| i.is_multiple_of(2) || i + 1 == n;
-        for j in (0..ny).filter(|j| coarse(*j, ny)) {
-            for i in (0..nx).filter(|i| coarse(*i, nx)) {
+        for j in coarse_of(ny) {
+            for i in coarse_of(nx) {
                 let line = j * nx + i;
-                for k in (0..steps).filter(|k| coarse(*k, steps)) {
+                for k in coarse_of(steps) {
                     let rho = ask(line, k);
                     grid.rho[line * steps + k] = rho;
                     grid.any |= rho > 0.0;
@@ -87,14 +96,14 @@ impl DyeGrid {
             }
         }
         if grid.any {
-            grid.refine(lines, coarse, ask);
-            grid.look_up(scene, lines, coarse);
+            grid.refine(lines, ask);
+            grid.look_up(scene, lines);
         }
         grid
     }
 
     /// Evaluates the other nodes that have dye at a corner of their coarse cell.
-    fn refine(&mut self, lines: &Lines, coarse: impl Fn(usize, usize) -> bool, ask: impl Fn(usize, usize) -> f32) {
+    fn refine(&mut self, lines: &Lines, ask: impl Fn(usize, usize) -> f32) {
         let ([nx, ny], steps) = (lines.n, self.steps);
         let about = |i: usize, n: usize| {
             if coarse(i, n) { [i, i] } else { [i - 1, (i + 1).min(n - 1)] }
@@ -121,13 +130,13 @@ impl DyeGrid {
 
     /// Sums the dye towards the sun at the coarse nodes with dye at or beside them, and interpolates for the nodes
     /// between.
-    fn look_up(&mut self, scene: &Scene<'_>, lines: &Lines, coarse: impl Fn(usize, usize) -> bool) {
+    fn look_up(&mut self, scene: &Scene<'_>, lines: &Lines) {
         let ([nx, ny], steps) = (lines.n, self.steps);
         let to_sun = scene.optics.light.to_sun;
-        for j in (0..ny).filter(|j| coarse(*j, ny)) {
-            for i in (0..nx).filter(|i| coarse(*i, nx)) {
+        for j in coarse_of(ny) {
+            for i in coarse_of(nx) {
                 let line = j * nx + i;
-                for k in (0..steps).filter(|k| coarse(*k, steps)) {
+                for k in coarse_of(steps) {
                     let beside = (j.saturating_sub(1)..(j + 2).min(ny)).any(|j| {
                         (i.saturating_sub(1)..(i + 2).min(nx)).any(|i| {
                             (k.saturating_sub(1)..(k + 2).min(steps)).any(|k| self.rho[(j * nx + i) * steps + k] > 0.0)
@@ -150,14 +159,14 @@ impl DyeGrid {
                 }
             }
         }
-        self.fill_between(lines, coarse);
+        self.fill_between(lines);
     }
 
     /// Means of the neighbours, one axis after the other.
-    fn fill_between(&mut self, lines: &Lines, coarse: impl Fn(usize, usize) -> bool) {
+    fn fill_between(&mut self, lines: &Lines) {
         let ([nx, ny], steps) = (lines.n, self.steps);
-        for j in (0..ny).filter(|j| coarse(*j, ny)) {
-            for i in (0..nx).filter(|i| coarse(*i, nx)) {
+        for j in coarse_of(ny) {
+            for i in coarse_of(nx) {
                 let at = (j * nx + i) * steps;
                 for k in (0..steps).filter(|k| !coarse(*k, steps)) {
                     self.above[at + k] = 0.5 * (self.above[at + k - 1] + self.above[at + k + 1]);

@@ -13,7 +13,8 @@
 //! [`LENGTHS_M`] by [`WIDTHS_M`] with a shadow of [`SHADOWS_M`]. The object's place is the middle of its highlight,
 //! corrected for the layover of its top.
 
-use super::{Row, Waterfall};
+use super::waterfall::{CELL_M, Row, Waterfall};
+use crate::numbers::{Sums, median};
 use nalgebra::Vector2;
 use robots::strategy::DetectSpec;
 
@@ -70,8 +71,8 @@ struct Side {
     over_db: Vec<f64>,
     /// Spread of each column, dB; not a number where nothing was heard.
     spread_db: Vec<f64>,
-    /// Sums of dB and of standard units from the first corner.
-    sums: [Vec<f64>; 2],
+    /// Sums of dB and of standard units.
+    sums: [Sums; 2],
 }
 
 /// Lines and columns of a rectangle, without their ends.
@@ -87,11 +88,6 @@ impl Window {
     }
 }
 
-fn median(values: &mut [f64]) -> f64 {
-    let n = values.len();
-    *values.select_nth_unstable_by(n / 2, f64::total_cmp).1
-}
-
 impl Side {
     fn new(picture: &Waterfall, port: bool) -> Self {
         let lines: Vec<&[f32]> = picture.rows().iter().map(|r| r.side(port)).collect();
@@ -99,54 +95,36 @@ impl Side {
         let columns = lines.iter().map(|l| l.len()).min().unwrap_or(0);
         let mut over_db = vec![0.0; rows * columns];
         let mut spread_db = vec![f64::NAN; columns];
-        let mut column = Vec::with_capacity(rows);
         for k in 0..columns {
-            column.clear();
-            column.extend(lines.iter().map(|l| f64::from(l[k])).filter(|v| v.is_finite()));
+            let column: Vec<f64> = lines.iter().map(|l| f64::from(l[k])).filter(|v| v.is_finite()).collect();
             // A change of height moves the blind strip below the vehicle.
-            if column.len() < FEWEST.max(rows / 2) {
+            let enough = column.len() >= FEWEST.max(rows / 2);
+            let Some(middle) = median(column.iter().copied()).filter(|_| enough) else {
                 continue;
-            }
-            let middle = median(&mut column);
-            column.iter_mut().for_each(|v| *v = (*v - middle).abs());
-            spread_db[k] = (MEDIAN_TO_STD * median(&mut column)).max(0.1);
+            };
+            let off = median(column.iter().map(|v| (v - middle).abs())).unwrap_or(0.0);
+            spread_db[k] = (MEDIAN_TO_STD * off).max(0.1);
             for (i, line) in lines.iter().enumerate() {
                 let v = f64::from(line[k]);
                 over_db[i * columns + k] = if v.is_finite() { v - middle } else { 0.0 };
             }
         }
-        let sum = |part: &dyn Fn(usize) -> f64| {
-            let wide = columns + 1;
-            let mut sums = vec![0.0; (rows + 1) * wide];
-            for i in 0..rows {
-                let mut line = 0.0;
-                for k in 0..columns {
-                    line += part(i * columns + k);
-                    sums[(i + 1) * wide + k + 1] = sums[i * wide + k + 1] + line;
-                }
-            }
-            sums
-        };
         let units = |n: usize| match spread_db[n % columns] {
             s if s.is_finite() => over_db[n] / s,
             _ => 0.0,
         };
-        let sums = [sum(&|n| over_db[n]), sum(&units)];
+        let sums = [Sums::new(columns, rows, |n| over_db[n]), Sums::new(columns, rows, units)];
         Self { port, rows, columns, over_db, spread_db, sums }
     }
 
     /// Mean over a window of dB (0) or standard units (1).
     fn mean(&self, which: usize, w: Window) -> f64 {
-        let s = &self.sums[which];
-        let at = |i: usize, k: usize| s[i * (self.columns + 1) + k];
-        let ((i, j), (k, l)) = (w.rows, w.columns);
-        (at(j, l) - at(i, l) - at(j, k) + at(i, k)) / w.cells()
+        self.sums[which].over(w.columns, w.rows) / w.cells()
     }
 
     fn objects(&self, picture: &Waterfall, spec: &DetectSpec) -> Vec<Object> {
-        let cell = picture.cell_m();
         let count = |m: f64, of: f64| (m / of).round().max(1.0) as usize;
-        let (lines, cells) = (|m| count(m, picture.line_m()), |m| count(m, cell));
+        let (lines, cells) = (|m| count(m, picture.line_m()), |m| count(m, CELL_M));
         let Some(first) = self.spread_db.iter().position(|s| s.is_finite()) else {
             return Vec::new();
         };
@@ -249,7 +227,7 @@ impl Side {
     }
 
     fn object(&self, picture: &Waterfall, (contrast, light, shade): (f64, Window, Window)) -> Object {
-        let (rows, cell): (&[Row], f64) = (picture.rows(), picture.cell_m());
+        let rows: &[Row] = picture.rows();
         // The middle by brightness along the track: the beam is one or two cells wide there.
         let (mut weight, mut middle) = (0.0, 0.0);
         for i in light.rows.0..light.rows.1 {
@@ -261,7 +239,7 @@ impl Side {
         }
         let at = if weight > 0.0 { middle / weight } else { light.rows.0 as f64 };
         let row = &rows[(at.round() as usize).min(rows.len() - 1)];
-        let metres = |columns: usize| columns as f64 * cell;
+        let metres = |columns: usize| columns as f64 * CELL_M;
         let (near, far, dark) = (metres(light.columns.0), metres(light.columns.1), metres(shade.columns.1));
         let h = row.height_m;
         // Its top is nearer to the sonar than the bed below it: a return at ground range g on a flat bed comes from

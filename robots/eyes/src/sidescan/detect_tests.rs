@@ -64,5 +64,5 @@ fn a_wall_is_no_object_and_two_blocks_are_two() {
 #[test]
 fn a_picture_of_a_few_lines_shows_nothing() {
     assert!(detect(&fly(&with_block(1, 8.0), 4.0), &DetectSpec::default()).is_empty());
-    assert!(detect(&Waterfall::new(0.25), &DetectSpec::default()).is_empty());
+    assert!(detect(&Waterfall::default(), &DetectSpec::default()).is_empty());
 }

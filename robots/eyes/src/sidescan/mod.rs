@@ -10,4 +10,4 @@ mod waterfall;
 pub use catalogue::CATALOGUE;
 pub use detect::{Object, detect};
 pub use merge::{MergedObject, merge};
-pub use waterfall::{Row, Waterfall};
+pub use waterfall::{CELL_M, Row, Waterfall};

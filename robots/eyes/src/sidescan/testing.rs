@@ -62,7 +62,7 @@ impl Bed {
 
 /// Flies north from the origin at 2 m/s and 10 pings a second for `length_m`.
 pub(super) fn fly(bed: &Bed, length_m: f64) -> Waterfall {
-    let mut w = Waterfall::new(0.25);
+    let mut w = Waterfall::default();
     let mut rng = Stream::new(bed.seed, "test", "sidescan");
     for k in 0..(length_m / 0.2) as u32 {
         let along = 0.2 * f64::from(k);

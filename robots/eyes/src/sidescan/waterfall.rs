@@ -3,7 +3,7 @@
 //! *Source:* slant-range correction on a flat bottom, g = √(r² − h²), and angle-varying gain: Blondel 2009, The
 //! Handbook of Sidescan Sonar, section 4.2.
 //!
-//! *Parameters:* `cell_m`, size of a cell along and across the track, m; 0.25 here: a metre-sized object fills 4 by 4
+//! *Parameters:* size of a cell along and across the track, [`CELL_M`] 0.25 m: a metre-sized object fills 4 by 4
 //! cells, and a cell 10 m away holds five samples of each of its pings.
 //!
 //! *Deviations:* the height above the bed is the altimeter's, not that of the first return. The gain is Lambert's law
@@ -16,6 +16,8 @@ use std::f64::consts::{FRAC_PI_2, LN_10};
 use world::math;
 use world::units::Heading;
 
+/// Size of a cell, m.
+pub const CELL_M: f64 = 0.25;
 /// Most lines of a picture; a pass of 500 m at a cell of 0.25 m has 2000.
 const MOST: usize = 20_000;
 /// Most numbers of a picture: those many lines at a range of 25 m.
@@ -60,9 +62,8 @@ impl Row {
 }
 
 /// The picture of a pass.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Waterfall {
-    cell_m: f64,
     rows: Vec<Row>,
     /// Distance covered, m, and when it was last added to, s.
     along_m: f64,
@@ -73,21 +74,11 @@ pub struct Waterfall {
 }
 
 impl Waterfall {
-    /// An empty picture.
-    pub fn new(cell_m: f64) -> Self {
-        Self { cell_m, rows: Vec::new(), along_m: 0.0, last_s: None, sums: [Vec::new(), Vec::new()], begun_m: 0.0 }
-    }
-
-    /// Size of a cell, m.
-    pub fn cell_m(&self) -> f64 {
-        self.cell_m
-    }
-
     /// Mean distance between two lines, m.
     pub fn line_m(&self) -> f64 {
         match self.rows.as_slice() {
             [first, .., last] => (last.along_m - first.along_m) / (self.rows.len() - 1) as f64,
-            _ => self.cell_m,
+            _ => CELL_M,
         }
     }
 
@@ -101,7 +92,7 @@ impl Waterfall {
         let Some(altitude_m) = estimate.altitude_m.filter(|a| *a > 0.0) else {
             return;
         };
-        let a_line = 2 * (ping.max_m / self.cell_m).floor() as usize;
+        let a_line = 2 * (ping.max_m / CELL_M).floor() as usize;
         if self.rows.len() >= MOST || (self.rows.len() + 1).saturating_mul(a_line) > MOST_NUMBERS {
             return;
         }
@@ -111,17 +102,17 @@ impl Waterfall {
         let arm = estimate.attitude.R_WB() * ping.p_BS;
         let height_m = (altitude_m + arm.z).max(0.1);
         for (sums, samples) in (self.sums.iter_mut()).zip([&ping.port_db, &ping.starboard_db]) {
-            let cells = (ping.max_m / self.cell_m).floor() as usize;
+            let cells = (ping.max_m / CELL_M).floor() as usize;
             sums.resize(cells, (0.0, 0));
             for (k, sum) in sums.iter_mut().enumerate() {
                 let slant = |ground: f64| (ground * ground + height_m * height_m).sqrt();
-                let near = k as f64 * self.cell_m;
-                if near < BLIND * height_m || slant(near + self.cell_m) > ping.max_m {
+                let near = k as f64 * CELL_M;
+                if near < BLIND * height_m || slant(near + CELL_M) > ping.max_m {
                     continue;
                 }
                 let per_m = samples.len() as f64 / ping.max_m;
                 let from = (slant(near) * per_m).round() as usize;
-                let to = (slant(near + self.cell_m) * per_m).round() as usize;
+                let to = (slant(near + CELL_M) * per_m).round() as usize;
                 let to = to.max(from + 1).min(samples.len());
                 for level in &samples[from.min(to - 1)..to] {
                     sum.0 += math::exp(f64::from(*level) / 10.0 * LN_10);
@@ -129,7 +120,7 @@ impl Waterfall {
                 }
             }
         }
-        if self.along_m - self.begun_m >= FULL * self.cell_m {
+        if self.along_m - self.begun_m >= FULL * CELL_M {
             self.begun_m = self.along_m;
             let place = estimate.position + arm.xy();
             let mut level = |side: usize| -> Vec<f32> {
@@ -139,7 +130,7 @@ impl Waterfall {
                         return f32::NAN;
                     }
                     let db = |x: f64| 10.0 / LN_10 * math::ln(x);
-                    let ground = (k as f64 + 0.5) * self.cell_m;
+                    let ground = (k as f64 + 0.5) * CELL_M;
                     let slant_2 = ground * ground + height_m * height_m;
                     // sin² γ / cos γ of a level bed.
                     let lambert = height_m * height_m / (slant_2.sqrt() * ground);
@@ -197,7 +188,7 @@ mod tests {
 
     #[test]
     fn without_a_height_there_is_no_picture() {
-        let mut w = Waterfall::new(0.25);
+        let mut w = Waterfall::default();
         let mut o = crate::testing::seen(0.0, Vector2::zeros(), 0.0, None);
         o.estimate.altitude_m = None;
         let levels: std::sync::Arc<[f32]> = vec![0.0; 10].into();

@@ -15,6 +15,7 @@
 //! seconds, so that a body under the vehicle does not count as bed.
 
 use super::holds::best_point;
+use crate::numbers::median;
 use crate::vision::Verifier;
 use crate::vision::place::{PlaceEvidence, PlacePictures, SeenClarity, Stand};
 use nalgebra::{Vector2, Vector3};
@@ -187,9 +188,7 @@ impl PictureSum {
     /// Takes in the picture of this tick.
     fn take(&mut self, seen: &Observation) {
         let at = self.position(seen);
-        let mut beds: Vec<f64> = self.bed_m.iter().copied().collect();
-        beds.sort_by(f64::total_cmp);
-        let (Some(picture), Some(bed_m)) = (&seen.picture, beds.get(beds.len() / 2)) else {
+        let (Some(picture), Some(bed_m)) = (&seen.picture, median(self.bed_m.iter().copied())) else {
             return;
         };
         let stand =

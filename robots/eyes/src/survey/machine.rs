@@ -29,9 +29,6 @@ use std::f64::consts::FRAC_PI_2;
 use world::ranges::{Finite, Positive};
 use world::units::Heading;
 
-/// Cell of the sidescan's picture, m.
-const CELL_M: f64 = 0.25;
-
 /// The passes being flown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum SurveyPhase {
@@ -138,7 +135,7 @@ impl Flown {
         let (Some(number), Some(ping)) = (on, &seen.sidescan) else {
             return;
         };
-        let (_, picture) = self.line.get_or_insert_with(|| (number, Waterfall::new(CELL_M)));
+        let (_, picture) = self.line.get_or_insert_with(|| (number, Waterfall::default()));
         picture.push(ping, &seen.estimate);
     }
 

@@ -54,7 +54,7 @@ struct Flown {
 /// one by `off`.
 fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> Flown {
     let after = AfterDeclaration::Survey(Box::new(spec.clone()));
-    let mut post = PostDeclaration::new(&after, &Sighted).unwrap();
+    let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
     let mut sonar = Sidescan::new(&SidescanSpec::default(), Vector3::zeros(), &OnBoard::new("a", 3, PERIOD_S)).unwrap();
     let mut clock = Clock::new(PERIOD_S);
     let mut o = seen(0.0, declared, 0.0, None);
@@ -226,7 +226,7 @@ fn pictures_that_show_nothing_leave_the_place_open() {
 #[test]
 fn declarations_are_numbered_and_the_plain_ends_stay() {
     for (after, next) in [(AfterDeclaration::GoHome, Behaviour::GoHome), (AfterDeclaration::Stop, Behaviour::Done)] {
-        let mut post = PostDeclaration::new(&after, &Sighted).unwrap();
+        let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
         let o = seen(0.0, place(), 0.0, None);
         for number in 0..3 {
             let d = Declaration::first(1.0, place(), "test");
@@ -241,7 +241,9 @@ fn declarations_are_numbered_and_the_plain_ends_stay() {
 #[test]
 fn parts_that_do_not_go_together_are_named() {
     let says = |spec: SurveySpec| {
-        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec)), &Sighted).expect_err("must not be").to_string()
+        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec)), &Sighted, false)
+            .expect_err("must not be")
+            .to_string()
     };
     let blind = SurveySpec { verify: Verify::Both, ..SurveySpec::default() };
     assert!(says(blind).starts_with("strategy.after_declaration.verify: Both needs passes"));
@@ -256,7 +258,7 @@ fn parts_that_do_not_go_together_are_named() {
 fn first_of_the_camera(hovers: bool, camera: CameraPasses) -> Manoeuvre {
     let spec = SurveySpec { sidescan: None, camera: Some(camera), verify: Verify::Camera, ..SurveySpec::default() };
     let after = AfterDeclaration::Survey(Box::new(spec));
-    let mut post = PostDeclaration::new(&after, &Sighted).unwrap();
+    let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
     let place = Vector2::new(10.0, 20.0);
     let mut o = seen(0.0, place, 0.0, None);
     o.able.hovers = hovers;

@@ -10,6 +10,7 @@
 //! are four-hundredths of the picture's diagonal. The edge is not measured in a picture whose pixels are longer than
 //! that, for there dye ends within a pixel, too.
 
+use crate::numbers::{Sums, median};
 use image::{GrayImage, RgbImage};
 use nalgebra::Vector2;
 use serde::Serialize;
@@ -33,41 +34,16 @@ pub struct DyeLook {
     pub edge: Option<f64>,
 }
 
-/// Sums of a quantity over all rectangles from the top left corner.
-struct Sums {
-    width: usize,
-    height: usize,
-    sums: Vec<f64>,
-}
-
-impl Sums {
-    fn new(width: usize, height: usize, value: impl Fn(usize) -> f64) -> Self {
-        let mut sums = vec![0.0; (width + 1) * (height + 1)];
-        for y in 0..height {
-            let mut row = 0.0;
-            for x in 0..width {
-                row += value(y * width + x);
-                sums[(y + 1) * (width + 1) + x + 1] = sums[y * (width + 1) + x + 1] + row;
-            }
-        }
-        Self { width, height, sums }
-    }
-
-    /// The mean over the square that reaches so far to all sides of a pixel, without what is outside the picture.
-    fn mean(&self, at: usize, reach: usize) -> f64 {
-        let (x, y) = (at % self.width, at / self.width);
-        let (left, top) = (x.saturating_sub(reach), y.saturating_sub(reach));
-        let (right, bottom) = ((x + reach + 1).min(self.width), (y + reach + 1).min(self.height));
-        let sum = |x: usize, y: usize| self.sums[y * (self.width + 1) + x];
-        let all = sum(right, bottom) + sum(left, top) - sum(left, bottom) - sum(right, top);
-        all / ((right - left) * (bottom - top)) as f64
-    }
-}
-
 /// Shares of red, green and blue in a pixel's light; a third each for black.
 pub(super) fn shares(rgb: [f64; 3]) -> [f64; 3] {
     let all: f64 = rgb.iter().sum::<f64>() + 3.0;
     rgb.map(|level| (level + 1.0) / all)
+}
+
+/// Mean over the square about a pixel.
+fn mean_about(sums: &Sums, at: usize, reach: usize) -> f64 {
+    let (sum, n) = sums.about(at, reach);
+    sum / n as f64
 }
 
 /// Mean of a quantity over some pixels; `None` if there are none.
@@ -78,13 +54,6 @@ fn mean(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f64)
         n += 1;
     }
     (n > 0).then(|| sum / n as f64)
-}
-
-/// Their median.
-fn median(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f64) -> Option<f64> {
-    let mut all: Vec<f64> = (0..pixels).filter(|at| of(*at)).map(value).collect();
-    let middle = all.len() / 2;
-    (!all.is_empty()).then(|| *all.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 impl DyeLook {
@@ -99,14 +68,15 @@ impl DyeLook {
         let count = Sums::new(w, h, |at| f64::from(u8::from(inside[at])));
         let length = Vector2::new(w as f64, h as f64).norm() / LENGTHS;
         let reach = |lengths: f64| ((lengths * length).round() as usize).max(1);
-        let far = |at: usize| count.mean(at, reach(FAR)) == 0.0;
+        let far = |at: &usize| count.about(*at, reach(FAR)).0 == 0.0;
         let yellow = |at: usize| recorded(at)[1] - recorded(at)[2];
         let Some(red) = mean(n, |at| inside[at], |at| recorded(at)[0]) else {
             return Self::default();
         };
         let own = mean(n, |at| inside[at], yellow).unwrap_or_default();
         // The median, so that a thing of another colour does not stand for all.
-        let around = median(n, far, yellow).or_else(|| median(n, |at| !inside[at], yellow));
+        let outside = |at: &usize| !inside[*at];
+        let around = median((0..n).filter(far).map(yellow)).or_else(|| median((0..n).filter(outside).map(yellow)));
         let Some(around) = around else {
             return Self::default();
         };
@@ -115,9 +85,9 @@ impl DyeLook {
             yellow: own - around,
             edge: (length >= 1.0 - 1e-9).then(|| {
                 let smooth = [0, 1, 2].map(|k| Sums::new(w, h, |at| level(even, at, k)));
-                let redness = |at: usize| shares([0, 1, 2].map(|k| smooth[k].mean(at, reach(1.0))))[0];
+                let redness = |at: usize| shares([0, 1, 2].map(|k| mean_about(&smooth[k], at, reach(1.0))))[0];
                 let strip = |at: usize, inner: bool| {
-                    let share = count.mean(at, reach(STRIP));
+                    let share = mean_about(&count, at, reach(STRIP));
                     inside[at] == inner && if inner { share < 1.0 } else { share > 0.0 }
                 };
                 let differ = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(0.0, |(a, b)| a - b);

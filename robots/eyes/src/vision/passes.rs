@@ -122,22 +122,22 @@ fn give_back(seen: &RgbImage, passes: &[Pass], left: &mut RgbImage, labels: &mut
 }
 
 impl Segmentation {
+    /// The numbers of a target's passes: of all, or only of those whose patterns stayed in the group.
+    fn numbers(&self, target: Target, of_group: bool) -> [bool; 256] {
+        let mut numbers = [false; 256];
+        for pass in self.passes.iter().filter(|p| p.target == target && (!of_group || p.fate.kept())) {
+            numbers[usize::from(pass.number)] = true;
+        }
+        numbers
+    }
+
     /// Whether each pixel belongs to the target: 255 or 0. Counts all passes, or only those whose patterns stayed in
     /// the group.
     pub fn mask(&self, target: Target, of_group: bool) -> GrayImage {
-        let mut belongs = [0_u8; 256];
-        for pass in &self.passes {
-            if pass.target == target && (!of_group || pass.fate.kept()) {
-                belongs[usize::from(pass.number)] = 255;
-            }
-        }
-        self.select(|label| belongs[usize::from(label)])
-    }
-
-    fn select(&self, of: impl Fn(u8) -> u8) -> GrayImage {
+        let numbers = self.numbers(target, of_group);
         let mut out = self.labels.clone();
         for pixel in out.pixels_mut() {
-            *pixel = Luma([of(pixel.0[0])]);
+            *pixel = Luma([255 * u8::from(numbers[usize::from(pixel.0[0])])]);
         }
         out
     }
@@ -154,10 +154,8 @@ impl Segmentation {
 
     /// What the passes of a target took, on white; as in [`Segmentation::mask`].
     pub fn union(&self, target: Target, of_group: bool) -> RgbImage {
-        let of =
-            |n: u8| (self.passes.iter()).any(|p| p.number == n && p.target == target && (!of_group || p.fate.kept()));
-        let wanted: [bool; 256] = std::array::from_fn(|n| of(n as u8));
-        self.on_white(|label| wanted[usize::from(label)])
+        let numbers = self.numbers(target, of_group);
+        self.on_white(|label| numbers[usize::from(label)])
     }
 
     fn on_white(&self, shows: impl Fn(u8) -> bool) -> RgbImage {

@@ -81,7 +81,7 @@ impl Amp {
             vertical,
             rule: spec.declare.clone(),
             zone: Zone::default(),
-            post: PostDeclaration::new(&spec.after_declaration, eyes)?,
+            post: PostDeclaration::new(&spec.after_declaration, eyes, false)?,
             heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
             behaviours: Behaviours {
                 go_to: spec.start_at.as_ref().map(|s| GoTo::new(Vector2::new(s.east_m.get(), s.north_m.get()))),

@@ -80,6 +80,7 @@ impl Subsumption {
         if let Some(eyes) = &spec.eyes {
             eyes.verifier.check("strategy.eyes.verifier")?;
         }
+        let after = spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey);
         let silent = |k: &Kind| Layer { name: k.into(), state: LayerState::Silent };
         Ok(Self {
             fixes: spec.fixes,
@@ -88,10 +89,7 @@ impl Subsumption {
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             declaring: None,
             zone: Zone::default(),
-            post: PostDeclaration::new(
-                &spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
-                &*setting.eyes,
-            )?,
+            post: PostDeclaration::new(&after, &*setting.eyes, false)?,
             surveying: false,
             eyes: spec.eyes.as_ref().map(|spec| PointLooks::new(spec, &setting.eyes)),
             passes: None,

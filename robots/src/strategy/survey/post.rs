@@ -19,21 +19,11 @@ pub struct PostDeclaration {
 }
 
 impl PostDeclaration {
-    /// # Errors
-    /// [`RobotError::Invalid`] if the parts of a survey contradict each other.
-    pub fn new(after: &AfterDeclaration, eyes: &dyn Eyes) -> Result<Self, RobotError> {
-        Self::of_places(after, eyes, false)
-    }
-
-    /// The same for told places, which are surer than declared ones.
+    /// Of places that the vehicle declares itself, or that were `told`, which are surer.
     ///
     /// # Errors
-    /// As [`PostDeclaration::new`].
-    pub(crate) fn for_told_places(after: &AfterDeclaration, eyes: &dyn Eyes) -> Result<Self, RobotError> {
-        Self::of_places(after, eyes, true)
-    }
-
-    fn of_places(after: &AfterDeclaration, eyes: &dyn Eyes, told: bool) -> Result<Self, RobotError> {
+    /// [`RobotError::Invalid`] if the parts of a survey contradict each other.
+    pub fn new(after: &AfterDeclaration, eyes: &dyn Eyes, told: bool) -> Result<Self, RobotError> {
         let flown = match after {
             AfterDeclaration::Survey(spec) => Some(spec),
             AfterDeclaration::GoHome | AfterDeclaration::Stop => None,

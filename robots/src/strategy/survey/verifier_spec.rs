@@ -80,25 +80,20 @@ impl ColourSpec {
     /// The first field that contradicts the others, and what would be legal.
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let (a1, a2) = (self.alpha1.get(), self.alpha2.get());
-        if a1 >= a2 {
-            return Some(("alpha1", format!("must be below alpha2 ({a2}), got {a1}")));
-        }
-        if a2 > 255.0 {
-            return Some(("alpha2", format!("must be at most 255, got {a2}")));
-        }
-        let rho_m = self.rho_m.get();
-        if rho_m >= 255.0 {
-            return Some(("rho_m", format!("must be below 255, got {rho_m}")));
-        }
-        let epsilon = self.epsilon.get();
-        if epsilon > 255.0 {
-            return Some(("epsilon", format!("must be at most 255, got {epsilon}")));
-        }
+        let (rho_m, epsilon) = (self.rho_m.get(), self.epsilon.get());
         let passes = u32::from(self.plume_passes) + u32::from(self.source_passes);
-        (passes == 0 || passes > MOST_PASSES).then(|| {
-            let range = format!("must be, with source_passes, from 1 to {MOST_PASSES}");
-            ("plume_passes", format!("{range}, got {passes}"))
-        })
+        let faults = [
+            (a1 >= a2, "alpha1", format!("must be below alpha2 ({a2}), got {a1}")),
+            (a2 > 255.0, "alpha2", format!("must be at most 255, got {a2}")),
+            (rho_m >= 255.0, "rho_m", format!("must be below 255, got {rho_m}")),
+            (epsilon > 255.0, "epsilon", format!("must be at most 255, got {epsilon}")),
+            (
+                !(1..=MOST_PASSES).contains(&passes),
+                "plume_passes",
+                format!("must be, with source_passes, from 1 to {MOST_PASSES}, got {passes}"),
+            ),
+        ];
+        faults.into_iter().find(|(wrong, ..)| *wrong).map(|(_, field, problem)| (field, problem))
     }
 }
 

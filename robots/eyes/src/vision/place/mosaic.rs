@@ -11,6 +11,7 @@
 
 use super::clarity::SeenClarity;
 use super::ground::Patch;
+use crate::numbers::Sums;
 
 /// Side of the boxes, m: a quarter of the least source that is sought.
 pub(super) const BOX_M: f64 = 0.5;
@@ -76,36 +77,17 @@ impl Mosaic {
     pub(super) fn boxes(&self) -> Boxes {
         let [w, h] = self.size;
         let half = (0.5 * BOX_M / self.cell_m).round().max(0.0) as usize;
-        // Sums over all cells below and to the left: brightness, redness, their precisions, number seen.
-        let mut table = vec![[0.0; 5]; (w + 1) * (h + 1)];
-        for y in 0..h {
-            let mut row = [0.0; 5];
-            for x in 0..w {
-                let [b, r] = [0, 1].map(|k| self.sums[k][y * w + x]);
-                let seen = f64::from(u8::from(b[1] > 0.0));
-                for (sum, v) in row.iter_mut().zip([b[0], r[0], b[1], r[1], seen]) {
-                    *sum += v;
-                }
-                let below = table[y * (w + 1) + x + 1];
-                table[(y + 1) * (w + 1) + x + 1] = std::array::from_fn(|k| below[k] + row[k]);
-            }
-        }
-        let mut means = vec![None; w * h];
-        for y in 0..h {
-            for x in 0..w {
-                let [x0, y0] = [x, y].map(|v| v.saturating_sub(half));
-                let (x1, y1) = ((x + half + 1).min(w), (y + half + 1).min(h));
-                let at = |x: usize, y: usize| table[y * (w + 1) + x];
-                let (a, b, c, d) = (at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1));
-                let s: [f64; 5] = std::array::from_fn(|k| d[k] - b[k] - c[k] + a[k]);
-                let all = ((2 * half + 1) * (2 * half + 1)) as f64;
-                if s[4] >= SEEN * all && s[2] > 0.0 && s[3] > 0.0 {
-                    means[y * w + x] =
-                        Some(BoxMean { contrast: [s[0] / s[2], s[1] / s[3]], variance: [1.0 / s[2], 1.0 / s[3]] });
-                }
-            }
-        }
-        Boxes { width: w, step: 2 * half + 1, means }
+        let part = |k: usize, i: usize| Sums::new(w, h, |n| self.sums[k][n][i]);
+        let seen = Sums::new(w, h, |n| f64::from(u8::from(self.sums[0][n][1] > 0.0)));
+        // Brightness and redness, their precisions, number seen.
+        let sums = [part(0, 0), part(1, 0), part(0, 1), part(1, 1), seen];
+        let all = ((2 * half + 1) * (2 * half + 1)) as f64;
+        let mean = |n: usize| {
+            let [b, r, of_b, of_r, seen] = sums.each_ref().map(|s| s.about(n, half).0);
+            (seen >= SEEN * all && of_b > 0.0 && of_r > 0.0)
+                .then(|| BoxMean { contrast: [b / of_b, r / of_r], variance: [1.0 / of_b, 1.0 / of_r] })
+        };
+        Boxes { width: w, step: 2 * half + 1, means: (0..w * h).map(mean).collect() }
     }
 }
 

@@ -13,6 +13,7 @@
 //! background: a dark patch of a seventh of it loses up to a quarter of its contrast, and beside wide dye the bed looks
 //! less red than it is.
 
+use crate::numbers::median;
 use image::RgbImage;
 use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
@@ -186,7 +187,7 @@ fn surface(blocks: &[(Terms, f64)]) -> Terms {
         };
         fit = solved.solve(&sums);
         let off: Vec<f64> = blocks.iter().map(|(t, v)| v - fit.dot(t)).collect();
-        let limit = LIMIT * 1.4826 * median(off.iter().map(|o| o.abs()).collect());
+        let limit = LIMIT * 1.4826 * median(off.iter().map(|o| o.abs())).unwrap_or(0.0);
         for (weight, off) in weights.iter_mut().zip(&off) {
             let share = if limit > 0.0 { off / limit } else { 0.0 };
             *weight = (1.0 - share * share).max(0.0).powi(2);
@@ -211,15 +212,6 @@ fn noise(values: &[f32], width: usize) -> f64 {
     }
     // A normal variable without its largest twentieth has 0.759 of its variance.
     (squares.iter().sum::<f64>() / squares.len() as f64 / (2.0 * 0.759)).sqrt()
-}
-
-/// The middle one; 0 of none.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() {
-        return 0.0;
-    }
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]
