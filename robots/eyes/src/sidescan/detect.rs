@@ -88,6 +88,20 @@ impl Window {
     }
 }
 
+/// A range grown at both ends over what is bright, below `most`, and cut at its beginning where it is not.
+fn fitted((mut from, mut to): (usize, usize), most: usize, bright: impl Fn(usize) -> bool) -> (usize, usize) {
+    while from > 0 && bright(from - 1) {
+        from -= 1;
+    }
+    while to < most && bright(to) {
+        to += 1;
+    }
+    while to - from > 1 && !bright(from) {
+        from += 1;
+    }
+    (from, to)
+}
+
 impl Side {
     fn new(picture: &Waterfall, port: bool) -> Self {
         let lines: Vec<&[f32]> = picture.rows().iter().map(|r| r.side(port)).collect();
@@ -184,32 +198,15 @@ impl Side {
 
     /// The window fitted to its highlight: a side moves out while the line beyond is at least half as bright, and in
     /// if it is not.
-    fn grown(&self, mut w: Window) -> Window {
+    fn grown(&self, w: Window) -> Window {
         let half = 0.5 * self.mean(0, w);
-        let line = |i: usize, w: &Window| self.mean(0, Window { rows: (i, i + 1), ..*w }) > half;
-        while w.rows.0 > 0 && line(w.rows.0 - 1, &w) {
-            w.rows.0 -= 1;
+        let row = |i: usize| self.mean(0, Window { rows: (i, i + 1), ..w }) > half;
+        let mut rows = fitted(w.rows, self.rows, row);
+        while rows.1 - rows.0 > 1 && !row(rows.1 - 1) {
+            rows.1 -= 1;
         }
-        while w.rows.1 < self.rows && line(w.rows.1, &w) {
-            w.rows.1 += 1;
-        }
-        while w.rows.1 - w.rows.0 > 1 && !line(w.rows.0, &w) {
-            w.rows.0 += 1;
-        }
-        while w.rows.1 - w.rows.0 > 1 && !line(w.rows.1 - 1, &w) {
-            w.rows.1 -= 1;
-        }
-        let column = |k: usize, w: &Window| self.mean(0, Window { columns: (k, k + 1), ..*w }) > half;
-        while w.columns.0 > 0 && column(w.columns.0 - 1, &w) {
-            w.columns.0 -= 1;
-        }
-        while w.columns.1 < self.columns && column(w.columns.1, &w) {
-            w.columns.1 += 1;
-        }
-        while w.columns.1 - w.columns.0 > 1 && !column(w.columns.0, &w) {
-            w.columns.0 += 1;
-        }
-        w
+        let column = |k: usize| self.mean(0, Window { rows, columns: (k, k + 1) }) > half;
+        Window { rows, columns: fitted(w.columns, self.columns, column) }
     }
 
     /// The shadow behind a highlight: it reaches outward as long as the cells are nearer to its darkness than to the

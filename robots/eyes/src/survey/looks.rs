@@ -23,7 +23,6 @@ use robots::behave::Passes;
 use robots::handoff::{Observation, PictureEvidence, Verdict};
 use robots::places::{MARGIN_M, inside};
 use robots::strategy::{AddUpSpec, CameraPasses};
-use smart_default::SmartDefault;
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 use world::math;
@@ -50,11 +49,18 @@ pub(super) enum Looks {
 }
 
 impl Looks {
-    /// Of nothing yet.
-    pub(super) fn new(spec: &CameraPasses) -> Self {
+    /// Begins with a told place; lines lie along `along`, against the flow. Points are `held` instead of lines.
+    pub(super) fn begin(
+        spec: &CameraPasses,
+        told: Vector2<f64>,
+        along: Heading,
+        seen: &Observation,
+        held: bool,
+    ) -> Self {
+        let highest_m = spec.altitude_m.get();
         match &spec.add_up {
             None => Self::Single(Verifier::new(&spec.verifier), Verdict::Unchecked),
-            Some(add_up) => Self::Added(Box::new(PictureSum::new(add_up, spec.altitude_m.get()))),
+            Some(add_up) => Self::Added(Box::new(PictureSum::begin(add_up, highest_m, told, along, seen, held))),
         }
     }
 
@@ -94,13 +100,12 @@ impl Looks {
 }
 
 /// All pictures of a place, and the lines over it.
-#[derive(Debug, SmartDefault)]
+#[derive(Debug)]
 pub(super) struct PictureSum {
     spec: AddUpSpec,
     highest_m: f64,
-    place: Option<PlacePictures>,
+    place: PlacePictures,
     told: Vector2<f64>,
-    #[default(Heading::from_deg(0.0))]
     along: Heading,
     weighed: Option<PlaceEvidence>,
     /// Sum of the jumps since the survey began, and mean of that sum over the fixes.
@@ -115,25 +120,40 @@ pub(super) struct PictureSum {
     lowest_m: f64,
     /// How far the vehicle came below the clearance, m.
     raised_m: f64,
-    #[default(FRAC_PI_2)]
     view_rad: f64,
     /// Where the camera's axis meets the bed, for each metre of height, ahead and to the left.
     looks_at: Vector2<f64>,
 }
 
 impl PictureSum {
-    fn new(spec: &AddUpSpec, highest_m: f64) -> Self {
-        let (altitude_m, lowest_m) = (highest_m, highest_m);
-        Self { spec: spec.clone(), highest_m, altitude_m, lowest_m, ..Self::default() }
-    }
-
-    /// Begins with a told place; lines lie along `along`, against the flow. Points are `held` instead of lines.
-    pub(super) fn begin(&mut self, told: Vector2<f64>, along: Heading, seen: &Observation, held: bool) {
+    fn begin(
+        spec: &AddUpSpec,
+        highest_m: f64,
+        told: Vector2<f64>,
+        along: Heading,
+        seen: &Observation,
+        held: bool,
+    ) -> Self {
         let flow = seen.estimate.flow.map(|f| f.heading());
         let down_flow = flow.unwrap_or_else(|| along.opposite());
-        *self = Self::new(&self.spec, self.highest_m);
-        (self.told, self.along, self.held) = (told, along, held);
-        self.place = Some(PlacePictures::new(&self.spec, told, down_flow));
+        Self {
+            spec: spec.clone(),
+            highest_m,
+            place: PlacePictures::new(spec, told, down_flow),
+            told,
+            along,
+            weighed: None,
+            jumped: Vector2::zeros(),
+            fixes: (0.0, Vector2::zeros()),
+            bed_m: VecDeque::new(),
+            held,
+            lines: 0,
+            altitude_m: highest_m,
+            lowest_m: highest_m,
+            raised_m: 0.0,
+            view_rad: FRAC_PI_2,
+            looks_at: Vector2::zeros(),
+        }
     }
 
     /// Height of the lines, m.
@@ -148,10 +168,8 @@ impl PictureSum {
         if e.fix_jump != Vector2::zeros() {
             let (n, mean) = self.fixes;
             self.fixes = (n + 1.0, mean + (self.jumped - mean) / (n + 1.0));
-            let told = self.middle();
-            if let Some(place) = &mut self.place {
-                place.move_to(told);
-            }
+            let middle = self.middle();
+            self.place.move_to(middle);
         }
         let Some(altitude_m) = e.altitude_m else {
             return;
@@ -193,16 +211,14 @@ impl PictureSum {
         };
         let stand =
             Stand { position: at, altitude_m: bed_m - seen.estimate.depth_m, R_WB: seen.estimate.attitude.R_WB() };
-        if let Some(place) = &mut self.place {
-            self.view_rad = picture.view_rad;
-            let axis = picture.R_BC * Vector3::z();
-            if -axis.z > STEEP {
-                self.looks_at = axis.xy() / -axis.z;
-            }
-            // A picture that says nothing is counted by the place.
-            let _ = place.add(picture, &stand);
-            self.weighed = Some(place.weigh());
+        self.view_rad = picture.view_rad;
+        let axis = picture.R_BC * Vector3::z();
+        if -axis.z > STEEP {
+            self.looks_at = axis.xy() / -axis.z;
         }
+        // A picture that says nothing is counted by the place.
+        let _ = self.place.add(picture, &stand);
+        self.weighed = Some(self.place.weigh());
     }
 
     /// The next line; `None` if no more are to be flown.
@@ -210,7 +226,7 @@ impl PictureSum {
         if self.lines >= self.spec.most_lines {
             return None;
         }
-        self.choose(self.place.as_ref().and_then(PlacePictures::clarity));
+        self.choose(self.place.clarity());
         let along = match self.lines % 2 {
             0 => self.along,
             _ => self.along.opposite(),
@@ -227,11 +243,10 @@ impl PictureSum {
         if self.lines >= self.spec.most_lines {
             return None;
         }
-        self.choose(self.place.as_ref().and_then(PlacePictures::clarity));
+        self.choose(self.place.clarity());
         self.lines += 1;
-        let unseen = self.place.as_ref().map_or_else(Vec::new, PlacePictures::unseen);
         let within_m = self.spec.within_m.get() + FARTHER_M;
-        let best = best_point(&unseen, self.middle(), within_m, self.shown_m());
+        let best = best_point(&self.place.unseen(), self.middle(), within_m, self.shown_m());
         // A camera that looks ahead shows the point from farther back.
         let left = self.along.turned(-FRAC_PI_2).unit();
         let ahead = self.along.unit() * self.looks_at.x + left * self.looks_at.y;
@@ -281,9 +296,7 @@ impl PictureSum {
 
     /// What the pictures say; unchecked without any.
     fn answer(&self) -> Verdict {
-        let pictures = self.place.as_ref().map_or(0, |place| place.pictures().iter().sum());
-        let weighed = self.weighed.as_ref().filter(|_| pictures > 0);
-        weighed.map_or(Verdict::Unchecked, |weighed| weighed.answer)
+        self.weighed.as_ref().map_or(Verdict::Unchecked, |weighed| weighed.answer)
     }
 
     /// The likeliest place of the source as the vehicle believes now, if the pictures verify one.
@@ -295,17 +308,16 @@ impl PictureSum {
     }
 
     /// What the pictures were and what they say.
-    pub(super) fn evidence(&self) -> Option<PictureEvidence> {
-        let place = self.place.as_ref()?;
-        let [pictures, useless] = place.pictures();
-        Some(PictureEvidence {
+    pub(super) fn evidence(&self) -> PictureEvidence {
+        let [pictures, useless] = self.place.pictures();
+        PictureEvidence {
             pictures: pictures as u32,
             useless: useless as u32,
             lines: self.lines,
             lowest_m: self.lowest_m,
-            visibility_m: place.clarity().map(|c| c.visibility_m()),
+            visibility_m: self.place.clarity().map(|c| c.visibility_m()),
             log_factor: self.weighed.as_ref().map_or(0.0, |w| w.log_factor),
-        })
+        }
     }
 }
 

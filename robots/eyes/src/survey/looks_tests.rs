@@ -7,8 +7,8 @@ use robots::handoff::Manoeuvre;
 
 fn begun(highest_m: f64) -> (PictureSum, Observation) {
     let o = seen(0.0, Vector2::zeros(), 0.0, Some(Vector2::new(0.0, -0.2)));
-    let mut added = PictureSum::new(&AddUpSpec::default(), highest_m);
-    added.begin(Vector2::new(10.0, 20.0), Heading::from_deg(0.0), &o, false);
+    let (place, north) = (Vector2::new(10.0, 20.0), Heading::from_deg(0.0));
+    let added = PictureSum::begin(&AddUpSpec::default(), highest_m, place, north, &o, false);
     (added, o)
 }
 
@@ -30,7 +30,7 @@ fn lines_go_to_and_fro_over_the_place_and_end() {
         assert_eq!(added.altitude_m(), 2.5);
     }
     assert!(added.next_line(14.0, &o).is_none());
-    let e = added.evidence().unwrap();
+    let e = added.evidence();
     assert_eq!((e.lines, e.pictures, e.visibility_m), (8, 0, None));
 }
 

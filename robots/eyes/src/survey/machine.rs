@@ -44,7 +44,7 @@ pub struct Flown {
     spec: SurveySpec,
     /// Whether the places were told, and are not declared by the vehicle itself.
     told: bool,
-    /// What the camera has seen; `None` without passes for it.
+    /// What the camera has seen; `None` before its passes, and without any.
     looks: Option<Looks>,
     phase: SurveyPhase,
     declaration: Option<Declaration>,
@@ -93,8 +93,9 @@ impl Flown {
     fn begin_camera(&mut self, place: Vector2<f64>, seen: &Observation) {
         self.phase = SurveyPhase::Camera;
         let holding = self.holding(seen);
-        if let Some(Looks::Added(added)) = &mut self.looks {
-            added.begin(place, self.along, seen, holding.is_some());
+        let held = holding.is_some();
+        self.looks = self.spec.camera.as_ref().map(|c| Looks::begin(c, place, self.along, seen, held));
+        if let Some(Looks::Added(_)) = self.looks {
             self.fly_on(seen);
         } else {
             let lines = self.spec.camera.as_ref().map(|p| (&p.offsets_m[..], p.half_length_m));
@@ -199,7 +200,7 @@ impl Survey for Flown {
         self.objects.clear();
         self.line = None;
         self.by_sidescan = Verdict::Unchecked;
-        self.looks = self.spec.camera.as_ref().map(Looks::new);
+        self.looks = None;
         self.begin_sidescan(declaration.position, seen);
     }
 
@@ -239,7 +240,7 @@ impl Survey for Flown {
                     self.phase = SurveyPhase::None;
                     let verdict = self.verdict();
                     if let (Some(Looks::Added(added)), Some(d)) = (&self.looks, &mut self.declaration) {
-                        d.looked = added.evidence();
+                        d.looked = Some(added.evidence());
                         d.surveyed = added.found().or(d.surveyed);
                     }
                     let over = self.declaration.take().unwrap_or(declared);

@@ -47,13 +47,18 @@ fn mean_about(sums: &Sums, at: usize, reach: usize) -> f64 {
 }
 
 /// Mean of a quantity over some pixels; `None` if there are none.
-fn mean(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f64) -> Option<f64> {
+pub(super) fn mean(pixels: usize, of: impl Fn(usize) -> bool, value: impl Fn(usize) -> f64) -> Option<f64> {
     let (mut sum, mut n) = (0.0, 0_u64);
     for at in (0..pixels).filter(|at| of(*at)) {
         sum += value(at);
         n += 1;
     }
     (n > 0).then(|| sum / n as f64)
+}
+
+/// Of two means the first less the second; 0 if there is not either.
+pub(super) fn difference(a: Option<f64>, b: Option<f64>) -> f64 {
+    a.zip(b).map_or(0.0, |(a, b)| a - b)
 }
 
 impl DyeLook {
@@ -90,9 +95,8 @@ impl DyeLook {
                     let share = mean_about(&count, at, reach(STRIP));
                     inside[at] == inner && if inner { share < 1.0 } else { share > 0.0 }
                 };
-                let differ = |a: Option<f64>, b: Option<f64>| a.zip(b).map_or(0.0, |(a, b)| a - b);
-                let whole = differ(mean(n, |at| inside[at], redness), mean(n, |at| !inside[at], redness));
-                let step = differ(mean(n, |at| strip(at, true), redness), mean(n, |at| strip(at, false), redness));
+                let whole = difference(mean(n, |at| inside[at], redness), mean(n, |at| !inside[at], redness));
+                let step = difference(mean(n, |at| strip(at, true), redness), mean(n, |at| strip(at, false), redness));
                 step / whole.max(1e-3)
             }),
         }

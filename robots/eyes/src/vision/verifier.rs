@@ -18,7 +18,7 @@
 //! 120`), where all but one picture without a source have scores below 0.94 of it.
 
 use super::blobs::{Blob, blobs};
-use super::dye_look::{DyeLook, shares};
+use super::dye_look::{DyeLook, difference, mean, shares};
 use super::level::levelled;
 use super::passes::{Pass, Segmentation, Target, segment};
 use image::{GrayImage, RgbImage};
@@ -204,27 +204,16 @@ fn least(grades: &[(Lack, f64)]) -> (Lack, f64) {
     (grades.iter().copied()).reduce(|a, b| if b.1 < a.1 { b } else { a }).expect("there are some")
 }
 
-/// Share of red in a pixel's recorded light; a third for black.
-fn red(p: [u8; 3]) -> f64 {
-    shares(p.map(f64::from))[0]
-}
-
 fn brightness(p: [u8; 3]) -> f64 {
     p.into_iter().map(f64::from).sum()
 }
 
 /// Mean share of red inside the mask less that outside it; 0 if either is empty.
 fn redness(picture: &RgbImage, mask: &GrayImage) -> f64 {
-    let (mut sum, mut n) = ([0.0; 2], [0_u64; 2]);
-    for (pixel, m) in picture.pixels().zip(mask.pixels()) {
-        let inside = usize::from(m.0[0] > 0);
-        sum[inside] += red(pixel.0);
-        n[inside] += 1;
-    }
-    if n[0] == 0 || n[1] == 0 {
-        return 0.0;
-    }
-    sum[1] / n[1] as f64 - sum[0] / n[0] as f64
+    let (levels, mask) = (picture.as_raw(), mask.as_raw());
+    let red = |at: usize| shares([0, 1, 2].map(|k| f64::from(levels[3 * at + k])))[0];
+    let all = mask.len();
+    difference(mean(all, |at| mask[at] > 0, red), mean(all, |at| mask[at] == 0, red))
 }
 
 /// By what share the source's colours in the patch's frame are darker than the rest of a frame twice as large.

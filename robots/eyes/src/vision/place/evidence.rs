@@ -20,6 +20,7 @@
 use super::mosaic::{BoxMean, Boxes, Mosaic};
 use nalgebra::Vector2;
 use robots::handoff::Verdict;
+use robots::strategy::AddUpSpec;
 use world::math;
 use world::units::Heading;
 
@@ -49,13 +50,6 @@ const STEP_M: f64 = 0.2;
 /// How far beyond the sought places the template reaches, m.
 pub(super) const REACH_M: f64 = 3.6;
 
-/// The limits of the logarithm of the Bayes factor.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Limits {
-    pub(super) verify_at: f64,
-    pub(super) reject_at: f64,
-}
-
 /// The evidence of all pictures of a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceEvidence {
@@ -76,15 +70,14 @@ impl PlaceEvidence {
     }
 }
 
-/// Weighs a mosaic for sources within `within_m` of `place`, with water going along `down_flow`.
+/// Weighs a mosaic for sources about `place`, with water going along `down_flow`.
 pub(super) fn weigh(
     mosaic: Option<&Mosaic>,
     place: Vector2<f64>,
-    within_m: f64,
     down_flow: Heading,
-    limits: Limits,
+    spec: &AddUpSpec,
 ) -> PlaceEvidence {
-    let mut places = tried(place, within_m);
+    let mut places = tried(place, spec.within_m.get());
     let Some(mosaic) = mosaic else {
         return PlaceEvidence::blank(places);
     };
@@ -114,9 +107,9 @@ pub(super) fn weigh(
     }
     let log_factor = log_mean(places.iter().map(|(_, log)| *log));
     let best = (places.iter().copied()).reduce(|a, b| if b.1 > a.1 { b } else { a });
-    let answer = if log_factor >= limits.verify_at {
+    let answer = if log_factor >= spec.verify_at.get() {
         Verdict::Verified
-    } else if log_factor <= -limits.reject_at {
+    } else if log_factor <= -spec.reject_at.get() {
         Verdict::Rejected
     } else {
         Verdict::CannotTell

@@ -8,7 +8,7 @@
 //! `shift_m` against the navigation.
 
 use super::clarity::SeenClarity;
-use super::evidence::{Limits, PlaceEvidence, REACH_M, unseen, weigh};
+use super::evidence::{PlaceEvidence, REACH_M, unseen, weigh};
 use super::ground::{Patch, Stand};
 use super::mosaic::Mosaic;
 use super::photometry::Useless;
@@ -109,8 +109,6 @@ impl PlacePictures {
 
     /// What the pictures say.
     pub fn weigh(&self) -> PlaceEvidence {
-        let limits = Limits { verify_at: self.spec.verify_at.get(), reject_at: self.spec.reject_at.get() };
-        let (place, within_m) = (self.place, self.spec.within_m.get());
-        weigh(self.mosaic().as_ref(), place, within_m, self.down_flow, limits)
+        weigh(self.mosaic().as_ref(), self.place, self.down_flow, &self.spec)
     }
 }

@@ -8,8 +8,7 @@
 //! *Deviations*: the bed is a level plane at the measured altitude; what stands above it appears farther from the
 //! camera's foot than it is, by its height over the camera's height above it.
 
-use super::photometry::{Contrasts, Useless, contrasts};
-use crate::numbers::median;
+use super::photometry::{Contrasts, Useless, contrasts, middle};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::Picture;
 use world::math;
@@ -97,13 +96,11 @@ impl Patch {
 
 /// Spread of the cells' brightness, without that of the noise, and the noise of a cell.
 fn texture(cells: &[GroundCell], c: &Contrasts) -> [f64; 2] {
-    let middle_of =
-        |of: &dyn Fn(&GroundCell) -> f64, cells: &[&GroundCell]| median(cells.iter().map(|s| of(s))).unwrap_or(0.0);
-    let full = 0.5 * median(cells.iter().map(|s| s.pixels)).unwrap_or(0.0);
+    let full = 0.5 * middle(cells.iter().map(|s| s.pixels));
     let whole: Vec<&GroundCell> = cells.iter().filter(|s| s.pixels >= full).collect();
-    let middle = middle_of(&|s| s.mean[0], &whole);
-    let spread = 1.4826 * middle_of(&|s| (s.mean[0] - middle).abs(), &whole);
-    let pixels = middle_of(&|s| s.pixels, &whole).max(1.0);
+    let level = middle(whole.iter().map(|s| s.mean[0]));
+    let spread = 1.4826 * middle(whole.iter().map(|s| (s.mean[0] - level).abs()));
+    let pixels = middle(whole.iter().map(|s| s.pixels)).max(1.0);
     let noise = c.noise[0] / pixels.sqrt();
     [(spread * spread - noise * noise).max(0.0).sqrt(), noise]
 }

@@ -187,7 +187,7 @@ fn surface(blocks: &[(Terms, f64)]) -> Terms {
         };
         fit = solved.solve(&sums);
         let off: Vec<f64> = blocks.iter().map(|(t, v)| v - fit.dot(t)).collect();
-        let limit = LIMIT * 1.4826 * median(off.iter().map(|o| o.abs())).unwrap_or(0.0);
+        let limit = LIMIT * 1.4826 * middle(off.iter().map(|o| o.abs()));
         for (weight, off) in weights.iter_mut().zip(&off) {
             let share = if limit > 0.0 { off / limit } else { 0.0 };
             *weight = (1.0 - share * share).max(0.0).powi(2);
@@ -212,6 +212,11 @@ fn noise(values: &[f32], width: usize) -> f64 {
     }
     // A normal variable without its largest twentieth has 0.759 of its variance.
     (squares.iter().sum::<f64>() / squares.len() as f64 / (2.0 * 0.759)).sqrt()
+}
+
+/// The middle one; 0 of none.
+pub(super) fn middle(values: impl Iterator<Item = f64>) -> f64 {
+    median(values).unwrap_or(0.0)
 }
 
 #[cfg(test)]
