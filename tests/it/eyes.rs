@@ -1,11 +1,11 @@
 //! Pictures of a place that are rendered and added up: what they say of water and source.
 
-use eyes::camera::{CameraModel, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render};
+use eyes::camera::{ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, render};
 use eyes::vision::place::{PlacePictures, Stand, Useless};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::{Picture, Verdict};
-use robots::sense::{CameraSpec, turned};
+use robots::sense::{CameraSpec, looking, turned};
 use robots::strategy::AddUpSpec;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -81,12 +81,7 @@ impl Sea {
         });
         let obstacles = Obstacles(body.into_iter().collect());
         let scene = Scene { terrain: &BED, obstacles: &obstacles, dye: &self.dye, optics: &optics };
-        let camera = CameraModel::new(&CameraSpec {
-            width: 48,
-            height: 36,
-            view_deg: Positive::new(90.0),
-            ..CameraSpec::default()
-        });
+        let camera = CameraSpec { width: 48, height: 36, view_deg: Positive::new(90.0), ..CameraSpec::default() };
         let one = |(n, at): (usize, &[f64; 3])| {
             let [east, north, altitude_m] = *at;
             let pose = looking(Vector3::new(east, north, altitude_m - 8.0), 0.0, FRAC_PI_2);

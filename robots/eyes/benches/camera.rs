@@ -3,9 +3,9 @@
 //! `cargo bench -p rheotaxis-eyes --bench camera`
 
 use divan::Bencher;
-use eyes::camera::{CameraModel, ClaritySpec, Optics, OpticsSpec, Scene, looking, render};
+use eyes::camera::{ClaritySpec, Optics, OpticsSpec, Scene, render};
 use nalgebra::Vector3;
-use robots::sense::CameraSpec;
+use robots::sense::{CameraSpec, looking};
 use std::path::Path;
 use world::fields::{Clean, Concentration};
 use world::math;
@@ -84,7 +84,7 @@ fn picture(bencher: Bencher, (water, visibility_m): (&str, f64)) {
         dye: if water == "plume" { &puffs } else { &Clean },
         optics: &optics,
     };
-    let camera = CameraModel::new(&CameraSpec::default());
+    let camera = CameraSpec::default();
     let pose_WC = looking(Vector3::new(4.5, -2.6, -4.8), 1.57, 0.15);
     bencher.bench_local(|| render(&camera, &pose_WC, &scene, 1));
 }

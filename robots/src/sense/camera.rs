@@ -7,12 +7,12 @@
 //!
 //! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 
-use super::camera_spec::CameraSpec;
+use super::camera_spec::{CameraSpec, turned};
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::{RobotError, require};
 use crate::handoff::{Picture, Readings};
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};
@@ -113,18 +113,8 @@ impl Camera {
         let noise = self.key.wrapping_add(self.taken);
         self.taken += 1;
         let image = around.imaging.picture(&self.spec, &pose_WC, around, noise);
-        let view_rad = self.spec.view_deg.get().to_radians();
-        Some(Picture { image: Arc::new(image), p_BC: self.p_BC, R_BC: self.R_BC, view_rad })
+        Some(Picture { image: Arc::new(image), p_BC: self.p_BC, R_BC: self.R_BC, view_rad: self.spec.view_rad() })
     }
-}
-
-/// Rotation from camera axes to those of a body (FLU), for a camera turned to the left and down from the body's x
-/// axis, rad.
-pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
-    // Camera x, y, z are the body's right, down and forward.
-    let forward = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
-    UnitQuaternion::from_euler_angles(0.0, tilt_rad, pan_rad)
-        * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(forward))
 }
 
 #[cfg(test)]

@@ -24,8 +24,8 @@ mod tools;
 
 pub use adcp::{Adcp, AdcpSpec, Look};
 pub use altimeter::{Altimeter, AltimeterSpec};
-pub use camera::{Camera, turned};
-pub use camera_spec::{CameraSpec, LampSpec, SensorSpec};
+pub use camera::Camera;
+pub use camera_spec::{CameraSpec, LampSpec, SensorSpec, looking, turned};
 pub use catalogue::PARTS;
 pub use compass::{Compass, CompassSpec};
 pub use ctd::{Ctd, CtdSpec};

@@ -4,8 +4,8 @@
 //!
 //! ```
 //! use nalgebra::Vector3;
-//! use eyes::camera::{CameraModel, Optics, OpticsSpec, Scene, looking, render};
-//! use robots::sense::CameraSpec;
+//! use eyes::camera::{Optics, OpticsSpec, Scene, render};
+//! use robots::sense::{CameraSpec, looking};
 //! use world::{fields::Clean, obstacles::Obstacles, terrain::Terrain};
 //!
 //! // Clarity, light, dye and bed: every field has a default; murkiness is `clarity.visibility_m`.
@@ -16,7 +16,7 @@
 //!     dye: &Clean,                      // anything that is a `Concentration`, kg/m³
 //!     optics: &optics,
 //! };
-//! let camera = CameraModel::new(&CameraSpec { width: 64, height: 48, ..CameraSpec::default() });
+//! let camera = CameraSpec { width: 64, height: 48, ..CameraSpec::default() };
 //! // At (0, 0, -4) m, looking east and 20° down; the last number is the noise's seed.
 //! let pose_WC = looking(Vector3::new(0.0, 0.0, -4.0), 0.0, 20f64.to_radians());
 //! let made = render(&camera, &pose_WC, &scene, 1);
@@ -32,7 +32,6 @@ mod clarity;
 mod dye;
 mod dye_grid;
 mod light;
-mod model;
 mod render;
 mod scene;
 mod sensor;
@@ -44,6 +43,5 @@ mod waters;
 pub use clarity::{Clarity, ClaritySpec};
 pub use dye::{Dye, DyeSpec};
 pub use light::{Light, LightSpec};
-pub use model::{CameraModel, looking};
 pub use render::{PixelTruth, RenderedPicture, render};
 pub use scene::{Optics, OpticsSpec, Scene};

@@ -3,12 +3,11 @@
 //! *Source:* image formation under water: light from a surface, attenuated, plus the veil before it (McGlamery 1980,
 //! Proc. SPIE 208, 221; Jaffe 1990, IEEE J. Oceanic Eng. 15, 101); the parts are in the files beside this one.
 //!
-//! *Parameters:* those of the camera ([`CameraModel`]) and of the scene ([`Optics`]).
+//! *Parameters:* those of the camera ([`CameraSpec`]) and of the scene ([`Optics`]).
 //!
 //! *Deviations:* Jaffe's blur by forward scattering is left out.
 
 use super::bands::{GREEN, Rgb, each, see};
-use super::model::CameraModel;
 use super::scene::{End, Kind, Optics, Scene};
 use super::sensor::ExposedSensor;
 use super::volume::{Lamp, Volume};
@@ -45,7 +44,7 @@ pub struct RenderedPicture {
 }
 
 /// Takes a picture of `scene` with a camera of the pose `pose_WC`; the sensor's noise depends only on `noise`.
-pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> RenderedPicture {
+pub fn render(camera: &CameraSpec, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> RenderedPicture {
     let lamp = camera.lamp.as_ref().map(|l| Lamp::new(l, pose_WC));
     let volume = Volume::new(camera, pose_WC, scene, lamp.as_ref());
     let (o, from) = (scene.optics, pose_WC.p_WB);
@@ -94,7 +93,7 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
 impl Imaging for Optics {
     fn picture(&self, camera: &CameraSpec, pose_WC: &Pose, around: &Surroundings, noise: u64) -> RgbImage {
         let scene = Scene { terrain: around.terrain, obstacles: around.obstacles, dye: around.dye, optics: self };
-        render(&CameraModel::new(camera), pose_WC, &scene, noise).image
+        render(camera, pose_WC, &scene, noise).image
     }
 }
 

@@ -4,7 +4,7 @@ use super::bands::{GREEN, N, Rgb, each, see};
 use super::light::{SCATTER_COSINE, phase};
 use super::*;
 use nalgebra::Vector3;
-use robots::sense::{CameraSpec, LampSpec};
+use robots::sense::{CameraSpec, LampSpec, looking};
 use std::f64::consts::PI;
 use std::path::Path;
 use world::fields::{Clean, Concentration};
@@ -64,8 +64,8 @@ fn no_scattering(spec: &mut OpticsSpec) {
 }
 
 /// 41 × 31 pixels: the middle one looks along the axis.
-fn camera() -> CameraModel {
-    CameraModel::new(&CameraSpec { width: 41, height: 31, ..CameraSpec::default() })
+fn camera() -> CameraSpec {
+    CameraSpec { width: 41, height: 31, ..CameraSpec::default() }
 }
 
 /// 5 m down, looking east on the level.
@@ -162,7 +162,7 @@ fn a_lamp_alone_lights_by_the_square_of_the_distance_and_both_ways_through_the_w
         no_scattering(s);
         s.light.illuminance_klux = Positive::new(1e-12);
     });
-    let camera = CameraModel { lamp: Some(LampSpec { right_m: Finite::new(0.0), ..LampSpec::default() }), ..camera() };
+    let camera = CameraSpec { lamp: Some(LampSpec { right_m: Finite::new(0.0), ..LampSpec::default() }), ..camera() };
     let walls = wall(0.3);
     let scene = Scene { terrain: &DEEP, obstacles: &walls, dye: &Clean, optics: &o };
     let got = middle(&render(&camera, &level(), &scene, 0));
@@ -255,7 +255,7 @@ fn a_picture_repeats_bit_for_bit_and_its_noise_follows_its_seed_alone() {
 fn any_size_of_picture_can_be_made() {
     let o = Optics::new(&OpticsSpec::default()).unwrap();
     for (width, height) in [(1, 1), (1, 7), (160, 3), (3, 161)] {
-        let camera = CameraModel { width, height, ..camera() };
+        let camera = CameraSpec { width, height, ..camera() };
         let scene = Scene {
             terrain: &BED,
             obstacles: &Obstacles::default(),

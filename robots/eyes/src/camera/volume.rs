@@ -14,10 +14,9 @@
 use super::bands::{N, Rgb, Spectrum, each, see};
 use super::dye_grid::{DyeGrid, Lines};
 use super::light::{SCATTER_COSINE, phase};
-use super::model::CameraModel;
 use super::scene::{Optics, Scene};
 use nalgebra::Vector3;
-use robots::sense::LampSpec;
+use robots::sense::{CameraSpec, LampSpec};
 use std::f64::consts::{LN_2, PI};
 use world::frames::Pose;
 use world::math;
@@ -92,7 +91,7 @@ impl Volume {
     }
 
     /// Follows the lines of sight of a camera through the scene's water.
-    pub(super) fn new(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, lamp: Option<&Lamp>) -> Self {
+    pub(super) fn new(camera: &CameraSpec, pose_WC: &Pose, scene: &Scene<'_>, lamp: Option<&Lamp>) -> Self {
         let range = Self::range_m(scene.optics);
         let tile = camera.width.max(camera.height).div_ceil(TILES);
         let n = [camera.width, camera.height].map(|n| n.div_ceil(tile) as usize + 1);

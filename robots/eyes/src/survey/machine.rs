@@ -33,7 +33,6 @@ use world::units::Heading;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum SurveyPhase {
     #[default]
-    None,
     Sidescan,
     Camera,
 }
@@ -47,6 +46,7 @@ pub struct Flown {
     /// What the camera has seen; `None` before its passes, and without any.
     looks: Option<Looks>,
     phase: SurveyPhase,
+    /// The place that is surveyed; `None` while no passes are flown.
     declaration: Option<Declaration>,
     #[default(Heading::from_deg(0.0))]
     along: Heading,
@@ -213,7 +213,6 @@ impl Survey for Flown {
         match self.phase {
             SurveyPhase::Sidescan => self.image(seen, on),
             SurveyPhase::Camera => self.look(seen, on),
-            SurveyPhase::None => {}
         }
         let mut arrived = arrived;
         loop {
@@ -231,31 +230,28 @@ impl Survey for Flown {
                 SurveyPhase::Sidescan => {
                     self.end_line();
                     let place = self.place(declared.position);
-                    if let Some(d) = &mut self.declaration {
-                        d.surveyed = place;
-                    }
+                    self.declaration = Some(Declaration { surveyed: place, ..declared });
                     self.begin_camera(place.unwrap_or(declared.position), seen);
                 }
-                SurveyPhase::Camera | SurveyPhase::None => {
-                    self.phase = SurveyPhase::None;
-                    let verdict = self.verdict();
-                    if let (Some(Looks::Added(added)), Some(d)) = (&self.looks, &mut self.declaration) {
-                        d.looked = Some(added.evidence());
-                        d.surveyed = added.found().or(d.surveyed);
+                SurveyPhase::Camera => {
+                    let mut over = self.declaration.take().unwrap_or(declared);
+                    over.verdict = self.verdict();
+                    if let Some(Looks::Added(added)) = &self.looks {
+                        over.looked = Some(added.evidence());
+                        over.surveyed = added.found().or(over.surveyed);
                     }
-                    let over = self.declaration.take().unwrap_or(declared);
-                    return Progress::Over(Declaration { verdict, ..over });
+                    return Progress::Over(over);
                 }
             }
         }
     }
 
     fn vertical(&self) -> Option<Vertical> {
+        self.declaration?;
         let altitude_m = match (self.phase, &self.looks) {
             (SurveyPhase::Sidescan, _) => self.spec.sidescan.as_ref()?.altitude_m.get(),
             (SurveyPhase::Camera, Some(Looks::Added(added))) => added.altitude_m(),
             (SurveyPhase::Camera, _) => self.spec.camera.as_ref()?.altitude_m.get(),
-            (SurveyPhase::None, _) => return None,
         };
         Some(Vertical::Altitude(altitude_m))
     }
