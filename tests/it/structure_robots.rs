@@ -28,8 +28,8 @@ fn stages_meet_only_in_handoff() {
     }
 }
 
-/// A survey, like a strategy, composes what looks at pictures and echoes. None of these sees the truth: they know neither what
-/// makes pictures nor the instruments.
+/// A survey, like a strategy, composes what looks at pictures and echoes. None of these sees the truth: they know
+/// neither what makes pictures nor the instruments.
 #[test]
 fn what_looks_does_not_know_what_is_seen() {
     let rooms = ["sidescan", "survey", "vision"];

@@ -33,8 +33,8 @@ impl Sums {
         sum(right, bottom) - sum(right, top) - sum(left, bottom) + sum(left, top)
     }
 
-    /// The sum over the square that reaches so far to all sides of cell number `at`, without what is outside the table, and
-    /// its number of cells.
+    /// The sum over the square that reaches so far to all sides of cell number `at`, without what is outside the table,
+    /// and its number of cells.
     pub(crate) fn about(&self, at: usize, reach: usize) -> (f64, usize) {
         let side = |v: usize, end: usize| (v.saturating_sub(reach), (v + reach + 1).min(end));
         let (columns, rows) = (side(at % self.width, self.width), side(at / self.width, self.height));

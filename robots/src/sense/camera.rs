@@ -3,7 +3,8 @@
 //! *Source:* a still camera triggered at a declaration or a last detection: Tian
 //! et al. 2013, Sensors 13, 3776, section 6.
 //!
-//! *Parameters:* `rate_hz` most pictures per second, 1 Hz; the others are those of the picture, which [`Imaging`](super::Imaging) makes.
+//! *Parameters:* `rate_hz` most pictures per second, 1 Hz; the others are those of the picture, which
+//! [`Imaging`](super::Imaging) makes.
 //!
 //! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 

@@ -1,7 +1,7 @@
 //! A pinhole camera: the direction of each pixel, its sensor, and the lamp beside it.
 //!
 //! *Source:* the pinhole camera of any text on computer vision, e.g. Hartley & Zisserman 2003, Multiple View
-//! Geometry, section 6.1.
+//! Geometry, section 6.1. Its axes: x right in the picture, y down, z into the scene.
 //!
 //! *Parameters:* `width`, `height` in pixels 640 × 480; `view_deg` full horizontal angle of view in the water 60°;
 //! `pan_deg` to the left and `tilt_deg` down from the mount's x axis, 0° and 20°; `lamp`: luminous intensity on its
@@ -19,7 +19,7 @@ use world::frames::Pose;
 use world::math;
 use world::ranges::{Finite, Fraction, NonNegative, Positive};
 
-/// Parameters of a camera. Camera axes: x right in the picture, y down, z into the scene.
+/// Parameters of a camera.
 #[derive(Clone, Debug, SmartDefault, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
@@ -127,8 +127,8 @@ pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
         * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(forward))
 }
 
-/// Pose of a camera in the world (its axes: see [`CameraSpec`]) at a place, looking along a yaw (rad, from east to
-/// the left) and an angle down from the horizon (rad).
+/// Pose of a camera in the world (its axes: x right in the picture, y down, z into the scene) at a place, looking along
+/// a yaw (rad, from east to the left) and an angle down from the horizon (rad).
 pub fn looking(p_W: Vector3<f64>, yaw_rad: f64, down_rad: f64) -> Pose {
     Pose { p_WB: p_W, R_WB: turned(yaw_rad, down_rad) }
 }
