@@ -14,7 +14,7 @@ from email.message import Message
 from pathlib import Path
 
 #: The crates that the source distribution must hold, by their folders in it.
-CRATES = ("world", "plumes", "robots", "scenarios/simulation", "scenarios/output", "scenarios/python")
+CRATES = ("world", "plumes", "robots", "robots/eyes", "scenarios/simulation", "scenarios/output", "scenarios/python")
 EXTRAS = {"gym", "look", "pettingzoo", "sb3", "test"}
 
 root = Path(__file__).parents[1]

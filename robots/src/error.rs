@@ -32,7 +32,7 @@ impl RobotError {
 ///
 /// # Errors
 /// If it does not hold.
-pub(crate) fn require(holds: bool, field: impl Into<String>, problem: impl Into<String>) -> Result<(), RobotError> {
+pub fn require(holds: bool, field: impl Into<String>, problem: impl Into<String>) -> Result<(), RobotError> {
     if holds { Ok(()) } else { Err(RobotError::invalid(field, problem)) }
 }
 

@@ -20,7 +20,5 @@ pub mod plan;
 pub mod searcher;
 pub mod sense;
 pub mod strategy;
-pub mod survey;
 pub mod track;
 pub mod vehicles;
-pub mod vision;

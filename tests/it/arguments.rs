@@ -4,8 +4,8 @@ use super::common::rheotaxis;
 use clap::{CommandFactory, Parser};
 use command::{Args, CacheCommandArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed};
 use rheotaxis::registry::{Group, Registry, sections};
+use robots::strategy::{ColourSpec, Edges, VerifierSpec};
 use robots::vehicles::SHIPPED;
-use robots::vision::{ColourSpec, Edges, VerifierSpec};
 
 fn parsed(args: &[&str]) -> Option<Command> {
     let all = ["rheotaxis"].iter().chain(args);

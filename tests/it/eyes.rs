@@ -1,12 +1,12 @@
 //! Pictures of a place that are rendered and added up: what they say of water and source.
 
+use eyes::camera::{ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, render};
+use eyes::vision::place::{PlacePictures, Stand, Useless};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::Picture;
-use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render, turned,
-};
-use robots::vision::place::{AddUpSpec, PlacePictures, PlaceVerdict, Stand, Useless};
+use robots::handoff::{Picture, Verdict};
+use robots::sense::{CameraSpec, looking, turned};
+use robots::strategy::AddUpSpec;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use std::sync::Arc;
@@ -81,12 +81,7 @@ impl Sea {
         });
         let obstacles = Obstacles(body.into_iter().collect());
         let scene = Scene { terrain: &BED, obstacles: &obstacles, dye: &self.dye, optics: &optics };
-        let camera = CameraModel::new(&CameraSpec {
-            width: 48,
-            height: 36,
-            view_deg: Positive::new(90.0),
-            ..CameraSpec::default()
-        });
+        let camera = CameraSpec { width: 48, height: 36, view_deg: Positive::new(90.0), ..CameraSpec::default() };
         let one = |(n, at): (usize, &[f64; 3])| {
             let [east, north, altitude_m] = *at;
             let pose = looking(Vector3::new(east, north, altitude_m - 8.0), 0.0, FRAC_PI_2);
@@ -141,7 +136,7 @@ fn all_pictures_of_a_line_verify_a_source_and_find_its_place() {
     let mut place = place(3.0);
     add(&mut place, &source(8.0).pictures(&line(0.0, 2.5), 1));
     let said = place.weigh();
-    assert_eq!(said.answer, PlaceVerdict::Verified, "{:.1}", said.log_factor);
+    assert_eq!(said.answer, Verdict::Verified, "{:.1}", said.log_factor);
     let off = said.best.expect("a place").norm();
     assert!(off < 0.7, "{off}");
 }
@@ -165,20 +160,20 @@ fn what_is_no_source_is_rejected_or_left_open() {
         let said = place.weigh();
         // Dye that passes by as a wide band is partly taken for background: it may stay open.
         let may = if what == "rock in passing dye" {
-            [PlaceVerdict::Rejected, PlaceVerdict::CannotTell]
+            [Verdict::Rejected, Verdict::CannotTell]
         } else {
-            [PlaceVerdict::Rejected; 2]
+            [Verdict::Rejected; 2]
         };
         assert!(may.contains(&said.answer) && said.log_factor < 0.0, "{what}: {:.1}", said.log_factor);
     }
     let mut murky = place(2.0);
     add(&mut murky, &source(1.2).pictures(&line(0.0, 2.5), 1));
     let said = murky.weigh();
-    assert_eq!(said.answer, PlaceVerdict::CannotTell, "{:.1}", said.log_factor);
+    assert_eq!(said.answer, Verdict::CannotTell, "{:.1}", said.log_factor);
     let mut elsewhere = place(3.0);
     add(&mut elsewhere, &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1));
     let said = elsewhere.weigh();
-    assert_eq!(said.answer, PlaceVerdict::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
+    assert_eq!(said.answer, Verdict::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
 }
 
 /// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no more
@@ -190,7 +185,7 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     let mut place = place(2.0);
     add(&mut place, &passes[0]);
     let once = place.weigh();
-    assert_eq!(once.answer, PlaceVerdict::CannotTell, "{:.1}", once.log_factor);
+    assert_eq!(once.answer, Verdict::CannotTell, "{:.1}", once.log_factor);
     let mut copied = place.clone();
     for _ in 1..4 {
         add(&mut copied, &passes[0]);
@@ -202,7 +197,7 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     }
     let all = place.weigh();
     assert!(all.log_factor > once.log_factor + 1.0, "{} {}", all.log_factor, once.log_factor);
-    assert_eq!(all.answer, PlaceVerdict::Verified, "{:.1}", all.log_factor);
+    assert_eq!(all.answer, Verdict::Verified, "{:.1}", all.log_factor);
 }
 
 /// The second pass believes itself 0.6 m farther north than it is; half of that at least is taken out.
@@ -222,7 +217,7 @@ fn overlap_takes_out_an_error_of_the_navigation() {
 fn pictures_of_nothing_leave_it_open() {
     let stand = Stand { position: Vector2::zeros(), altitude_m: 2.0, R_WB: UnitQuaternion::identity() };
     let mut place = place(2.0);
-    assert_eq!(place.weigh().answer, PlaceVerdict::CannotTell);
+    assert_eq!(place.weigh().answer, Verdict::CannotTell);
     let plain = |w, h, level: u8| shown(RgbImage::from_pixel(w, h, Rgb([level; 3])));
     for (picture, why) in [
         (plain(0, 0, 0), Useless::Empty),
@@ -241,5 +236,5 @@ fn pictures_of_nothing_leave_it_open() {
     assert_eq!(place.add(&picture, &up), Err(Useless::Empty));
     assert_eq!(place.pictures(), [0, 7]);
     let said = place.weigh();
-    assert_eq!((said.answer, said.log_factor), (PlaceVerdict::CannotTell, 0.0));
+    assert_eq!((said.answer, said.log_factor), (Verdict::CannotTell, 0.0));
 }

@@ -5,10 +5,11 @@ use crate::structure::sources;
 use std::fs;
 
 /// The crates, as folders of the workspace.
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "world",
     "plumes",
     "robots",
+    "robots/eyes",
     "scenarios/simulation",
     "scenarios/output",
     "scenarios/studies",

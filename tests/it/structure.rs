@@ -61,22 +61,24 @@ pub(crate) fn naming<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
 }
 
 /// All crates with their folders, each after those it may know.
-const CRATES: [(&str, &str, &[&str]); 8] = [
+const CRATES: [(&str, &str, &[&str]); 9] = [
     ("world", "world", &[]),
     ("plumes", "plumes", &["world"]),
     ("robots", "robots", &["world"]),
-    ("rheotaxis", "scenarios/simulation", &["plumes", "robots", "world"]),
-    ("output", "scenarios/output", &["plumes", "rheotaxis", "robots", "world"]),
-    ("studies", "scenarios/studies", &["output", "plumes", "rheotaxis", "robots", "world"]),
-    ("command", "scenarios/command", &["output", "plumes", "rheotaxis", "robots", "studies", "world"]),
+    ("eyes", "robots/eyes", &["robots", "world"]),
+    ("rheotaxis", "scenarios/simulation", &["eyes", "plumes", "robots", "world"]),
+    ("output", "scenarios/output", &["eyes", "plumes", "rheotaxis", "robots", "world"]),
+    ("studies", "scenarios/studies", &["eyes", "output", "plumes", "rheotaxis", "robots", "world"]),
+    ("command", "scenarios/command", &["eyes", "output", "plumes", "rheotaxis", "robots", "studies", "world"]),
     ("rheotaxis-python", "scenarios/python", &["output", "rheotaxis", "robots", "world"]),
 ];
 
 /// The `src` folders of all crates.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "world/src",
     "plumes/src",
     "robots/src",
+    "robots/eyes/src",
     "scenarios/simulation/src",
     "scenarios/output/src",
     "scenarios/studies/src",

@@ -1,15 +1,14 @@
-//! The never-rules that hold for the searchers, the crate `robots`, checked from its sources.
+//! The never-rules that hold for the searchers, the crates `robots` and `eyes`, checked from their sources.
 
 use crate::structure::{naming, sources};
 
 #[test]
 fn stages_meet_only_in_handoff() {
-    let stages =
-        ["sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track", "survey", "vision"];
+    let stages = ["sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track"];
     for (file, text) in sources("robots/src") {
         let stage = file.split('/').nth(2).unwrap();
-        // A strategy composes behaviours, declaration rules, planners and what looks at pictures: it alone may name them.
-        let may: &[&str] = if stage == "strategy" { &["behave", "declare", "plan", "survey", "vision"] } else { &[] };
+        // A strategy composes behaviours, declaration rules and planners: it alone may name them.
+        let may: &[&str] = if stage == "strategy" { &["behave", "declare", "plan"] } else { &[] };
         let tests = file.rsplit('/').next().unwrap().contains("test");
         if tests || (!stages.contains(&stage) && stage != "strategy") {
             continue;
@@ -29,6 +28,26 @@ fn stages_meet_only_in_handoff() {
     }
 }
 
+/// A survey, like a strategy, composes what looks at pictures and echoes. None of these sees the truth: they know
+/// neither what makes pictures nor the instruments.
+#[test]
+fn what_looks_does_not_know_what_is_seen() {
+    let rooms = ["sidescan", "survey", "vision"];
+    for (file, text) in sources("robots/eyes/src") {
+        let room = file.split('/').nth(3).unwrap();
+        if !rooms.contains(&room) || file.rsplit('/').next().unwrap().contains("test") {
+            continue;
+        }
+        let may: &[&str] = if room == "survey" { &["sidescan", "vision"] } else { &[] };
+        let code = text.split("#[cfg(test)]").next().unwrap();
+        let others = rooms.iter().chain(&["camera"]).filter(|other| **other != room && !may.contains(other));
+        let hidden = others.map(|other| format!("crate::{other}"));
+        for path in hidden.chain(["robots::sense".to_string(), "robots::vehicles".to_string()]) {
+            assert!(!code.contains(&format!("{path}::")), "{file} names {path}");
+        }
+    }
+}
+
 #[test]
 fn algorithm_files_say_where_they_come_from() {
     for folder in [
@@ -38,8 +57,10 @@ fn algorithm_files_say_where_they_come_from() {
         "robots/src/track",
         "robots/src/map",
         "robots/src/plan",
-        "robots/src/survey",
-        "robots/src/vision",
+        "robots/eyes/src/camera",
+        "robots/eyes/src/sidescan",
+        "robots/eyes/src/survey",
+        "robots/eyes/src/vision",
     ] {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();
@@ -98,7 +119,7 @@ fn searchers_read_no_files_and_keep_nothing_between_runs() {
     // Names of files for `Files`; nothing else may take a path to where something could be read.
     let paths = ["files.rs", "mesh.rs", "urdf_parts.rs", "folder/opened.rs", "folder/shipped.rs"]
         .map(|f| format!("robots/src/vehicles/{f}"));
-    for (file, text) in sources("robots/src") {
+    for (file, text) in [sources("robots/src"), sources("robots/eyes/src")].concat() {
         let code = code_outside_tests(&file, &text);
         for word in banned {
             assert!(!code.contains(word), "{file} uses {word}");

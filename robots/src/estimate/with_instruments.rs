@@ -4,7 +4,7 @@
 mod tests {
     use super::super::{DeadReckoning, DeadReckoningSpec, LayerAwareSpec, Start};
     use crate::handoff::Estimate;
-    use crate::sense::camera::{Optics, OpticsSpec};
+    use crate::sense::testing::Dark;
     use crate::sense::{
         AdcpSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite, SensorsSpec, Surroundings,
     };
@@ -51,7 +51,6 @@ mod tests {
         let aware = DeadReckoningSpec { layer_aware: Some(LayerAwareSpec::default()), ..Default::default() };
         let mut e = DeadReckoning::new(&aware, start, dt_s);
         let mut clock = Clock::new(dt_s);
-        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         // A dive to 3.6 m in 31 s, where the ADCP cell lies in the layer above; from 100 s on to 5 m.
         let mut believed = Vec::new();
         for _ in 0..5000 {
@@ -71,7 +70,7 @@ mod tests {
                 dye: &Clean,
                 terrain: &bed,
                 obstacles: &obstacles,
-                optics: &optics,
+                imaging: &Dark,
                 asked: Default::default(),
             });
             believed.push(e.step(&clock, &said).flow.map(|f| f.velocity.y));
@@ -99,7 +98,6 @@ mod tests {
         let start = Start { position: START, heading: east, depth_m };
         let mut e = DeadReckoning::new(&DeadReckoningSpec::default(), start, dt_s);
         let mut clock = Clock::new(dt_s);
-        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         let mut all = Vec::new();
         for _ in 0..90_000 {
             let p = START + Vector2::new(2.0 * clock.t_s(), 0.0);
@@ -115,7 +113,7 @@ mod tests {
                 dye: &Clean,
                 terrain: &bed,
                 obstacles: &Default::default(),
-                optics: &optics,
+                imaging: &Dark,
                 asked: Default::default(),
             });
             all.push((p, e.step(&clock, &readings)));

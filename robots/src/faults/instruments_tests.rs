@@ -5,7 +5,7 @@ use super::super::{
     DensityFault, DyeFault, EyeFault, Faulty, FixFault, HeadingFault, LieSpec, MetresFault, SensorFaults, SpeedFault,
 };
 use crate::handoff::Readings;
-use crate::sense::camera::{Optics, OpticsSpec};
+use crate::sense::testing::Dark;
 use crate::sense::{
     AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, OnBoard, RangingSpec,
     SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
@@ -56,7 +56,6 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
     let mut suite = SensorSuite::new(&sensors(), &mounts, on).unwrap();
     let faults: Vec<_> = (what.into_iter()).map(|what| fault(AT_S, Some(UNTIL_S), what)).collect();
     let mut faults = SensorFaults::new(&faults, &sensors(), DT_S);
-    let optics = Optics::new(&OpticsSpec::default()).unwrap();
     let north = Heading::from_deg(0.0);
     let mut clock = Clock::new(DT_S);
     let mut all = Vec::new();
@@ -69,7 +68,7 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
             dye: &Faint,
             terrain: &Terrain::Level { depth_m: 8.0 },
             obstacles: &Obstacles::default(),
-            optics: &optics,
+            imaging: &Dark,
             asked: SensorRequests::default(),
         });
         faults.alter(&clock, &mut readings);

@@ -21,7 +21,6 @@ mod readings;
 mod readings_fault;
 mod regions;
 mod reply;
-mod setting;
 mod shown;
 mod side;
 mod zone;
@@ -51,7 +50,6 @@ pub use readings::{
 };
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};
-pub use setting::Setting;
 pub use shown::Shown;
 pub use side::Side;
 pub use zone::Zone;

@@ -2,7 +2,8 @@
 
 mod adcp;
 mod altimeter;
-pub mod camera;
+mod camera;
+mod camera_spec;
 mod catalogue;
 mod compass;
 mod ctd;
@@ -18,11 +19,13 @@ mod sidescan;
 mod sidescan_fan;
 mod suite;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod tools;
 
 pub use adcp::{Adcp, AdcpSpec, Look};
 pub use altimeter::{Altimeter, AltimeterSpec};
+pub use camera::Camera;
+pub use camera_spec::{CameraSpec, LampSpec, SensorSpec, looking, turned};
 pub use catalogue::PARTS;
 pub use compass::{Compass, CompassSpec};
 pub use ctd::{Ctd, CtdSpec};
@@ -33,7 +36,7 @@ pub use lbl::{Lbl, LblSpec};
 pub use on_board::OnBoard;
 pub use probe::{Probes, ProbesSpec};
 pub use ranging::{Ranging, RangingSpec};
-pub use sensor::{Fitting, Sensor, SensorParams, SensorRequests, Surroundings};
+pub use sensor::{Fitting, Imaging, Sensor, SensorParams, SensorRequests, Surroundings};
 pub use sidescan::{Sidescan, SidescanSpec};
 pub use suite::{SensorSuite, Sensors, SensorsSpec, cost};
 pub use tools::EchoTarget;

@@ -1,10 +1,11 @@
 //! What every instrument does, and what it is told.
 
-use super::camera::Optics;
+use super::camera_spec::CameraSpec;
 use super::on_board::OnBoard;
 use super::tools::EchoTarget;
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Decision, Readings};
+use image::RgbImage;
 use nalgebra::Vector3;
 use world::clock::Clock;
 use world::cost::{Cost, Times};
@@ -63,8 +64,8 @@ pub struct Surroundings<'a> {
     pub terrain: &'a Terrain,
     /// Solids in the water.
     pub obstacles: &'a Obstacles,
-    /// Light in the water.
-    pub optics: &'a Optics,
+    /// What makes pictures of it.
+    pub imaging: &'a dyn Imaging,
     /// Requests of the strategy.
     pub asked: SensorRequests,
 }
@@ -74,6 +75,13 @@ impl Surroundings<'_> {
     pub fn below(&self) -> EchoTarget<'_> {
         EchoTarget { terrain: self.terrain, obstacles: self.obstacles }
     }
+}
+
+/// Makes pictures by the light in the water.
+pub trait Imaging {
+    /// The picture of a camera at a pose (its axes: x right in the picture, y down, z into the scene). The sensor's
+    /// noise depends only on `noise`.
+    fn picture(&self, camera: &CameraSpec, pose_WC: &Pose, around: &Surroundings, noise: u64) -> RgbImage;
 }
 
 /// An instrument. It draws from a stream of its own: [`OnBoard::stream`].

@@ -48,7 +48,7 @@ const SOUND_M_S: f64 = 1500.0;
 
 /// Time for a sample, and for an obstacle on its way, s (see `world::cost`).
 const SAMPLE_S: [f64; 2] = [0.2e-6, 0.1e-6];
-/// Memory of the kept pictures of passes, bytes: the number of their lines is limited, see `survey::waterfall`.
+/// Memory of the kept pictures of passes, bytes: the number of their lines is limited, see the crate `eyes`.
 const PASSES_BYTES: f64 = 5e6;
 
 /// Parameters of the sidescan sonar.

@@ -1,6 +1,6 @@
 //! All instruments of a robot, read together.
 
-use super::camera::CameraSpec;
+use super::camera_spec::CameraSpec;
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::{
@@ -126,9 +126,8 @@ impl SensorSuite {
 #[cfg(test)]
 mod tests {
     use super::super::sensor::SensorRequests;
-    use super::super::testing::{BED, at, run};
+    use super::super::testing::{BED, Dark, at, run};
     use super::*;
-    use crate::sense::camera::{Optics, OpticsSpec};
     use nalgebra::Vector3;
     use world::fields::{Clean, Still};
     use world::obstacles::Obstacles;
@@ -153,7 +152,6 @@ mod tests {
         let mut again = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
         let mut kept = Readings::default();
         let t = at(0.0, 0.0, -5.0);
-        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
             let around = Surroundings {
                 clock: c,
@@ -162,7 +160,7 @@ mod tests {
                 dye: &Clean,
                 terrain: &BED,
                 obstacles: &Obstacles::default(),
-                optics: &optics,
+                imaging: &Dark,
                 asked: SensorRequests::default(),
             };
             again.read_into(&around, &mut kept);

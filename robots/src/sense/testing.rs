@@ -1,6 +1,8 @@
 //! Shared by the instruments' tests: a vehicle, a running clock, and the statistics of noise.
 
 use super::tools::EchoTarget;
+use super::{CameraSpec, Imaging, Surroundings};
+use image::RgbImage;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
@@ -8,6 +10,17 @@ use world::math;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 use world::units::Heading;
+
+/// Black pictures, with the number of their noise in the first pixel.
+pub(crate) struct Dark;
+
+impl Imaging for Dark {
+    fn picture(&self, camera: &CameraSpec, _: &Pose, _: &Surroundings, noise: u64) -> RgbImage {
+        let mut image = RgbImage::new(camera.width, camera.height);
+        image.get_pixel_mut(0, 0).0[0] = noise as u8;
+        image
+    }
+}
 
 /// A level bed 8 m down.
 pub(super) const BED: Terrain = Terrain::Level { depth_m: 8.0 };

@@ -9,12 +9,13 @@
 //! a first order without a speed does not leave it to sink. Who answers, and how, is the business of the run: here are
 //! only the answers.
 
+use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams, StrategySpec};
 use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
-    Reply, ReplyOutcome, Setting, Shown, Vertical,
+    Reply, ReplyOutcome, Shown, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,16 +1,13 @@
 use super::*;
 use crate::handoff::MoveOrder;
-use crate::handoff::testing::{area, seen};
+use crate::handoff::testing::seen;
+use crate::strategy::testing::setting;
 use nalgebra::Vector2;
-use world::obstacles::Obstacles;
-use world::terrain::Terrain;
 use world::units::Heading;
 
 fn external(on_late: OnLate) -> Result<Box<dyn Strategy>, RobotError> {
-    let setting =
-        Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
     let spec = ExternalSpec { on_late, ..ExternalSpec::default() };
-    spec.build(&setting)
+    spec.build(&setting(8.0, false))
 }
 
 fn route() -> StrategySpec {

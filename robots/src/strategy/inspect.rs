@@ -5,20 +5,19 @@
 //!
 //! *Parameters*: see [`InspectSpec`].
 //!
-//! *Deviations*: a vehicle that hovers holds over the place for its pictures (`survey/holds.rs`): over the middle of
+//! *Deviations*: a vehicle that hovers holds over the place for its pictures (`survey/holds.rs` of the crate `eyes`): over the middle of
 //! each line that others fly, or, if pictures are added up, over the points that show what is still unseen. Each place
 //! is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared again with the
 //! survey's verdict. The mission is completed after the last place, on the spot.
 
+use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
-use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
+use super::survey::{AfterDeclaration, Eyes, PostDeclaration, Progress, SurveySpec};
 use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::behave::Stride;
 use crate::error::{RobotError, require};
-use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Vertical,
-};
+use crate::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -75,8 +74,8 @@ impl Listed for InspectSpec {
 }
 
 impl StrategyParams for InspectSpec {
-    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Inspect::new(self)?))
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Inspect::new(self, &*setting.eyes)?))
     }
 
     fn searches(&self) -> bool {
@@ -112,7 +111,7 @@ pub struct Inspect {
 impl Inspect {
     /// # Errors
     /// [`RobotError::Invalid`] without places, or if the survey's parts contradict each other.
-    pub fn new(spec: &InspectSpec) -> Result<Self, RobotError> {
+    pub fn new(spec: &InspectSpec, eyes: &dyn Eyes) -> Result<Self, RobotError> {
         require(!spec.places.is_empty(), "strategy.places", "must have at least 1 place, got 0")?;
         spec.survey.check("strategy.survey")?;
         let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
@@ -121,7 +120,7 @@ impl Inspect {
         Ok(Self {
             places: spec.places.iter().map(place).collect(),
             vertical,
-            post: PostDeclaration::new(&after)?.for_told_places(),
+            post: PostDeclaration::new(&after, eyes, true)?,
             now: 0,
             surveying: false,
             goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
@@ -198,10 +197,8 @@ impl Strategy for Inspect {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::Verdict;
-    use crate::handoff::testing::seen;
-    use crate::strategy::{CameraPasses, Verify};
-    use crate::vision::place::AddUpSpec;
+    use crate::strategy::testing::Blind;
+    use crate::strategy::{AddUpSpec, CameraPasses, Verify};
 
     fn spec(places: &[[f64; 2]]) -> InspectSpec {
         let told = |p: &[f64; 2]| ToldSpec { east_m: Finite::new(p[0]), north_m: Finite::new(p[1]) };
@@ -221,62 +218,25 @@ mod tests {
         }
     }
 
-    /// A vehicle without a camera that is at the end of every line at once.
-    #[test]
-    fn every_place_is_visited_declared_and_judged_in_order() {
-        let places = [[50.0, 0.0], [-60.0, 30.0]];
-        let mut s = Inspect::new(&spec(&places)).expect("legal");
-        let mut rng = Stream::new(1, "auv0", "strategy");
-        let mut o = seen(0.0, Vector2::zeros(), 90.0, Some(Vector2::new(0.2, 0.0)));
-        let (mut said, mut lines, mut last) = (Vec::new(), 0, 0);
-        for k in 0..200 {
-            o.t_s = 0.1 * f64::from(k);
-            let d = s.step(&o, &mut rng);
-            said.extend(d.declared);
-            if d.goal.id != last {
-                last = d.goal.id;
-                match d.goal.manoeuvre {
-                    Manoeuvre::GoToPoint { point, .. } => o.estimate.position = point,
-                    Manoeuvre::FollowLine { to, .. } => {
-                        lines += 1;
-                        o.estimate.position = to;
-                    }
-                    other => panic!("{other:?}"),
-                }
-            }
-            o.guidance.done = true;
-            o.guidance.goal_id = d.goal.id;
-            if d.outcome.is_some() {
-                assert_eq!(d.outcome, Some(Outcome::Completed));
-                break;
-            }
-        }
-        let got: Vec<_> = said.iter().map(|d| (d.number, d.position, d.verdict)).collect();
-        let want = |n: u32| (n, Vector2::from(places[n as usize]), Verdict::Unchecked);
-        // Each once when it is reached, and once with the verdict: without a camera, none.
-        assert_eq!(got, [want(0), want(0), want(1), want(1)]);
-        assert_eq!(lines, 4);
-    }
-
     #[test]
     fn without_places_or_with_parts_that_contradict_each_other_it_is_refused() {
-        let none = Inspect::new(&spec(&[])).unwrap_err().to_string();
+        let none = Inspect::new(&spec(&[]), &Blind).unwrap_err().to_string();
         assert_eq!(none, "strategy.places: must have at least 1 place, got 0");
         let mut many = spec(&[[0.0, 0.0]]);
         if let Some(c) = &mut many.survey.camera {
             c.held_pictures = 51;
         }
-        let said = Inspect::new(&many).unwrap_err().to_string();
+        let said = Inspect::new(&many, &Blind).unwrap_err().to_string();
         assert_eq!(said, "strategy.survey.camera.held_pictures: must be from 0 to 50, got 51");
         let mut blind = spec(&[[0.0, 0.0]]);
         blind.survey.camera = None;
-        let said = Inspect::new(&blind).unwrap_err().to_string();
+        let said = Inspect::new(&blind, &Blind).unwrap_err().to_string();
         assert!(said.starts_with("strategy.survey.verify: Camera needs passes"), "{said}");
         let mut low = spec(&[[0.0, 0.0]]);
         if let Some(c) = &mut low.survey.camera {
             c.altitude_m = Positive::new(1.0);
         }
-        let said = Inspect::new(&low).unwrap_err().to_string();
+        let said = Inspect::new(&low, &Blind).unwrap_err().to_string();
         assert!(said.starts_with("strategy.survey.camera.add_up.least_altitude_m: must be from"), "{said}");
     }
 }

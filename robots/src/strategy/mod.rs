@@ -7,6 +7,7 @@ mod inspect;
 mod map_and_plan;
 mod open_loop;
 mod route;
+mod setting;
 mod spec;
 mod subregions;
 mod subsumption;
@@ -21,10 +22,14 @@ pub use inspect::{Inspect, InspectSpec, ToldSpec};
 pub use map_and_plan::{AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec};
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use route::{Route, RouteSpec};
+pub use setting::Setting;
 pub use spec::{Strategies, Strategy, StrategyParams, StrategySpec};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions, SubregionsSpec,
 };
 pub use subsumption::{EyesSpec, GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec};
-pub use survey::{AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify};
+pub use survey::{
+    AddUpSpec, AfterDeclaration, CameraPasses, ColourSpec, DetectSpec, Edges, Eyes, PostDeclaration, Progress,
+    SidescanPasses, Survey, SurveySpec, VerifierSpec, Verify,
+};
 pub use wishes::{VerticalSpec, Wishes};

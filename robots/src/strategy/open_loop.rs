@@ -6,10 +6,11 @@
 //!
 //! *Deviations*: none.
 
+use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use crate::behave::{Behave, Stride, TimeTable};
 use crate::error::RobotError;
-use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
+use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Vertical};
 use crate::memory::PlumeMemory;
 use world::catalogue::Entry;
 use world::registry::Listed;

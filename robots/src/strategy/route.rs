@@ -7,11 +7,12 @@
 //!
 //! *Deviations*: a vehicle that hovers holds its place while it stays; any other circles round it.
 
+use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::error::{RobotError, require};
-use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
+use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

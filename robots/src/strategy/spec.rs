@@ -1,8 +1,9 @@
 //! What a scenario can say about the strategy.
 
+use super::setting::Setting;
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{ExchangeTiming, Need, Setting};
+use crate::handoff::{ExchangeTiming, Need};
 pub use crate::searcher::Strategy;
 use world::area::Area;
 use world::cost::{Cost, Times};

@@ -1,6 +1,6 @@
 //! Arguments of `rheotaxis segment` and `rheotaxis score-vision`.
 
-use robots::vision::{ColourSpec, Edges, VerifierSpec};
+use robots::strategy::{ColourSpec, Edges, VerifierSpec};
 use std::path::PathBuf;
 use world::ranges::{NonNegative, Positive};
 

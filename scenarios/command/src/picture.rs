@@ -4,6 +4,7 @@ use super::args_picture::PictureArgs;
 use super::exit::Exit;
 use super::failure::{Failure, hinted};
 use super::{cache, say};
+use eyes::camera::{RenderedPicture, Scene, render};
 use image::RgbImage;
 use nalgebra::Vector3;
 use output::charts::picture_png;
@@ -12,7 +13,7 @@ use rheotaxis::assemble::WaterLight;
 use rheotaxis::ocean::Ocean;
 use rheotaxis::scenario::load_with;
 use rheotaxis::trial::{Trial, Unwatched};
-use robots::sense::camera::{CameraModel, CameraSpec, RenderedPicture, Scene, looking, render};
+use robots::sense::{CameraSpec, looking};
 use std::path::Path;
 use world::ranges::Positive;
 use world::registry::Registry;
@@ -56,7 +57,7 @@ pub(super) fn picture(registry: &Registry, args: &PictureArgs) -> Result<Exit, F
         optics: &world.resource::<WaterLight>().0,
     };
     let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.get::<CameraSpec>().cloned());
-    let camera = CameraModel::new(&spec.unwrap_or_default());
+    let camera = spec.unwrap_or_default();
     let [heading, down] = args.look.0;
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());
     let noise = seeds::key(args.key.seed(args.seed), "picture", "camera");
@@ -86,7 +87,7 @@ fn place(ocean: &Ocean, [east, north, up]: [f64; 3]) -> Result<Vector3<f64>, Str
 }
 
 /// The truth as a picture. Red is how much the dye changes a pixel, blue the share of a solid's light that arrives.
-fn truth(camera: &CameraModel, made: &RenderedPicture) -> RgbImage {
+fn truth(camera: &CameraSpec, made: &RenderedPicture) -> RgbImage {
     let byte = |share: f32| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u8;
     let bytes = (made.seen.iter()).flat_map(|s| {
         let solid = s.obstacle.map_or(0.0, |_| s.clear);

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::progress::bar;
 use super::{say, stop};
 use output::files::{ReportError, begin_folder};
-use robots::vision::VerifierSpec;
+use robots::strategy::VerifierSpec;
 use std::sync::Mutex;
 use std::time::Duration;
 use studies::score_vision::{ScenePlan, save, score, table, write};

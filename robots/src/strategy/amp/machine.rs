@@ -8,15 +8,16 @@
 //! survey of the declared place (see `strategy/survey`); the mission is completed at home. After a rejected place the
 //! vehicle continues the search. A cage abort ends the mission at once.
 
+use super::super::setting::Setting;
 use super::super::spec::{Strategy, StrategyParams};
-use super::super::survey::{PostDeclaration, Progress};
+use super::super::survey::{Eyes, PostDeclaration, Progress};
 use super::super::wishes::Wishes;
 use super::spec::{AmpSpec, Detections};
 use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Need, Observation, Outcome, Setting, Shown, Verdict, Vertical, Zone,
+    Behaviour, Decision, Declaration, Goal, Need, Observation, Outcome, Shown, Verdict, Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
@@ -67,14 +68,14 @@ pub struct Amp {
 impl Amp {
     /// # Errors
     /// [`RobotError::Invalid`] if a behaviour's parameters make no sense.
-    pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
+    pub fn new(spec: &AmpSpec, eyes: &dyn Eyes) -> Result<Self, RobotError> {
         spec.declare.check(spec.lost_points, spec.lcdps)?;
         let vertical = spec.vertical.into();
         Ok(Self {
             vertical,
             rule: spec.declare.clone(),
             zone: Zone::default(),
-            post: PostDeclaration::new(&spec.after_declaration)?,
+            post: PostDeclaration::new(&spec.after_declaration, eyes, false)?,
             heeds_on_the_way: spec.start_at.as_ref().is_some_and(|s| s.detections == Detections::Heeded),
             behaviours: Behaviours {
                 go_to: spec.start_at.as_ref().map(|s| GoTo::new(Vector2::new(s.east_m.get(), s.north_m.get()))),
@@ -171,8 +172,8 @@ impl Amp {
 }
 
 impl StrategyParams for AmpSpec {
-    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(Box::new(Amp::new(self)?))
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Amp::new(self, &*setting.eyes)?))
     }
 
     fn needs(&self) -> Vec<Need> {

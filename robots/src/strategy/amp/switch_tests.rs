@@ -5,7 +5,7 @@ use super::{Amp, AmpSpec, Detections, StartAt};
 use crate::declare::{AlongFlow, DeclareSpec};
 use crate::handoff::testing::{seen, smelling};
 use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome};
-use crate::strategy::testing::Ticked;
+use crate::strategy::testing::{Blind, Ticked};
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::ranges::Finite;
@@ -22,7 +22,7 @@ struct Desk {
 impl Desk {
     fn new(spec: &AmpSpec) -> Self {
         Self {
-            amp: Amp::new(spec).expect("a legal spec"),
+            amp: Amp::new(spec, &Blind).expect("a legal spec"),
             rng: Stream::new(1, "auv0", "strategy"),
             t_s: 0.0,
             goal: None,
@@ -249,8 +249,8 @@ fn a_rule_on_more_points_than_are_remembered_is_refused() {
         }),
         ..AmpSpec::default()
     };
-    assert!(Amp::new(&spec(6)).is_ok());
-    let error = Amp::new(&spec(7)).map(|_| ()).expect_err("never declares");
+    assert!(Amp::new(&spec(6), &Blind).is_ok());
+    let error = Amp::new(&spec(7), &Blind).map(|_| ()).expect_err("never declares");
     assert_eq!(
         error.to_string(),
         "declare.AlongFlow.points: must be at most lost_points, 6, got 7: it would never declare"

@@ -8,6 +8,7 @@ use crate::guide::{Guidance, GuidanceSpec};
 use crate::handoff::testing::{area, fixed, seen, smelling, steered};
 use crate::handoff::{Behaviour, Command, GuidanceStatus, Outcome};
 use crate::strategy::Strategy;
+use crate::strategy::testing::Blind;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_2;
@@ -45,7 +46,7 @@ struct Report {
 
 /// One run; every 30 s a fix moves the believed position by some `fix_m` in each axis.
 fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
-    let mut amp = Amp::new(&AmpSpec::default()).expect("defaults are legal");
+    let mut amp = Amp::new(&AmpSpec::default(), &Blind).expect("defaults are legal");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
     let (mut rng, mut patches) = (Stream::new(seed, "a", "amp"), Stream::new(seed, "a", "patches"));
     let mut noise = Stream::new(seed, "a", "noise");

@@ -10,6 +10,7 @@
 //! changes: see [`AtTarget`]. A cell that is solid throughout is no target: the paper's map does not know of
 //! obstacles. The map is the robot's own (`map` in the scenario); the strategy is refused if there is none.
 
+use super::super::setting::Setting;
 use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::AfterDeclaration;
 use super::super::wishes::{NO_DEPTH, Wishes};
@@ -19,7 +20,7 @@ use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Setting, Shown, Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Shown, Vertical,
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;

@@ -8,10 +8,11 @@
 //! path, and if the path's end was reached and the target is elsewhere. An echo counts as an obstacle unless the
 //! chart has the bed there; in a room of the plane, only nearly level beams tell anything about its cells.
 
+use super::super::setting::Setting;
 use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
 use crate::error::{RobotError, require};
-use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
+use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Vertical};
 use crate::plan::{Follow, FreeSpace, NoPath, Path, PathStart, Planner, Reach, Revision};
 use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};

@@ -1,12 +1,13 @@
 //! Parameters of map and plan.
 
+use super::super::setting::Setting;
 use super::super::survey::AfterDeclaration;
 use super::super::wishes::VerticalSpec;
 use super::evade::EvadeSpec;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
 use crate::error::{RobotError, require};
-use crate::handoff::{BeliefGrid, Setting};
+use crate::handoff::BeliefGrid;
 use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

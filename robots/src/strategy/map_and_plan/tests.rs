@@ -1,15 +1,14 @@
 //! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, with a map written by hand.
 
+use super::super::setting::Setting;
 use super::super::survey::AfterDeclaration;
 use super::super::wishes::VerticalSpec;
 use super::*;
 use crate::handoff::testing::seen;
-use crate::handoff::{
-    Beam, Behaviour, Belief, BeliefGrid, Manoeuvre, Observation, Outcome, RangeScan, Setting, Vertical,
-};
+use crate::handoff::{Beam, Behaviour, Belief, BeliefGrid, Manoeuvre, Observation, Outcome, RangeScan, Vertical};
 use crate::plan::testing::block;
 use crate::plan::{PlannerSpec, PotentialFieldParams, Reach};
-use crate::strategy::testing::Ticked;
+use crate::strategy::testing::{Blind, Ticked};
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 use world::area::Area;
@@ -26,7 +25,7 @@ fn area() -> Area {
 }
 
 fn setting(chart: Vec<Obstacle>) -> Setting {
-    Setting { area: area(), bed: BED, chart: Obstacles(chart), maps: true }
+    Setting { area: area(), bed: BED, chart: Obstacles(chart), maps: true, eyes: Arc::new(Blind) }
 }
 
 fn spec() -> MapAndPlanSpec {

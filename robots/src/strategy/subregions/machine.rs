@@ -11,6 +11,7 @@
 //! finish the survey. If it rejects the place and searches on, it keeps the subregion until one of these ends. The
 //! searching strategy sees the subregion as its area; the guidance's cage remains the whole area.
 
+use super::super::setting::Setting;
 use super::super::spec::{Strategy, StrategyParams};
 use super::super::wishes::Wishes;
 use super::edge::{Plume, crossing};
@@ -18,8 +19,8 @@ use super::rectangles::areas;
 use super::spec::{Entry, RegionsSpec, SubregionsSpec};
 use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Region, RegionState, Regions,
-    Setting, Shown, UP_FLOW_EDGE, Verdict, detects,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Region, RegionState, Regions, Shown,
+    UP_FLOW_EDGE, Verdict, detects,
 };
 use crate::places::inside;
 use nalgebra::Vector2;

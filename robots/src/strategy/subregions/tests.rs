@@ -1,22 +1,17 @@
 //! The switching between subregions, with observations written by hand.
 
 use super::{EdgeSpec, Entry, GridSpec, RegionsSpec, Subregions, SubregionsSpec};
-use crate::handoff::testing::{area, seen, smelling};
-use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome, RegionState, Setting};
+use crate::handoff::testing::{seen, smelling};
+use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome, RegionState};
 use crate::strategy::testing::Ticked;
+use crate::strategy::testing::setting;
 use crate::strategy::{AmpSpec, OpenLoopSpec, StrategySpec, VerticalSpec};
 use nalgebra::Vector2;
 use std::num::NonZeroU32;
-use world::obstacles::Obstacles;
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 const TIMEOUT_S: f64 = 600.0;
-
-fn setting() -> Setting {
-    Setting { area: area(), bed: Terrain::Level { depth_m: 6.0 }, chart: Obstacles::default(), maps: false }
-}
 
 /// The area's south half, then its north half.
 fn spec(entry: Entry) -> SubregionsSpec {
@@ -47,7 +42,7 @@ struct Desk {
 impl Desk {
     fn new(spec: &SubregionsSpec) -> Self {
         Self {
-            mission: Subregions::new(spec, &setting()).expect("a legal spec"),
+            mission: Subregions::new(spec, &setting(6.0, false)).expect("a legal spec"),
             rng: Stream::new(1, "auv0", "strategy"),
             t_s: 0.0,
             goal: None,
@@ -245,7 +240,7 @@ fn a_cage_abort_ends_the_mission_wherever_it_is() {
 fn faults_of_the_searching_strategy_name_their_field() {
     let with = |search| SubregionsSpec { search, ..spec(Entry::Centre) };
     let said = |spec: &SubregionsSpec| {
-        let built = Subregions::new(spec, &setting());
+        let built = Subregions::new(spec, &setting(6.0, false));
         built.map(drop).expect_err("illegal").to_string()
     };
     let table = StrategySpec::new(OpenLoopSpec { table: Vec::new(), end_s: Positive::new(1.0) });

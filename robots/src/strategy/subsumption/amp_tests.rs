@@ -4,17 +4,15 @@
 use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
-use crate::handoff::testing::{area, fixed, seen, smelling};
-use crate::handoff::{Behaviour, Setting};
+use crate::handoff::Behaviour;
+use crate::handoff::testing::{fixed, seen, smelling};
 use crate::memory::FixMove;
-use crate::strategy::testing::Ticked;
+use crate::strategy::testing::{Blind, Ticked, setting};
 use crate::strategy::{Amp, AmpSpec};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use proptest::strategy::Strategy as Drawn;
-use world::obstacles::Obstacles;
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// What happens in a tick.
 #[derive(Clone, Copy, Debug)]
@@ -61,11 +59,9 @@ impl Both {
             LayerSpec::GoHome(GoHomeSpec::default()),
         ]);
         spec.fixes = fixes;
-        let setting =
-            Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
         Self {
-            amp: Amp::new(&amp).expect("defaults are legal"),
-            layers: Subsumption::new(&spec, &setting).expect("Tian's order"),
+            amp: Amp::new(&amp, &Blind).expect("defaults are legal"),
+            layers: Subsumption::new(&spec, &setting(8.0, false)).expect("Tian's order"),
             goals: [0; 2],
             rngs: [1, 1].map(|s| Stream::new(s, "auv0", "strategy")),
         }

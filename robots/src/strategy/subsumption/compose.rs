@@ -1,6 +1,7 @@
 //! Turns the layers of a scenario into layers that work together: checks which ones are missing, and that their order
 //! makes sense.
 
+use super::super::setting::Setting;
 use super::ask::Kind;
 use super::maintain::Maintain;
 use super::plume::PlumeLayers;
@@ -9,7 +10,6 @@ use super::spec::{LayerSpec, SubsumptionSpec};
 use crate::behave::{GoTo, SoftAvoid};
 use crate::declare::DeclareSpec;
 use crate::error::{RobotError, require};
-use crate::handoff::Setting;
 
 fn kind(layer: &LayerSpec) -> Kind {
     match layer {

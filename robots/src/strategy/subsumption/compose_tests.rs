@@ -1,9 +1,10 @@
 //! Which compositions are refused, and how the map takes part.
 
-use super::testing::{Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said, setting};
+use super::testing::{Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said};
 use super::{LayerSpec, Subsumption, SubsumptionSpec};
 use crate::behave::AvoidParams;
 use crate::handoff::{Behaviour, Manoeuvre};
+use crate::strategy::testing::setting;
 use nalgebra::Vector2;
 
 #[test]
@@ -42,7 +43,9 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
 #[test]
 fn compositions_that_make_no_sense_are_refused() {
     let refused = |layers: Vec<LayerSpec>, maps| {
-        Subsumption::new(&SubsumptionSpec::with_layers(layers), &setting(maps)).expect_err("makes no sense").to_string()
+        Subsumption::new(&SubsumptionSpec::with_layers(layers), &setting(8.0, maps))
+            .expect_err("makes no sense")
+            .to_string()
     };
     for (layers, says) in [
         (vec![], "layers: there is no Find"),

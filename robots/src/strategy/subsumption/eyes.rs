@@ -9,12 +9,13 @@
 //! left it. So the picture is taken when Reacquire, whose pattern is centred on the LCDP, comes back within
 //! `within_m` of it.
 
+use super::super::survey::{Eyes, VerifierSpec};
 use crate::handoff::{Declaration, Observation, Verdict};
 use crate::memory::PlumeMemory;
-use crate::vision::{Verifier, VerifierSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
+use std::sync::Arc;
 use world::ranges::Positive;
 
 /// Parameters of looking at last detection points.
@@ -33,16 +34,16 @@ pub struct EyesSpec {
 
 /// State of looking at last detection points.
 #[derive(Debug)]
-pub(super) struct Eyes {
+pub(super) struct PointLooks {
     spec: EyesSpec,
-    verifier: Verifier,
+    eyes: Arc<dyn Eyes>,
     asked_s: Option<f64>,
     asks: bool,
 }
 
-impl Eyes {
-    pub(super) fn new(spec: &EyesSpec) -> Self {
-        Self { spec: spec.clone(), verifier: Verifier::new(&spec.verifier), asked_s: None, asks: false }
+impl PointLooks {
+    pub(super) fn new(spec: &EyesSpec, eyes: &Arc<dyn Eyes>) -> Self {
+        Self { spec: spec.clone(), eyes: eyes.clone(), asked_s: None, asks: false }
     }
 
     /// Whether a picture is wanted in this tick.
@@ -63,7 +64,7 @@ impl Eyes {
             return None;
         }
         if let Some(picture) = &seen.picture
-            && self.verifier.judge(&picture.image).verified
+            && self.eyes.shows_source(&picture.image, &self.spec.verifier)
         {
             return Some(Declaration {
                 verdict: Verdict::Verified,
@@ -83,22 +84,15 @@ mod tests {
     use super::*;
     use crate::handoff::testing::seen;
     use crate::handoff::{Lcdp, Picture};
+    use crate::strategy::testing::setting;
     use image::{Rgb, RgbImage};
     use nalgebra::{UnitQuaternion, Vector2, Vector3};
-    use std::sync::Arc;
 
-    /// A dark body in a red cloud, or nothing, in green water.
+    /// Green water, or a red picture, which the eyes of these tests take for a source.
     fn picture(source: bool) -> Picture {
-        let colour = |x: u32, y: u32| {
-            let from = |cx: i64, cy: i64| (i64::from(x) - cx).pow(2) + (i64::from(y) - cy).pow(2);
-            match (source, from(60, 60), from(95, 55)) {
-                (true, near, _) if near < 14 * 14 => Rgb([12, 20, 60]),
-                (true, _, cloud) if cloud < 36 * 36 => Rgb([210, 60, 60]),
-                _ => Rgb([90, 150, 140]),
-            }
-        };
+        let colour = if source { [210, 60, 60] } else { [90, 150, 140] };
         Picture {
-            image: Arc::new(RgbImage::from_fn(160, 120, colour)),
+            image: Arc::new(RgbImage::from_pixel(160, 120, Rgb(colour))),
             p_BC: Vector3::zeros(),
             R_BC: UnitQuaternion::identity(),
             view_rad: 1.0,
@@ -107,7 +101,7 @@ mod tests {
 
     #[test]
     fn it_looks_where_contact_was_lost_and_only_there() {
-        let mut eyes = Eyes::new(&EyesSpec::default());
+        let mut eyes = PointLooks::new(&EyesSpec::default(), &setting(8.0, false).eyes);
         let mut memory = PlumeMemory::default();
         let at = |t_s: f64, east: f64| seen(t_s, Vector2::new(east, 0.0), 90.0, None);
         assert_eq!(eyes.step(&at(0.0, 0.0), &memory), None);

@@ -22,20 +22,21 @@
 //! arrive, unless Avoid gives up. For Construct-Plume-Map see `plume_map.rs`. Without a Go-Home layer the mission is
 //! over with the declaration. A cage abort ends it at once.
 
+use super::super::setting::Setting;
 use super::super::spec::{Strategy, StrategyParams};
 use super::super::survey::{AfterDeclaration, BLIND, PostDeclaration, Progress};
 use super::super::wishes::Wishes;
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
-use super::eyes::Eyes;
+use super::eyes::PointLooks;
 use super::plume::PlumeRequests;
 use super::spec::{LayerSpec, SubsumptionSpec};
 use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Manoeuvre, Need, Observation, Outcome, Setting, Shown,
-    Verdict, Vertical, Zone,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Manoeuvre, Need, Observation, Outcome, Shown, Verdict,
+    Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use world::seeds::Stream;
@@ -53,7 +54,7 @@ pub struct Subsumption {
     /// What follows a declaration; whether the survey has begun, and what it asks for.
     post: PostDeclaration,
     surveying: bool,
-    eyes: Option<Eyes>,
+    eyes: Option<PointLooks>,
     passes: Option<Manoeuvre>,
     vertical: Vertical,
     /// Whether the way home has begun, and what was asked for on it.
@@ -79,6 +80,7 @@ impl Subsumption {
         if let Some(eyes) = &spec.eyes {
             eyes.verifier.check("strategy.eyes.verifier")?;
         }
+        let after = spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey);
         let silent = |k: &Kind| Layer { name: k.into(), state: LayerState::Silent };
         Ok(Self {
             fixes: spec.fixes,
@@ -87,11 +89,9 @@ impl Subsumption {
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             declaring: None,
             zone: Zone::default(),
-            post: PostDeclaration::new(
-                &spec.survey.clone().map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
-            )?,
+            post: PostDeclaration::new(&after, &*setting.eyes, false)?,
             surveying: false,
-            eyes: spec.eyes.as_ref().map(Eyes::new),
+            eyes: spec.eyes.as_ref().map(|spec| PointLooks::new(spec, &setting.eyes)),
             passes: None,
             vertical: Vertical::from(spec.vertical),
             homing: false,
@@ -232,7 +232,7 @@ impl Subsumption {
     }
 
     fn wants_picture(&self) -> bool {
-        let at_point = !self.homing && self.eyes.as_ref().is_some_and(Eyes::asks);
+        let at_point = !self.homing && self.eyes.as_ref().is_some_and(PointLooks::asks);
         if self.surveying { self.post.picture() } else { at_point }
     }
 

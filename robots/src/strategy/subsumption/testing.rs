@@ -4,17 +4,11 @@ use super::{GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, Subs
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::testing::{area, seen, smelling};
-use crate::handoff::{Beam, Belief, BeliefGrid, Goal, LayerState, Observation, RangeScan, Setting};
-use crate::strategy::testing::Ticked;
+use crate::handoff::{Beam, Belief, BeliefGrid, Goal, LayerState, Observation, RangeScan};
+use crate::strategy::testing::{Ticked, setting};
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
-use world::obstacles::Obstacles;
 use world::seeds::Stream;
-use world::terrain::Terrain;
-
-pub(super) fn setting(maps: bool) -> Setting {
-    Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps }
-}
 
 pub(super) fn find() -> LayerSpec {
     LayerSpec::Find(FindSpec::default())
@@ -61,7 +55,7 @@ impl Desk {
 
     pub(super) fn of(spec: &SubsumptionSpec) -> Self {
         Self {
-            planner: Subsumption::new(spec, &setting(true)).expect("these layers make sense"),
+            planner: Subsumption::new(spec, &setting(8.0, true)).expect("these layers make sense"),
             rng: Stream::new(1, "auv0", "strategy"),
             t_s: 0.0,
             goal: None,

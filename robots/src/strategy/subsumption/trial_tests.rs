@@ -9,14 +9,12 @@ use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::guide::{Guidance, GuidanceSpec};
 use crate::handoff::testing::{area, seen, smelling, steered};
-use crate::handoff::{Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan, Setting};
-use crate::strategy::testing::Ticked;
+use crate::handoff::{Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan};
+use crate::strategy::testing::{Ticked, setting};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
 use world::math;
-use world::obstacles::Obstacles;
 use world::seeds::Stream;
-use world::terrain::Terrain;
 use world::units::Heading;
 
 const DT_S: f64 = 0.1;
@@ -92,10 +90,8 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
         // Above Go-Home: the wall stands on the way back, too.
         layers.push(LayerSpec::Avoid(AvoidParams::default()));
     }
-    let setting =
-        Setting { area: area(), bed: Terrain::Level { depth_m: 8.0 }, chart: Obstacles::default(), maps: false };
     let spec = SubsumptionSpec::with_layers(layers);
-    let mut planner = Subsumption::new(&spec, &setting).expect("these layers make sense");
+    let mut planner = Subsumption::new(&spec, &setting(8.0, false)).expect("these layers make sense");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
     let [mut rng, mut patches, mut noise] = ["layers", "patches", "noise"].map(|what| Stream::new(seed, "a", what));
     let home = Vector2::new(150.0, -260.0);

@@ -1,16 +1,17 @@
 //! What follows a declaration: going home, a stop, or a survey of the declared place. Every strategy can include it.
 
-mod holds;
-mod looks;
-mod machine;
+mod add_up_spec;
+mod detect_spec;
+mod eyes;
+mod post;
 mod spec;
+mod verifier_spec;
 
 pub(super) use spec::BLIND;
 
-pub use machine::{PostDeclaration, Progress};
+pub use add_up_spec::AddUpSpec;
+pub use detect_spec::DetectSpec;
+pub use eyes::{Eyes, Progress, Survey};
+pub use post::PostDeclaration;
 pub use spec::{AfterDeclaration, CameraPasses, SidescanPasses, SurveySpec, Verify};
-
-#[cfg(test)]
-mod amp_tests;
-#[cfg(test)]
-mod tests;
+pub use verifier_spec::{ColourSpec, Edges, VerifierSpec};

@@ -1,10 +1,10 @@
 //! Parameters of the time after a declaration.
 
+use super::add_up_spec::AddUpSpec;
+use super::detect_spec::DetectSpec;
+use super::verifier_spec::VerifierSpec;
 use crate::error::{RobotError, require};
 use crate::handoff::Need;
-use crate::survey::DetectSpec;
-use crate::vision::VerifierSpec;
-use crate::vision::place::AddUpSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;

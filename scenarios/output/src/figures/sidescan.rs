@@ -7,7 +7,8 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette;
 use crate::charts::panel::Panel;
 use crate::results::{RobotEchoes, RobotTrack, RunReport};
-use robots::survey::{DetectSpec, Row, Waterfall, detect};
+use eyes::sidescan::{CELL_M, Row, Waterfall, detect};
+use robots::strategy::DetectSpec;
 
 /// Largest number of waterfalls, and the greatest length shown of one, m.
 const MOST: usize = 3;
@@ -16,7 +17,7 @@ const LONGEST_M: f64 = 80.0;
 const NEAR_M: f64 = 80.0;
 /// Half the width of the map, m, and its cells.
 const HALF_M: f64 = 25.0;
-const CELL_M: f64 = 0.4;
+const MAP_CELL_M: f64 = 0.4;
 /// Pixels per metre of waterfall, and of map.
 const WATERFALL_PX: f64 = 5.6;
 const MAP_PX: f64 = 9.0;
@@ -54,7 +55,7 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
     shown.drain(..shown.len().saturating_sub(MOST));
     let level = Levels::from_passes(&passes);
     let longest = shown.iter().map(|w| length_m(w)).fold(0.0, f64::max).min(LONGEST_M);
-    let range_m = shown.iter().flat_map(|w| w.rows()).map(|r| r.port_db.len()).max()? as f64 * last.cell_m();
+    let range_m = shown.iter().flat_map(|w| w.rows()).map(|r| r.port_db.len()).max()? as f64 * CELL_M;
     let (wide, high) = (2.0 * range_m * WATERFALL_PX, longest * WATERFALL_PX);
     let map_px = 2.0 * HALF_M * MAP_PX;
     let (left, top, gap) = (64.0, 66.0, 62.0);
@@ -140,7 +141,7 @@ fn mean<'a>(levels: impl Iterator<Item = &'a f32>) -> Option<f64> {
 fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
     let rows = pass.rows();
     let begin = rows[0].along_m;
-    let width = BLOCK as f64 * pass.cell_m();
+    let width = BLOCK as f64 * CELL_M;
     panel.clip_black(c);
     let mut cells = ShadedCells::new(SHADES);
     for lines in rows.chunks(BLOCK) {
@@ -173,14 +174,14 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
 }
 
 fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) {
-    let n = (2.0 * HALF_M / CELL_M) as usize;
+    let n = (2.0 * HALF_M / MAP_CELL_M) as usize;
     let mut sums = vec![(0.0, 0u32); n * n];
     for pass in passes {
         for row in pass.rows() {
             for port in [true, false] {
                 for (k, db) in row.side(port).iter().enumerate() {
-                    let p = row.ground_position(port, (k as f64 + 0.5) * pass.cell_m());
-                    let at = [(p.x - panel.x[0]) / CELL_M, (p.y - panel.y[0]) / CELL_M];
+                    let p = row.ground_position(port, (k as f64 + 0.5) * CELL_M);
+                    let at = [(p.x - panel.x[0]) / MAP_CELL_M, (p.y - panel.y[0]) / MAP_CELL_M];
                     let inside = at.iter().all(|v| *v >= 0.0 && *v < n as f64);
                     if inside && db.is_finite() {
                         let cell = &mut sums[at[1] as usize * n + at[0] as usize];
@@ -195,8 +196,8 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
     for j in 0..n {
         let of = |(sum, m): &(f64, u32)| (*m > 0).then(|| level.shade(sum / f64::from(*m)));
         let shades: Vec<_> = sums[j * n..(j + 1) * n].iter().map(of).collect();
-        let y = panel.y[0] + j as f64 * CELL_M;
-        line(&mut cells, panel, [panel.x[0], CELL_M], [y, y + CELL_M], &shades);
+        let y = panel.y[0] + j as f64 * MAP_CELL_M;
+        line(&mut cells, panel, [panel.x[0], MAP_CELL_M], [y, y + MAP_CELL_M], &shades);
     }
     cells.draw(c, palette::echo, 0.3);
     for pass in passes {

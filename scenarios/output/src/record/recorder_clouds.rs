@@ -2,11 +2,10 @@
 
 use super::{AREA, Recorder};
 use crate::files::ReportError;
-use crate::results::Echoes;
 use crate::ros::{MessageKind, compressed_image, nanoseconds, plume_cloud, point_cloud, transforms, water_cloud};
 use crate::scene::frames::transform;
+use eyes::sidescan::{CELL_M, Row};
 use rheotaxis::frame::{PictureFrame, PlumeFrame, WaterFrame};
-use robots::survey::Row;
 use world::frames::Pose;
 
 impl Recorder {
@@ -42,7 +41,7 @@ impl Recorder {
         let mut rows: Vec<[f32; 4]> = Vec::new();
         for port in [true, false] {
             for (k, level) in line.side(port).iter().enumerate() {
-                let p = line.ground_position(port, (k as f64 + 0.5) * Echoes::CELL_M) - centre;
+                let p = line.ground_position(port, (k as f64 + 0.5) * CELL_M) - centre;
                 if level.is_finite() {
                     rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
                 }

@@ -1,7 +1,7 @@
 //! Echoes of sidescan sonars, kept as pictures of straight passes for figure and recording.
 
+use eyes::sidescan::{Row, Waterfall};
 use rheotaxis::frame::PingFrame;
-use robots::survey::{Row, Waterfall};
 
 /// A vehicle that turns faster than this makes no picture, rad/s.
 const TURNING_RAD_S: f64 = 0.05;
@@ -36,9 +36,6 @@ pub struct Echoes {
 }
 
 impl Echoes {
-    /// Size of a cell, m.
-    pub const CELL_M: f64 = 0.25;
-
     /// Adds a ping; returns the line of a picture that it completes, if any.
     pub fn push(&mut self, frame: &PingFrame) -> Option<&Row> {
         if frame.estimate.attitude.rates_rad_s.z.abs() > TURNING_RAD_S {
@@ -61,7 +58,7 @@ impl Echoes {
             if robot.passes.len() == MOST {
                 robot.passes.remove(0);
             }
-            robot.passes.push(Waterfall::new(Self::CELL_M));
+            robot.passes.push(Waterfall::default());
         }
         robot.last_s = frame.t_s;
         let pass = robot.passes.last_mut()?;

@@ -132,7 +132,7 @@ mod tests {
     use crate::sample::{folder, frames};
     use image::{Rgb, RgbImage};
     use robots::handoff::Picture;
-    use robots::sense::camera::turned;
+    use robots::sense::turned;
     use std::fs;
     use std::sync::Arc;
     use world::frames::Pose;

@@ -2,8 +2,9 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 use rheotaxis::scenario::RobotSpec;
-use robots::sense::camera::CameraSpec;
-use robots::sense::{AdcpSpec, AltimeterSpec, CtdSpec, DvlSpec, FluorometerSpec, Look, RangingSpec, SidescanSpec};
+use robots::sense::{
+    AdcpSpec, AltimeterSpec, CameraSpec, CtdSpec, DvlSpec, FluorometerSpec, Look, RangingSpec, SidescanSpec,
+};
 use robots::vehicles::Description;
 use std::f64::consts::FRAC_PI_2;
 use world::frames::Pose;

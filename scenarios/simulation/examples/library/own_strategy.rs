@@ -5,8 +5,8 @@
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use robots::error::RobotError;
-use robots::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical};
-use robots::strategy::{Strategies, Strategy, StrategyParams};
+use robots::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Vertical};
+use robots::strategy::{Setting, Strategies, Strategy, StrategyParams};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;

@@ -21,9 +21,10 @@ use robots::estimate::Start;
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Setting, Vertical,
+    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
+use robots::strategy::Setting;
 use robots::vehicles::Battery;
 use world::catalogue::Entry;
 use world::clock::Clock;

@@ -39,7 +39,7 @@ pub(crate) fn read_instruments(
             dye: &ocean.dye(clock.t_s()),
             terrain: &ocean.terrain,
             obstacles: &ocean.obstacles,
-            optics: &light.0,
+            imaging: &*light.0,
             asked: SensorRequests::from(decision),
         };
         suite.read_into(&around, &mut readings);

@@ -13,8 +13,8 @@ const FIELDS: &[(&str, &[Entry])] = &[
     ("GantryBlock", robots::sense::PARTS),
     ("RobotSpec", robots::actuate::CATALOGUE),
     ("CrabSpec", robots::track::UNITS),
-    ("ColourSpec", robots::vision::CATALOGUE),
-    ("VerifierSpec", robots::vision::CATALOGUE),
+    ("ColourSpec", eyes::vision::CATALOGUE),
+    ("VerifierSpec", eyes::vision::CATALOGUE),
 ];
 
 /// Puts the sources of a type's fields or variants into its schema.

@@ -8,11 +8,11 @@ use super::{
     check_able, check_berth, check_faults, check_fitted, check_limits, check_noise, check_obstacles, check_resolved,
     check_sources, check_steps, check_times, check_view, cost,
 };
+use eyes::camera::Optics;
 use plumes::error::PlumeError;
 use robots::error::RobotError;
-use robots::handoff::Setting;
-use robots::sense::camera::Optics;
 use robots::sense::{OnBoard, SensorSuite};
+use robots::strategy::Setting;
 use robots::vehicles::{Vehicle, VehicleSpec};
 use std::path::Path;
 use world::area::Area;

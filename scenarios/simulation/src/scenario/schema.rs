@@ -5,6 +5,8 @@ use super::id::Id;
 use super::success::SuccessSpec;
 use super::version::Version;
 use crate::machines::ApparatusSpec;
+use eyes::Sighted;
+use eyes::camera::OpticsSpec;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
@@ -12,14 +14,13 @@ use robots::actuate::AutopilotSpec;
 use robots::estimate::EstimatorSpec;
 use robots::faults::FaultSpec;
 use robots::guide::GuidanceSpec;
-use robots::handoff::Setting;
 use robots::map::MapSpec;
 use robots::sense::SensorsSpec;
-use robots::sense::camera::OpticsSpec;
-use robots::strategy::StrategySpec;
+use robots::strategy::{Setting, StrategySpec};
 use robots::vehicles::{EnergySpec, VehicleSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 use world::area::Area;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
@@ -197,6 +198,7 @@ impl RobotSpec {
             bed: terrain.clone(),
             chart: Obstacles(obstacles.0.iter().filter(charted).cloned().collect()),
             maps: self.map.is_some(),
+            eyes: Arc::new(Sighted),
         }
     }
 }

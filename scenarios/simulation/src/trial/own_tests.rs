@@ -8,10 +8,10 @@ use plumes::error::PlumeError;
 use plumes::flow::{CurrentParams, CurrentSlot, Currents, FreeWater, PlaneCurrent};
 use robots::error::RobotError;
 use robots::handoff::{
-    Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings, Setting, Vertical,
+    Behaviour, Decision, Declaration, DepthReading, Goal, Manoeuvre, Observation, Readings, Vertical,
 };
 use robots::sense::{Fitting, Sensor, SensorParams, Sensors, Surroundings};
-use robots::strategy::{Strategies, Strategy, StrategyParams};
+use robots::strategy::{Setting, Strategies, Strategy, StrategyParams};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;

@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p rheotaxis-studies --example studies mosaic mosaic.png`
 
+use eyes::camera::{Optics, Scene, render};
+use eyes::vision::place::{Mosaic, PlaceEvidence, PlacePictures, Stand};
 use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -10,8 +12,8 @@ use rheotaxis::ocean::Origin;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
 use robots::handoff::Picture;
-use robots::sense::camera::{CameraModel, CameraSpec, Optics, Scene, looking, render, turned};
-use robots::vision::place::{AddUpSpec, Mosaic, PlaceEvidence, PlacePictures, Stand};
+use robots::sense::{CameraSpec, looking, turned};
+use robots::strategy::AddUpSpec;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -42,8 +44,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let source = ocean.sources()[0].xy();
     let optics = Optics::new(&loaded.scenario.optics)?;
     let scene = Scene { terrain: &ocean.terrain, obstacles: &ocean.obstacles, dye: ocean.plume(), optics: &optics };
-    let camera =
-        CameraModel::new(&CameraSpec { width: 96, height: 72, view_deg: Positive::new(90.0), ..CameraSpec::default() });
+    let camera = CameraSpec { width: 96, height: 72, view_deg: Positive::new(90.0), ..CameraSpec::default() };
     let mut place = PlacePictures::new(&AddUpSpec::default(), source + Vector2::from(TOLD_M), Heading::from_deg(90.0));
     let mut strip = Vec::new();
     for (n, north) in [0.0, 0.9, -0.9].into_iter().enumerate() {
@@ -59,7 +60,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
                 image: Arc::new(made.image),
                 p_BC: Vector3::zeros(),
                 R_BC: turned(0.0, FRAC_PI_2),
-                view_rad: camera.view_rad,
+                view_rad: camera.view_rad(),
             };
             let stand = Stand { position: at.xy(), altitude_m: ALTITUDE_M, R_WB: UnitQuaternion::identity() };
             place.add(&picture, &stand).map_err(|why| format!("{why:?}"))?;

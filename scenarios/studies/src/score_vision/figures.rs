@@ -23,6 +23,18 @@ pub(super) struct Figures {
     pub(super) verification: Roc,
 }
 
+impl Figures {
+    /// Its shares of pixels, by their names in tables.
+    pub(super) fn shares(&self) -> [(&'static str, &Ratio); 4] {
+        [
+            ("dye_precision", &self.dye_precision),
+            ("dye_recall", &self.dye_recall),
+            ("source_precision", &self.source_precision),
+            ("source_recall", &self.source_recall),
+        ]
+    }
+}
+
 /// The figures of each method: all scenes, then each range.
 pub(super) fn figures(rows: &[SceneRow]) -> Vec<Figures> {
     let mut all = Vec::new();
@@ -62,8 +74,6 @@ pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
 /// Colours of the methods (Okabe & Ito 2008), in their order.
 const COLOURS: [&str; 6] = ["#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73"];
 
-type Pick = fn(&Figures) -> &Ratio;
-
 fn find_figures(all: &[Figures], way: usize, range: Option<(f64, f64)>) -> &Figures {
     (all.iter()).find(|f| f.method == METHODS[way] && f.visibility_m == range).expect("every way has every range")
 }
@@ -80,15 +90,9 @@ fn legend(c: &mut Canvas, left: f64, top: f64) {
 
 /// Precision and recall of dye and source, by range of visibility.
 pub(super) fn shares(all: &[Figures]) -> Canvas {
-    let picks: [(&str, Pick); 4] = [
-        ("dye: precision", |f| &f.dye_precision),
-        ("dye: recall", |f| &f.dye_recall),
-        ("source: precision", |f| &f.source_precision),
-        ("source: recall", |f| &f.source_recall),
-    ];
     let mut c = Canvas::new(940.0, 640.0);
     legend(&mut c, 60.0, 22.0);
-    for (k, (name, pick)) in picks.into_iter().enumerate() {
+    for (k, (name, _)) in all[0].shares().into_iter().enumerate() {
         let p = Panel {
             left: 60.0 + 450.0 * (k % 2) as f64,
             top: 85.0 + 285.0 * (k / 2) as f64,
@@ -97,7 +101,7 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
             x: [0.0, BINS.len() as f64],
             y: [0.0, 1.0],
         };
-        c.bold([p.left, p.top - 8.0], 12.5, Anchor::Start, name);
+        c.bold([p.left, p.top - 8.0], 12.5, Anchor::Start, &name.replace('_', ": "));
         p.grid(&mut c, 45.0);
         p.frame(&mut c, 1.0);
         p.y_ticks(&mut c, 45.0, 11.0);
@@ -111,7 +115,7 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
         for (way, colour) in COLOURS.into_iter().enumerate() {
             let mut line = Vec::new();
             for (b, range) in BINS.into_iter().enumerate() {
-                let ratio = pick(find_figures(all, way, Some(range)));
+                let (_, ratio) = find_figures(all, way, Some(range)).shares()[k];
                 let x = p.px(b as f64 + 0.5 + 0.09 * (way as f64 - 2.5));
                 let Some(v) = ratio.value else { continue };
                 line.push([x, p.py(v)]);

@@ -4,8 +4,9 @@
 //! The last one uses no colour pattern: dye is redder than most of the picture, a body is darker. Its two limits were
 //! set by eye on a few scenes and are not tuned.
 
+use eyes::vision::{Sighting, Target, Verifier, segment};
 use image::{GrayImage, Luma, RgbImage};
-use robots::vision::{ColourSpec, Edges, Sighting, Target, Verifier, VerifierSpec, segment};
+use robots::strategy::{ColourSpec, Edges, VerifierSpec};
 use serde::Serialize;
 
 /// A method.

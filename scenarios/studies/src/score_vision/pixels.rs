@@ -14,7 +14,7 @@ use serde::Serialize;
 use world::seeds::Stream;
 
 /// Number of resamples for an interval.
-pub(super) const RESAMPLES: usize = 2000;
+const RESAMPLES: usize = 2000;
 
 /// Pixels of one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -70,13 +70,23 @@ fn ratio(counts: &[Counts], name: &str, of: impl Fn(&Counts) -> (u64, u64)) -> R
         let (a, b) = parts.fold((0, 0), |s, p| (s.0 + p.0, s.1 + p.1));
         (b > 0).then(|| a as f64 / b as f64)
     };
-    let mut rng = Stream::new(1, name, "bootstrap");
     let n = parts.len();
-    let mut drawn: Vec<f64> = (0..RESAMPLES * usize::from(n > 1))
-        .filter_map(|_| pooled(&mut (0..n).map(|_| parts[((rng.uniform() * n as f64) as usize).min(n - 1)])))
-        .collect();
+    let again = |place: &mut dyn FnMut(usize) -> usize| pooled(&mut (0..n).map(|_| parts[place(n)]));
+    let interval = (n > 1).then(|| bootstrap(name, again)).flatten();
+    Ratio { pictures: n, value: pooled(&mut parts.iter().copied()), interval }
+}
+
+/// The 95 % interval of a quantity of resamples. It is given what draws a place in a sample of so many; `name` separates
+/// the random numbers of different quantities.
+pub(super) fn bootstrap(
+    name: &str,
+    mut again: impl FnMut(&mut dyn FnMut(usize) -> usize) -> Option<f64>,
+) -> Option<Interval> {
+    let mut rng = Stream::new(1, name, "bootstrap");
+    let mut place = |n: usize| ((rng.uniform() * n as f64) as usize).min(n - 1);
+    let mut drawn: Vec<f64> = (0..RESAMPLES).filter_map(|_| again(&mut place)).collect();
     drawn.sort_by(f64::total_cmp);
-    Ratio { pictures: n, value: pooled(&mut parts.iter().copied()), interval: middle(&drawn) }
+    middle(&drawn)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
 use super::draw::{Content, SceneDraw};
+use eyes::camera::{ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, render};
 use image::{GrayImage, Luma, RgbImage};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
@@ -8,9 +9,7 @@ use plumes::flow::eddies::EddiesSpec;
 use plumes::flow::open_channel::OpenChannelSpec;
 use plumes::flow::{CurrentSpec, GridShape, WaterSpec};
 use plumes::release::{ReleaseSpec, SourceSpec};
-use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render,
-};
+use robots::sense::{CameraSpec, looking};
 use std::path::Path;
 use world::area::Area;
 use world::fields::{Clean, Concentration, Flow};
@@ -73,7 +72,7 @@ pub fn shoot(seed: u64, d: &SceneDraw, [width, height]: [u32; 2]) -> Result<Shot
         dye: plume.as_ref().map_or(&Clean as &dyn Concentration, |p| p),
         optics: &optics,
     };
-    let camera = CameraModel::new(&CameraSpec { width, height, ..CameraSpec::default() });
+    let camera = CameraSpec { width, height, ..CameraSpec::default() };
     let noise = world::seeds::key(seed, &format!("scene-{}", d.n), "camera");
     let made = render(&camera, &pose(d), &scene, noise);
     let mask = |of: &dyn Fn(usize) -> bool| {

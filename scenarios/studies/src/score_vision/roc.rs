@@ -10,10 +10,9 @@
 //!
 //! *Written here*: no light crate has this area with ties and an interval.
 
-use super::pixels::RESAMPLES;
-use crate::campaign::stats::{Interval, middle, wilson};
+use super::pixels::bootstrap;
+use crate::campaign::stats::{Interval, wilson};
 use serde::Serialize;
-use world::seeds::Stream;
 
 /// A picture's score and whether it shows a source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -78,16 +77,12 @@ fn area(with: &[f64], without: &[f64]) -> Option<f64> {
 }
 
 fn interval(with: &[f64], without: &[f64], name: &str) -> Option<Interval> {
-    let mut rng = Stream::new(1, name, "bootstrap");
-    let mut again = |scores: &[f64]| {
-        let n = scores.len();
-        let mut drawn: Vec<f64> = (0..n).map(|_| scores[((rng.uniform() * n as f64) as usize).min(n - 1)]).collect();
+    let again = |scores: &[f64], place: &mut dyn FnMut(usize) -> usize| {
+        let mut drawn: Vec<f64> = scores.iter().map(|_| scores[place(scores.len())]).collect();
         drawn.sort_by(f64::total_cmp);
         drawn
     };
-    let mut areas: Vec<f64> = (0..RESAMPLES).filter_map(|_| area(&again(with), &again(without))).collect();
-    areas.sort_by(f64::total_cmp);
-    middle(&areas)
+    bootstrap(name, |place| area(&again(with, place), &again(without, place)))
 }
 
 fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {
@@ -105,6 +100,7 @@ fn curve(with: &[f64], without: &[f64]) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use world::seeds::Stream;
 
     fn scored(with: &[f64], without: &[f64]) -> Vec<ScoredPicture> {
         let of = |scores: &[f64], source| -> Vec<ScoredPicture> {

@@ -7,7 +7,7 @@ use super::render::{Shot, shoot};
 use crate::campaign::{ThreadsError, pool};
 use output::files::ReportError;
 use rayon::prelude::*;
-use robots::vision::VerifierSpec;
+use robots::strategy::VerifierSpec;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -89,13 +89,7 @@ fn scores_csv(all: &[Figures]) -> String {
                 csv_number(i.map(|i| i.high)),
             ]
         };
-        let of_pixels = [
-            ("dye_precision", &f.dye_precision),
-            ("dye_recall", &f.dye_recall),
-            ("source_precision", &f.source_precision),
-            ("source_recall", &f.source_recall),
-        ]
-        .map(|(name, r)| line(name, r.pictures as u64, None, r.value, r.interval));
+        let of_pixels = f.shares().map(|(name, r)| line(name, r.pictures as u64, None, r.value, r.interval));
         let of_verdicts =
             [("verified_with_source", v.with, v.true_share), ("verified_without_source", v.without, v.false_share)]
                 .map(|(name, (n, k), i)| {
@@ -140,7 +134,7 @@ mod tests {
     use super::super::methods::METHODS;
     use super::super::pixels::Counts;
     use super::*;
-    use robots::vision::VerifierSpec;
+    use robots::strategy::VerifierSpec;
 
     fn rows() -> Vec<SceneRow> {
         (0..24)

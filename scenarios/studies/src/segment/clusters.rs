@@ -1,9 +1,10 @@
 //! The colour patterns of both groups as swatches, with their distances, and whether they are kept or dropped.
 
+use eyes::vision::{Fate, Pass, Reference, Target};
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::{GREY, INK};
 use output::charts::panel::Panel;
-use robots::vision::{ColourSpec, Fate, Pass, Reference, Target};
+use robots::strategy::ColourSpec;
 
 /// Width of the figure.
 pub(super) const WIDTH: f64 = 980.0;

@@ -1,7 +1,8 @@
 //! A picture with its results, and these drawn over it.
 
+use eyes::vision::{Blob, Segmentation, Sighting, Target, Verifier};
 use image::{GrayImage, Rgb, RgbImage};
-use robots::vision::{Blob, Segmentation, Sighting, Target, Verifier, VerifierSpec};
+use robots::strategy::VerifierSpec;
 
 /// Colour for the plume: yellow, which neither dye nor water has.
 pub(super) const PLUME: [u8; 3] = [255, 221, 0];
@@ -94,7 +95,8 @@ fn frame(out: &mut RgbImage, b: &Blob) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use robots::vision::{ColourSpec, segment};
+    use eyes::vision::segment;
+    use robots::strategy::ColourSpec;
 
     #[test]
     fn what_was_found_is_tinted_and_nothing_else() {

@@ -1,12 +1,12 @@
 //! All pictures of a segmentation on one sheet.
 
 use super::overlay::SegmentedPicture;
+use eyes::vision::Target;
 use image::imageops::{self, FilterType};
 use image::{ImageFormat, RgbImage};
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::GREY;
 use output::charts::png;
-use robots::vision::Target;
 
 /// Number of tiles in a row.
 const COLUMNS: usize = 5;
