@@ -21,7 +21,7 @@ use robots::estimate::Start;
 use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Bounds, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Vertical,
+    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
 use robots::strategy::Setting;
