@@ -38,6 +38,7 @@ mod segment;
 mod spin_up;
 mod streams;
 mod structure;
+mod structure_files;
 mod structure_robots;
 mod subregions;
 mod vehicle;
