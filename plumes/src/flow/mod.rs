@@ -9,7 +9,7 @@ mod cost;
 mod current;
 pub mod eddies;
 mod flume;
-mod free_water;
+pub mod free_water;
 pub mod grid;
 pub mod ground;
 pub mod layered;

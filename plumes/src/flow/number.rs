@@ -4,8 +4,8 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: where a formula has a kink, the slope is that of the piece that gives the value. Currents of which only
-//! values are known have slopes by central differences (file `plane_current`).
+//! *Deviations*: where a formula has a kink, the slope is that of the piece that gives the value. Currents of which
+//! only values are known have slopes by central differences (file `plane_current`).
 //!
 //! The formulas of the water stand once, over [`Number`]. With `f64` they give the values that carry the plume, with
 //! [`Jet`] the gradients that act on a hull, in one evaluation in place of seven.

@@ -6,14 +6,14 @@ use world::limits::range::stream_m_s;
 
 use crate::flow::number::{Jet, Number};
 
-/// A current that is the same at all depths; the bed slows it. [`FreeWater::add`](crate::flow::FreeWater::add) takes one
+/// A current that is the same at all depths; the bed slows it. [`FreeWater::add`](crate::flow::FreeWater::add) takes it
 /// in. Every copy of the water copies it, so large tables belong behind an [`Arc`](std::sync::Arc).
 pub trait PlaneCurrent: std::fmt::Debug + DynClone + Send + Sync {
     /// (east, north) at (east, north) `p` at time `t_s`, m/s.
     fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64>;
 
     /// The same with its slopes, for a place and a time that carry theirs. The slopes are those of central differences,
-    /// unless the current gives its own.
+    /// unless the current gives its own: a formula over [`Number`] gives both.
     fn with_slopes(&self, p: Vector2<Jet>, t_s: Jet) -> Vector2<Jet> {
         /// Small compared with a current's scales, large compared with rounding at places of 10³ m; m and s.
         const H: f64 = 1e-3;

@@ -178,10 +178,10 @@ impl ObstacleFlow {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
-    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`](world::fields::Flow::rates) requires: along, across and
-    /// upwards, the speed at the lower and the upper face in cell sizes per second. Columns have one level less than
-    /// nodes: cell (i, j, k) has the number (i·(ny + 1) + j)·nz + k and belongs to the flow grid's column at its lower
-    /// corner.
+    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`](world::fields::Flow::rates)
+    /// requires: along, across and upwards, the speed at the lower and the upper face in cell sizes per second. Columns
+    /// have one level less than nodes: cell (i, j, k) has the number (i·(ny + 1) + j)·nz + k and belongs to the flow
+    /// grid's column at its lower corner.
     pub(crate) fn rates(&self, t_s: f64, out: &mut Vec<[f32; 6]>) {
         let cells = &*self.cells;
         let [nx, ny, nz] = cells.n;
