@@ -5,10 +5,10 @@
 //!
 //! *Parameters*: see [`InspectSpec`].
 //!
-//! *Deviations*: a vehicle that hovers holds over the place for its pictures (`survey/holds.rs` of the crate `eyes`): over the middle of
-//! each line that others fly, or, if pictures are added up, over the points that show what is still unseen. Each place
-//! is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared again with the
-//! survey's verdict. The mission is completed after the last place, on the spot.
+//! *Deviations*: a vehicle that hovers holds over the place for its pictures (`survey/holds.rs` of the crate `eyes`):
+//! over the middle of each line that others fly, or, if pictures are added up, over the points that show what is still
+//! unseen. Each place is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared
+//! again with the survey's verdict. The mission is completed after the last place, on the spot.
 
 use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};

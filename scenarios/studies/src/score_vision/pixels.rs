@@ -76,8 +76,8 @@ fn ratio(counts: &[Counts], name: &str, of: impl Fn(&Counts) -> (u64, u64)) -> R
     Ratio { pictures: n, value: pooled(&mut parts.iter().copied()), interval }
 }
 
-/// The 95 % interval of a quantity of resamples. It is given what draws a place in a sample of so many; `name` separates
-/// the random numbers of different quantities.
+/// The 95 % interval of a quantity of resamples. It is given what draws a place in a sample of so many; `name`
+/// separates the random numbers of different quantities.
 pub(super) fn bootstrap(
     name: &str,
     mut again: impl FnMut(&mut dyn FnMut(usize) -> usize) -> Option<f64>,
