@@ -187,6 +187,9 @@ fn a_run_that_breaks_off_is_gone_and_one_of_the_same_id_is_heard_anew() {
     assert_eq!(next(&mut listener), News::Gone("again_1".to_owned()));
     let live = Live::start(&options, meta()).unwrap();
     assert_eq!(next(&mut listener), News::Begun("again_1".to_owned()));
+    // A run that ends before it knows of its listener is gone to it.
+    live.see(&Event::Frame(Arc::new(frame(1))));
+    assert_eq!(message(&mut listener)["key"], "rheotaxis/again_1/clock");
     live.finish("d1");
     let (lines, end) = to_the_end(&mut listener);
     assert_eq!(end, News::Ended("again_1".to_owned()));
