@@ -117,7 +117,7 @@ fn searchers_read_no_files_and_keep_nothing_between_runs() {
         "thread_local!",
     ];
     // Names of files for `Files`; nothing else may take a path to where something could be read.
-    let paths = ["files.rs", "mesh.rs", "urdf_parts.rs", "folder/opened.rs", "folder/shipped.rs"]
+    let paths = ["files.rs", "mesh.rs", "urdf_parts.rs", "folder/vehicle_source.rs", "folder/shipped.rs"]
         .map(|f| format!("robots/src/vehicles/{f}"));
     for (file, text) in [sources("robots/src"), sources("robots/eyes/src")].concat() {
         let code = code_outside_tests(&file, &text);

@@ -30,7 +30,7 @@ use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn};
 use crate::flow::mixing::MixingSpec;
 use crate::flow::number::{Number, still};
-use crate::flow::plane_current::{JoinedCurrent, PlaneCurrent};
+use crate::flow::plane_current::{CurrentEntry, PlaneCurrent};
 use crate::flow::waves::Waves;
 
 /// The water without obstacles, ready to be evaluated.
@@ -38,7 +38,7 @@ use crate::flow::waves::Waves;
 pub struct FreeWater {
     pub(super) ground: Ground,
     /// Currents that are the same at all depths, in the order in which they are added up.
-    pub(super) currents: Vec<JoinedCurrent>,
+    pub(super) currents: Vec<CurrentEntry>,
     /// Layers set the density, and the surfaces that all of the water follows.
     pub(super) layers: Option<Layered>,
     pub(super) bed: Option<BoundaryLayer>,
@@ -64,13 +64,13 @@ pub struct Column<'a, N = f64> {
 impl FreeWater {
     /// Adds a current that is the same at all depths.
     pub fn add(&mut self, current: impl PlaneCurrent + 'static) {
-        self.currents.push(JoinedCurrent { name: "", own: true, current: Box::new(current) });
+        self.currents.push(CurrentEntry { name: "", is_own: true, current: Box::new(current) });
     }
 
     /// Brings the inner state of its currents up to `t_s`.
     pub(super) fn advance(&mut self, t_s: f64) {
-        for joined in &mut self.currents {
-            joined.current.advance(t_s);
+        for entry in &mut self.currents {
+            entry.current.advance(t_s);
         }
     }
 

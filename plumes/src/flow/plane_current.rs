@@ -37,21 +37,23 @@ dyn_clone::clone_trait_object!(PlaneCurrent);
 
 /// A current in the water.
 #[derive(Clone, Debug)]
-pub(super) struct JoinedCurrent {
+pub(super) struct CurrentEntry {
     /// Its name in scenarios.
     pub(super) name: &'static str,
     /// Whether another crate made it. Parameters of the others were checked; of this one, every value is.
-    pub(super) own: bool,
+    pub(super) is_own: bool,
     pub(super) current: Box<dyn PlaneCurrent>,
 }
 
-impl JoinedCurrent {
+impl CurrentEntry {
     /// What is wrong with it at a place and a time.
     pub(super) fn fault(&self, p: Vector2<f64>, t_s: f64) -> Option<String> {
-        if !self.own {
-            return None;
-        }
-        let (most, v) = (stream_m_s.1, self.current.velocity(p, t_s));
+        if self.is_own { self.fault_of(self.current.velocity(p, t_s), p, t_s) } else { None }
+    }
+
+    /// What is wrong with a velocity that it gave.
+    fn fault_of(&self, v: Vector2<f64>, p: Vector2<f64>, t_s: f64) -> Option<String> {
+        let most = stream_m_s.1;
         // This form also refuses what is not a number.
         let wrong = !v.iter().all(|v| v.abs() <= most);
         wrong.then(|| {
@@ -68,9 +70,12 @@ impl JoinedCurrent {
     /// # Panics
     /// If it flows faster than water does. A plume in such water would take steps without end.
     pub(super) fn velocity<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
-        let fault = self.fault(p.map(Number::value), t_s.value());
-        assert!(fault.is_none(), "{}", fault.unwrap_or_default());
         let current = &*self.current;
-        N::either(p, t_s, |p, t_s| current.velocity(p, t_s), |p, t_s| current.with_slopes(p, t_s))
+        let v = N::either(p, t_s, |p, t_s| current.velocity(p, t_s), |p, t_s| current.with_slopes(p, t_s));
+        if self.is_own {
+            let fault = self.fault_of(v.map(Number::value), p.map(Number::value), t_s.value());
+            assert!(fault.is_none(), "{}", fault.unwrap_or_default());
+        }
+        v
     }
 }

@@ -113,8 +113,8 @@ impl WaterSpec {
                 let field = format!("water.currents[{i}]");
                 let before = water.currents.len();
                 current.join(&mut water, &CurrentSlot { field: &field, area, terrain, seed, carrier })?;
-                for joined in &mut water.currents[before..] {
-                    (joined.name, joined.own) = (current.name(), current.is_own());
+                for entry in &mut water.currents[before..] {
+                    (entry.name, entry.is_own) = (current.name(), current.is_own());
                 }
             }
             if let Some(problem) = water.fault(area.centre, 0.0) {

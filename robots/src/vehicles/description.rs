@@ -9,7 +9,7 @@
 //! same length, a link without `<visual>` shows what it collides with, and a mesh file gets its whole path.
 
 use super::files::Files;
-use super::folder::{Opened, TermsSpec, urdf_of};
+use super::folder::{TermsSpec, VehicleSource, urdf_of};
 use super::gantry::{CRAB_GANTRY, GantrySpec};
 use super::looks::{DrivenJoint, JointKind, LinkLook, Motion, looks, of_drives, of_fins};
 use super::spec::VehicleSpec;
@@ -74,12 +74,12 @@ impl Description {
         if let VehicleSpec::Kinematic(spec) = spec {
             return Self::from_urdf(&urdf_of(spec.urdf.as_deref(), files)?, &[]);
         }
-        let opened = Opened::new(spec, files)?;
-        let moves = match opened.file.hydrodynamics.terms {
+        let source = VehicleSource::new(spec, files)?;
+        let moves = match source.file.hydrodynamics.terms {
             TermsSpec::Torpedo(_) => of_fins(),
-            TermsSpec::Blocks => of_drives(&opened.file.drives),
+            TermsSpec::Blocks => of_drives(&source.file.drives),
         };
-        Self::from_urdf(&opened.urdf, &moves)
+        Self::from_urdf(&source.urdf, &moves)
     }
 
     /// Of a gantry that can be built.

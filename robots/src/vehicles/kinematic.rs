@@ -18,7 +18,7 @@
 //! URDF, without added mass. It cannot be tilted. What a contact does to its velocity lasts for that step. It does not rise above the surface.
 
 use super::kinematic_spec::{KinematicSpec, Moves};
-use super::motion::{Felt, Inertia, Motion, foreign};
+use super::motion::{Inertia, Motion, WaterInput, foreign};
 use super::urdf::Shell;
 use crate::error::ensure;
 use crate::handoff::{Actuation, Capabilities, Control, RateCommand, RateLimits, TurnLimit};
@@ -101,10 +101,10 @@ impl Motion for Kinematic {
         Actuation::Rates(RateCommand::default())
     }
 
-    fn feels(&self) -> Felt {
+    fn feels(&self) -> WaterInput {
         match self.moves {
-            Moves::ThroughWater => Felt::Velocity,
-            Moves::OverGround => Felt::Nothing,
+            Moves::ThroughWater => WaterInput::Velocity,
+            Moves::OverGround => WaterInput::Nothing,
         }
     }
 

@@ -31,7 +31,7 @@ pub use folder::{Axes, Block, HydrodynamicsSpec, Row, Rows, SHIPPED, ShippedVehi
 pub use gantry::{CRAB_GANTRY, CrabGantrySpec, Gantry, GantrySpec};
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};
 pub use looks::{DrivenJoint, Form, JointKind, LinkLook, Look};
-pub use motion::{Felt, FittedDrive, Inertia, Motion, Statics};
+pub use motion::{Inertia, Motion, Statics, VehicleDrive, WaterInput};
 pub use spec::{CATALOGUE, ParameterSet, RemusSpec, VehicleSpec};
 pub use torpedo::{Coefficients, Inflow, TorpedoFinsSpec, TorpedoHullSpec, TorpedoPropellerSpec};
 pub use vehicle::Vehicle;

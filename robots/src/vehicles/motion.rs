@@ -26,7 +26,7 @@ pub trait Motion: DynClone + Debug + Send + Sync {
     fn idle(&self) -> Actuation;
 
     /// Its drives, in the order of their set-points; none of a kinematic vehicle, which moves as its helm asks.
-    fn drives(&self) -> Vec<FittedDrive> {
+    fn drives(&self) -> Vec<VehicleDrive> {
         Vec::new()
     }
 
@@ -46,13 +46,13 @@ pub trait Motion: DynClone + Debug + Send + Sync {
     }
 
     /// What it feels of the water.
-    fn feels(&self) -> Felt {
-        Felt::Sample
+    fn feels(&self) -> WaterInput {
+        WaterInput::Sample
     }
 
     /// Whether the water carries it.
     fn is_carried(&self) -> bool {
-        self.feels() != Felt::Nothing
+        self.feels() != WaterInput::Nothing
     }
 
     /// Mass for the physics.
@@ -92,7 +92,7 @@ pub(super) fn foreign(set: &Actuation) -> ! {
 
 /// What a vehicle feels of the water: what it does not feel need not be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Felt {
+pub enum WaterInput {
     /// Velocity with its slopes, and density.
     Sample,
     /// Its velocity alone.
@@ -114,7 +114,7 @@ pub struct Inertia {
 
 /// A drive on a vehicle, FLU.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FittedDrive {
+pub struct VehicleDrive {
     /// Its name, that of its link, and its unit.
     pub named: NamedDrive,
     /// Least and greatest set-point.

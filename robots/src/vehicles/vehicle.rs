@@ -1,9 +1,9 @@
 //! A vehicle of any kind that a scenario can choose for a robot.
 
 use super::files::Files;
-use super::folder::{DrivenHull, Opened, TermsSpec, VehicleFile, urdf_of};
+use super::folder::{DrivenHull, TermsSpec, VehicleFile, VehicleSource, urdf_of};
 use super::kinematic::Kinematic;
-use super::motion::{Felt, Motion};
+use super::motion::{Motion, WaterInput};
 use super::spec::VehicleSpec;
 use super::torpedo::TorpedoHull;
 use super::urdf::{self, Shell};
@@ -31,7 +31,7 @@ impl Vehicle {
     /// If a file cannot be read, or if the vehicle cannot be one.
     pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
         let VehicleSpec::Kinematic(kinematic) = spec else {
-            return Self::build(&Opened::new(spec, files)?);
+            return Self::build(&VehicleSource::new(spec, files)?);
         };
         let urdf = urdf_of(kinematic.urdf.as_deref(), files)?;
         let shell = urdf::shell(&urdf)?;
@@ -44,17 +44,17 @@ impl Vehicle {
     /// # Errors
     /// If a file cannot be read, or if the vehicle cannot be one.
     pub fn of_file(folder: &str, file: &VehicleFile, files: &dyn Files) -> Result<Self, RobotError> {
-        Self::build(&Opened::in_folder(folder.as_ref(), file.clone(), files)?)
+        Self::build(&VehicleSource::in_folder(folder.as_ref(), file.clone(), files)?)
     }
 
-    fn build(opened: &Opened) -> Result<Self, RobotError> {
-        let shell = urdf::shell(&opened.urdf)?;
+    fn build(source: &VehicleSource) -> Result<Self, RobotError> {
+        let shell = urdf::shell(&source.urdf)?;
         let mut told = Vec::new();
-        let motion: Box<dyn Motion> = match &opened.file.hydrodynamics.terms {
-            TermsSpec::Blocks => Box::new(DrivenHull::build(opened, &shell, &mut told)?),
-            TermsSpec::Torpedo(hull) => Box::new(TorpedoHull::build(opened, hull, &shell, &mut told)?),
+        let motion: Box<dyn Motion> = match &source.file.hydrodynamics.terms {
+            TermsSpec::Blocks => Box::new(DrivenHull::build(source, &shell, &mut told)?),
+            TermsSpec::Torpedo(hull) => Box::new(TorpedoHull::build(source, hull, &shell, &mut told)?),
         };
-        Ok(Self { name: opened.file.name.clone(), shell, told, motion })
+        Ok(Self { name: source.file.name.clone(), shell, told, motion })
     }
 
     /// Its name for people.
@@ -102,9 +102,9 @@ impl Vehicle {
             density_kg_m3: world::units::SEA_WATER_KG_M3,
         };
         let sample = match self.feels() {
-            Felt::Sample => water.sample(&truth.pose.p_WB, t_s),
-            Felt::Velocity => uniform(water.velocity(&truth.pose.p_WB, t_s)),
-            Felt::Nothing => uniform(Vector3::zeros()),
+            WaterInput::Sample => water.sample(&truth.pose.p_WB, t_s),
+            WaterInput::Velocity => uniform(water.velocity(&truth.pose.p_WB, t_s)),
+            WaterInput::Nothing => uniform(Vector3::zeros()),
         };
         self.step_in(truth, &sample, set, dt_s)
     }

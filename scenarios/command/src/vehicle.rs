@@ -11,7 +11,9 @@ use output::files::{beside_no_run, write_whole};
 use rheotaxis::scenario::FolderFiles;
 use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Control, DriveEffect};
-use robots::vehicles::{CATALOGUE, FittedDrive, KinematicSpec, SHIPPED, ShippedVehicle, Statics, Vehicle, VehicleSpec};
+use robots::vehicles::{
+    CATALOGUE, KinematicSpec, SHIPPED, ShippedVehicle, Statics, Vehicle, VehicleDrive, VehicleSpec,
+};
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, has_rudder, numbers_csv, steering_csv, trials};
 use world::files::make_folder;
@@ -148,7 +150,7 @@ fn print_capabilities(craft: &Vehicle) {
 }
 
 /// Where a drive sits.
-fn place(craft: &Vehicle, drive: &FittedDrive) -> Vector3<f64> {
+fn place(craft: &Vehicle, drive: &VehicleDrive) -> Vector3<f64> {
     craft.mount(&drive.named.name).expect("its link is there").p_WB
 }
 

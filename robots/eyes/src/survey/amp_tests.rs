@@ -1,6 +1,6 @@
 //! The adaptive mission planner with a survey after its declaration, tick by tick.
 
-use crate::Sighted;
+use crate::StandardEyes;
 use crate::testing::{seen, smelling};
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Behaviour, Decision, Manoeuvre, Outcome, SidescanPing, Verdict, Vertical};
@@ -18,7 +18,12 @@ struct Desk {
 impl Desk {
     fn new() -> Self {
         let spec = AmpSpec { after_declaration: AfterDeclaration::Survey(Box::default()), ..AmpSpec::default() };
-        Self { amp: Amp::new(&spec, &Sighted).unwrap(), rng: Stream::new(1, "a", "strategy"), t_s: 0.0, goal_id: 0 }
+        Self {
+            amp: Amp::new(&spec, &StandardEyes).unwrap(),
+            rng: Stream::new(1, "a", "strategy"),
+            t_s: 0.0,
+            goal_id: 0,
+        }
     }
 
     /// A tick at a place, on a heading; during a survey the sidescan hears a bare bed if `sonar`.

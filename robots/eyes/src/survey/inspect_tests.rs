@@ -1,6 +1,6 @@
 //! Inspection of told places, tick by tick.
 
-use crate::Sighted;
+use crate::StandardEyes;
 use crate::testing::seen;
 use nalgebra::Vector2;
 use robots::handoff::{Manoeuvre, Outcome, Verdict};
@@ -32,7 +32,7 @@ fn spec(places: &[[f64; 2]]) -> InspectSpec {
 #[test]
 fn every_place_is_visited_declared_and_judged_in_order() {
     let places = [[50.0, 0.0], [-60.0, 30.0]];
-    let mut s = Inspect::new(&spec(&places), &Sighted).expect("legal");
+    let mut s = Inspect::new(&spec(&places), &StandardEyes).expect("legal");
     let mut rng = Stream::new(1, "auv0", "strategy");
     let mut o = seen(0.0, Vector2::zeros(), 90.0, Some(Vector2::new(0.2, 0.0)));
     let (mut said, mut lines, mut last) = (Vec::new(), 0, 0);

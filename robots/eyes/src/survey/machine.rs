@@ -39,7 +39,7 @@ enum SurveyPhase {
 
 /// A survey that is flown.
 #[derive(Debug, SmartDefault)]
-pub struct Flown {
+pub struct SurveyFlight {
     spec: SurveySpec,
     /// Whether the places were told, and are not declared by the vehicle itself.
     told: bool,
@@ -61,7 +61,7 @@ pub struct Flown {
     asked_s: Option<f64>,
 }
 
-impl Flown {
+impl SurveyFlight {
     /// Of places that the vehicle declares, or that it was `told`, which are surer.
     pub fn new(spec: &SurveySpec, told: bool) -> Self {
         Self { spec: spec.clone(), told, ..Self::default() }
@@ -193,7 +193,7 @@ impl Flown {
     }
 }
 
-impl Survey for Flown {
+impl Survey for SurveyFlight {
     fn enter(&mut self, declaration: Declaration, seen: &Observation, along: Heading) {
         self.declaration = Some(declaration);
         self.along = along;

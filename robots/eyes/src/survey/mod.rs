@@ -4,7 +4,7 @@ mod holds;
 mod looks;
 mod machine;
 
-pub use machine::Flown;
+pub use machine::SurveyFlight;
 
 #[cfg(test)]
 mod amp_tests;

@@ -1,6 +1,6 @@
 //! Surveys flown by a vehicle that follows its goals exactly, with a real sonar over a real block.
 
-use crate::Sighted;
+use crate::StandardEyes;
 use crate::testing::{self, area, seen};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -43,7 +43,7 @@ struct Sea {
     camera: Option<bool>,
 }
 
-struct Flown {
+struct SurveyFlight {
     last: Declaration,
     lines: Vec<(Vector2<f64>, Vector2<f64>)>,
     altitudes: Vec<f64>,
@@ -52,18 +52,18 @@ struct Flown {
 
 /// Declares at a place and flies what follows: each line from end to end. The believed position differs from the true
 /// one by `off`.
-fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> Flown {
+fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> SurveyFlight {
     let after = AfterDeclaration::Survey(Box::new(spec.clone()));
-    let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
+    let mut post = PostDeclaration::new(&after, &StandardEyes, false).unwrap();
     let mut sonar = Sidescan::new(&SidescanSpec::default(), Vector3::zeros(), &OnBoard::new("a", 3, PERIOD_S)).unwrap();
     let mut clock = Clock::new(PERIOD_S);
     let mut o = seen(0.0, declared, 0.0, None);
     let first = Declaration::first(0.0, declared, "test");
     let (stamped, next) = post.enter(first, &o, Heading::from_deg(30.0));
     assert_eq!((stamped, next), (first, Behaviour::Survey));
-    let mut flown = Flown { last: first, lines: Vec::new(), altitudes: Vec::new(), pictures: 0 };
+    let mut flown = SurveyFlight { last: first, lines: Vec::new(), altitudes: Vec::new(), pictures: 0 };
     let mut left = 0.0;
-    let mut step = |o: &mut Observation, flown: &mut Flown, arrived: bool| {
+    let mut step = |o: &mut Observation, flown: &mut SurveyFlight, arrived: bool| {
         o.t_s = clock.t_s();
         o.estimate.t_s = o.t_s;
         let Some(Vertical::Altitude(altitude)) = flown.altitudes.last().map(|a| Vertical::Altitude(*a)) else {
@@ -226,7 +226,7 @@ fn pictures_that_show_nothing_leave_the_place_open() {
 #[test]
 fn declarations_are_numbered_and_the_plain_ends_stay() {
     for (after, next) in [(AfterDeclaration::GoHome, Behaviour::GoHome), (AfterDeclaration::Stop, Behaviour::Done)] {
-        let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
+        let mut post = PostDeclaration::new(&after, &StandardEyes, false).unwrap();
         let o = seen(0.0, place(), 0.0, None);
         for number in 0..3 {
             let d = Declaration::first(1.0, place(), "test");
@@ -241,7 +241,7 @@ fn declarations_are_numbered_and_the_plain_ends_stay() {
 #[test]
 fn parts_that_do_not_go_together_are_named() {
     let says = |spec: SurveySpec| {
-        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec)), &Sighted, false)
+        PostDeclaration::new(&AfterDeclaration::Survey(Box::new(spec)), &StandardEyes, false)
             .expect_err("must not be")
             .to_string()
     };
@@ -258,7 +258,7 @@ fn parts_that_do_not_go_together_are_named() {
 fn first_of_the_camera(hovers: bool, camera: CameraPasses) -> Manoeuvre {
     let spec = SurveySpec { sidescan: None, camera: Some(camera), verify: Verify::Camera, ..SurveySpec::default() };
     let after = AfterDeclaration::Survey(Box::new(spec));
-    let mut post = PostDeclaration::new(&after, &Sighted, false).unwrap();
+    let mut post = PostDeclaration::new(&after, &StandardEyes, false).unwrap();
     let place = Vector2::new(10.0, 20.0);
     let mut o = seen(0.0, place, 0.0, None);
     o.able.hovers = hovers;

@@ -14,7 +14,7 @@ use crate::handoff::{
 };
 use crate::vehicles::drives::{Drive, Kind};
 use crate::vehicles::dynamics::Equation;
-use crate::vehicles::motion::{FittedDrive, Inertia, Motion, Statics, foreign};
+use crate::vehicles::motion::{Inertia, Motion, Statics, VehicleDrive, foreign};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use world::fields::WaterSample;
 use world::frames::Truth;
@@ -130,7 +130,7 @@ impl Motion for DrivenHull {
         Actuation::Drives(DriveCommand::new(&self.drives.iter().map(Drive::idle).collect::<Vec<_>>()))
     }
 
-    fn drives(&self) -> Vec<FittedDrive> {
+    fn drives(&self) -> Vec<VehicleDrive> {
         let fitted = |(drive, plant): (&Drive, &PlantDrive)| {
             let (unit, way) = match &drive.kind {
                 Kind::Thruster(t) => (DriveUnit::Own, t.axis),
@@ -139,7 +139,7 @@ impl Motion for DrivenHull {
                 Kind::Buoyancy(..) => (DriveUnit::Own, -Vector3::z()),
                 Kind::Mass(way, ..) => (DriveUnit::Own, *way),
             };
-            FittedDrive {
+            VehicleDrive {
                 named: NamedDrive { name: drive.link.clone(), unit, idle: plant.idle },
                 limits: plant.limits,
                 way: Vector3::new(way.x, -way.y, -way.z),

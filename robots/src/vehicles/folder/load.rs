@@ -12,8 +12,8 @@ use super::doubts::{resists, symmetric, trim};
 use super::driven_hull::{DrivenHull, Rates};
 use super::fitted::drives;
 use super::hull_blocks::{HullBlocks, given};
-use super::opened::Opened;
 use super::plant;
+use super::vehicle_source::VehicleSource;
 use crate::error::{RobotError, ensure};
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::dynamics::{Body, Equation, Mass, cells_of, flip, turned};
@@ -30,16 +30,16 @@ impl DrivenHull {
     /// # Errors
     /// If it cannot be one.
     pub(in crate::vehicles) fn build(
-        opened: &Opened,
+        source: &VehicleSource,
         shell: &Shell,
         told: &mut Vec<String>,
     ) -> Result<Self, RobotError> {
-        let (file, wrong) = (&opened.file, |problem: String| opened.wrong(problem));
+        let (file, wrong) = (&source.file, |problem: String| source.wrong(problem));
         let Some(pilot) = &file.autopilot else {
             return Err(wrong("autopilot: is missing; say who steers it: Torpedo(), Thrusters() or Glider()".into()));
         };
-        let mass = rigid(shell).map_err(|problem| opened.urdf.fault(problem))?;
-        let given = given(&file.hydrodynamics, &opened.urdf, mass.kg, &shell.links, told)?;
+        let mass = rigid(shell).map_err(|problem| source.urdf.fault(problem))?;
+        let given = given(&file.hydrodynamics, &source.urdf, mass.kg, &shell.links, told)?;
         let (body, mut damping) = hull(&given, &mass, shell, told).map_err(wrong)?;
         let drives = drives(&file.drives, shell, told).map_err(wrong)?;
         let equation = Equation::new(body)

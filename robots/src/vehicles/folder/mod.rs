@@ -7,13 +7,13 @@ mod fitted;
 mod hull_blocks;
 mod hydrodynamics_spec;
 mod load;
-mod opened;
 mod plant;
 mod shipped;
 mod spec;
+mod vehicle_source;
 
 pub(super) use driven_hull::DrivenHull;
 pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row, Rows, TermsSpec};
-pub(super) use opened::{Opened, urdf_of};
 pub use shipped::{SHIPPED, ShippedVehicle};
 pub use spec::VehicleFile;
+pub(super) use vehicle_source::{VehicleSource, urdf_of};

@@ -101,7 +101,7 @@ impl Coefficients {
         let (a, b): (f64, f64) = (length_m / 2.0, diameter_m / 2.0);
         let volume_m3 = 4.0 / 3.0 * PI * a * b * b;
         let mass_kg = rho * volume_m3;
-        let z_g_m = spec.centre_of_gravity_low_m.get();
+        let z_g_m = spec.centre_of_gravity_below_m.get();
         let ix = 0.4 * mass_kg * b * b;
         let iy = 0.2 * mass_kg * (a * a + b * b);
 
@@ -146,7 +146,7 @@ impl Coefficients {
             if spec.published { m[5] / PUBLISHED_YAW_S } else { 0.0 },
         ];
 
-        let area_m2 = spec.area.get() * length_m * diameter_m;
+        let area_m2 = spec.area_share.get() * length_m * diameter_m;
         let aspect = diameter_m * diameter_m / area_m2;
         let dx = length_m / 20.0;
         let at = |place: f64| -a + place * dx;
@@ -156,7 +156,7 @@ impl Coefficients {
             (0..20).map(|i| at(f64::from(i) + 0.5)).collect()
         };
         let curve = |(rest, ahead): (Positive, NonNegative)| {
-            [rest.get(), (ahead.get() - rest.get()) / spec.propeller.advance.get()]
+            [rest.get(), (ahead.get() - rest.get()) / spec.propeller.advance_ratio.get()]
         };
         Ok(Self {
             ballast_density_kg_m3: rho,

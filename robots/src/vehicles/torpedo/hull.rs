@@ -15,8 +15,8 @@ use crate::error::{RobotError, ensure};
 use crate::handoff::{Actuation, ActuatorCommand, Capabilities, Control, DriveEffect, NamedDrive};
 use crate::vehicles::drives::{CurveSpec, table};
 use crate::vehicles::dynamics::{Equation, wrench};
-use crate::vehicles::folder::Opened;
-use crate::vehicles::motion::{FittedDrive, Inertia, Motion, Statics, foreign};
+use crate::vehicles::folder::VehicleSource;
+use crate::vehicles::motion::{Inertia, Motion, Statics, VehicleDrive, foreign};
 use crate::vehicles::urdf::Shell;
 use nalgebra::{Matrix3, Vector3};
 use world::fields::WaterSample;
@@ -43,23 +43,23 @@ pub(in crate::vehicles) struct TorpedoHull {
 impl TorpedoHull {
     /// The hull of a vehicle's file, with the mass of its URDF.
     pub(in crate::vehicles) fn build(
-        opened: &Opened,
+        source: &VehicleSource,
         spec: &TorpedoHullSpec,
         shell: &Shell,
         told: &mut Vec<String>,
     ) -> Result<Self, RobotError> {
-        opened.file.has_only_terms().map_err(|problem| opened.wrong(problem))?;
-        let water = &opened.file.hydrodynamics;
+        source.file.has_only_terms().map_err(|problem| source.wrong(problem))?;
+        let water = &source.file.hydrodynamics;
         let c = Coefficients::new(spec, water.density_kg_m3.get(), water.gravity_m_s2.get());
-        let c = c.map_err(|problem| opened.wrong(problem))?;
-        let fault = |problem: String| opened.urdf.fault(problem);
+        let c = c.map_err(|problem| source.wrong(problem))?;
+        let fault = |problem: String| source.urdf.fault(problem);
         for drive in NamedDrive::fins() {
             ensure(shell.links.contains_key(&drive.name), || format!("link \"{}\" is missing", drive.name))
                 .map_err(fault)?;
         }
         let (c, differs) = shell.ballast.put_into(&shell.body, &c).map_err(fault)?;
         told.extend(differs);
-        let propeller = propeller(&c).map_err(|e| opened.wrong(format!("hydrodynamics.terms.propeller: {e}")))?;
+        let propeller = propeller(&c).map_err(|e| source.wrong(format!("hydrodynamics.terms.propeller: {e}")))?;
         let equation = Equation::new(c.body()).expect("its mass is near that of a spheroid in water");
         Ok(Self { c, equation, propeller, actuators: Actuators::default(), last: None })
     }
@@ -125,7 +125,7 @@ impl Motion for TorpedoHull {
         Actuation::Fins(ActuatorCommand::default())
     }
 
-    fn drives(&self) -> Vec<FittedDrive> {
+    fn drives(&self) -> Vec<VehicleDrive> {
         let c = &self.c;
         // Force of 1 rad at 1 m/s and 1 kg/m³: a positive rudder pushes the tail to port, a stern plane pushes it up.
         let lifts = |slope: Positive, way: Vector3<f64>| {
@@ -138,7 +138,7 @@ impl Motion for TorpedoHull {
             (fin, Vector3::z(), lifts(c.spec.fins.stern_slope, -Vector3::z())),
             (rpm, Vector3::x(), self.propeller.clone()),
         ];
-        let drive = |(named, (most, way, does)): (NamedDrive, (f64, Vector3<f64>, DriveEffect))| FittedDrive {
+        let drive = |(named, (most, way, does)): (NamedDrive, (f64, Vector3<f64>, DriveEffect))| VehicleDrive {
             named,
             limits: [-most, most],
             way,
@@ -219,7 +219,7 @@ mod tests {
         let same = own("", "").unwrap();
         assert_eq!(same.coefficients(), remus.coefficients());
         assert_eq!((same.name(), same.doubts()), ("REMUS 100", &[][..]));
-        let published = own("area: 0.7,", "area: 0.7, published: true,").unwrap();
+        let published = own("area_share: 0.7,", "area_share: 0.7, published: true,").unwrap();
         assert!(published.coefficients().unwrap().spec.published);
         let slow = own("limit_rpm: 1525", "limit_rpm: 1000").unwrap();
         assert!((slow.top_speed_m_s(f64::MAX) - 1.674).abs() < 0.05);

@@ -18,7 +18,7 @@ pub struct TorpedoHullSpec {
     pub diameter_m: Positive,
     /// Centre of gravity below the middle of the hull, m. With it and with mass and inertia of a spheroid that displaces
     /// its own weight, the URDF must agree within 1 %.
-    pub centre_of_gravity_low_m: Positive,
+    pub centre_of_gravity_below_m: Positive,
     /// Added inertia in roll, as a share of the inertia in roll.
     pub added_roll: NonNegative,
     /// Time constant T_1 of linear damping in surge, s.
@@ -32,7 +32,7 @@ pub struct TorpedoHullSpec {
     /// Drag coefficient without incidence, on the frontal area.
     pub frontal_drag: Positive,
     /// Reference area of lift and induced drag, as a share of length times diameter.
-    pub area: Positive,
+    pub area_share: Positive,
     /// Span efficiency e of the hull: the induced drag is C_L²/(π e AR).
     pub span_efficiency: Positive,
     /// Cross-flow drag coefficient.
@@ -80,12 +80,12 @@ pub struct TorpedoPropellerSpec {
     pub wake_share: Fraction,
     /// Share of the shaft's torque that rolls the hull.
     pub torque_share: Positive,
-    /// Thrust coefficient K_T at rest, and at the advance ratio `advance`.
+    /// Thrust coefficient K_T at rest, and at the advance ratio `advance_ratio`.
     pub thrust: (Positive, NonNegative),
-    /// Torque coefficient K_Q at rest, and at the advance ratio `advance`.
+    /// Torque coefficient K_Q at rest, and at the advance ratio `advance_ratio`.
     pub torque: (Positive, NonNegative),
     /// Advance ratio of the second coefficients.
-    pub advance: Positive,
+    pub advance_ratio: Positive,
     /// Greatest speed, rpm.
     #[serde(with = "world::limits::rpm_limit")]
     pub limit_rpm: Positive,

@@ -3,7 +3,7 @@
 use super::Rules;
 use super::agent::{Agent, Machine};
 use nalgebra::Vector2;
-use rheotaxis::control::{Gathered, Question, QuestionContent};
+use rheotaxis::control::{Question, QuestionContent, ReadingsSince};
 use rheotaxis::trial::Trial;
 use robots::handoff::{
     Behaviour, Declaration, GantryLayout, GantryObservation, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Observation,
@@ -74,7 +74,7 @@ impl SearcherState {
         self.seen = Some(question.seen);
     }
 
-    fn see_robot(&mut self, seen: &Observation, gathered: &Gathered, time: f64) {
+    fn see_robot(&mut self, seen: &Observation, gathered: &ReadingsSince, time: f64) {
         let e = &seen.estimate;
         let heading = e.attitude.heading;
         let left = heading.turned(-std::f64::consts::FRAC_PI_2).unit();
@@ -108,7 +108,7 @@ impl SearcherState {
         self.features = numbers.map(|v| v as f32).to_vec();
     }
 
-    fn see_gantry(&mut self, seen: &GantryObservation, gathered: &Gathered, layout: &GantryLayout, time: f64) {
+    fn see_gantry(&mut self, seen: &GantryObservation, gathered: &ReadingsSince, layout: &GantryLayout, time: f64) {
         let joints = &seen.readings.joints;
         let share = |axis: usize| {
             let [low, high] = layout.travel_m[axis];

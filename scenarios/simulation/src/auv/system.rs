@@ -2,9 +2,9 @@
 
 use super::{Briefing, Hull, Mapping};
 use crate::assemble::WaterLight;
-use crate::control::{Gathered, QuestionContent};
+use crate::control::{QuestionContent, ReadingsSince};
 use crate::incidents::FaultLog;
-use crate::machines::{Known, Searching};
+use crate::machines::{Inputs, SearcherKind};
 use crate::ocean::Ocean;
 use crate::score::Score;
 use crate::searchers::{OnboardTime, SearcherId};
@@ -70,12 +70,12 @@ pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estim
     }
 }
 
-impl Searching for Goal {
-    type Known =
+impl SearcherKind for Goal {
+    type Inputs =
         (&'static Readings, &'static Estimate, &'static GuidanceStatus, &'static Briefing, Option<&'static Belief>);
     const WORDS: [&'static str; 2] = ["robot", "strategy"];
 
-    fn see((readings, estimate, guidance, briefing, belief): &Known<Self>, told: Option<ReplyOutcome>) -> Observation {
+    fn see((readings, estimate, guidance, briefing, belief): &Inputs<Self>, told: Option<ReplyOutcome>) -> Observation {
         Observation {
             // The estimate is of this tick.
             t_s: estimate.t_s,
@@ -94,11 +94,11 @@ impl Searching for Goal {
         }
     }
 
-    fn gather(t_s: f64, (readings, ..): &Known<Self>, gathered: &mut Gathered) {
+    fn gather(t_s: f64, (readings, ..): &Inputs<Self>, gathered: &mut ReadingsSince) {
         gathered.add(t_s, readings);
     }
 
-    fn ask(seen: Observation, gathered: Gathered) -> QuestionContent {
+    fn ask(seen: Observation, gathered: ReadingsSince) -> QuestionContent {
         QuestionContent::Robot(Box::new(seen), Box::new(gathered))
     }
 }

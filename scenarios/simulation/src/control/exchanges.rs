@@ -13,7 +13,7 @@ use world::frames::Truth;
 
 /// What a machine's instruments said since the last question.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Gathered {
+pub struct ReadingsSince {
     /// Readings of the chemical sensor.
     pub readings: u32,
     /// Those of them with a detection.
@@ -36,7 +36,7 @@ pub struct Gathered {
     pub scans: Vec<ProbeScan>,
 }
 
-impl Gathered {
+impl ReadingsSince {
     /// Adds a robot's readings of a tick.
     pub(crate) fn add(&mut self, t_s: f64, readings: &Readings) {
         if let Some(reading) = readings.chemical {
@@ -74,7 +74,7 @@ pub(crate) struct ExchangeState {
     /// Drives of a robot that an order may set; `None` for a gantry.
     drives: Option<usize>,
     asked: u64,
-    pub(crate) gathered: Gathered,
+    pub(crate) gathered: ReadingsSince,
     question: Option<Box<Question>>,
     told: Option<ReplyOutcome>,
 }
@@ -87,7 +87,7 @@ impl ExchangeState {
             deadline_s: consulted.deadline_s,
             drives,
             asked: 0,
-            gathered: Gathered::default(),
+            gathered: ReadingsSince::default(),
             question: None,
             told: None,
         }
@@ -99,7 +99,7 @@ impl ExchangeState {
     }
 
     /// Asks.
-    pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(Gathered) -> QuestionContent) {
+    pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(ReadingsSince) -> QuestionContent) {
         self.question = Some(Box::new(Question {
             robot: robot.to_string(),
             number: self.asked,

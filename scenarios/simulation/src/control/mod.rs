@@ -21,7 +21,7 @@ mod replay;
 mod tests;
 
 pub use answers::{answer_json, read_answer};
-pub use exchanges::Gathered;
+pub use exchanges::ReadingsSince;
 pub use questions::question_json;
 pub use replay::{Replay, consultation_json, read_consultation};
 
@@ -48,9 +48,9 @@ pub struct Question {
 #[derive(Clone, Debug, PartialEq)]
 pub enum QuestionContent {
     /// A robot.
-    Robot(Box<Observation>, Box<Gathered>),
+    Robot(Box<Observation>, Box<ReadingsSince>),
     /// A gantry.
-    Gantry(GantryObservation, Box<Gathered>),
+    Gantry(GantryObservation, Box<ReadingsSince>),
 }
 
 /// What came back.

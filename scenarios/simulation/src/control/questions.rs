@@ -1,7 +1,7 @@
 //! A question as JSON: SI units, ENU axes, compass headings in radians; what was not measured is left out.
 
 use super::answers::drop_nulls;
-use super::{Gathered, Question, QuestionContent};
+use super::{Question, QuestionContent, ReadingsSince};
 use robots::handoff::{Estimate, GantryObservation, Observation, RangeScan};
 use serde_json::{Map, Value, json};
 
@@ -20,7 +20,7 @@ pub fn question_json(question: &Question) -> Value {
     said
 }
 
-fn robot(t_s: f64, seen: &Observation, gathered: &Gathered) -> Value {
+fn robot(t_s: f64, seen: &Observation, gathered: &ReadingsSince) -> Value {
     let able = &seen.able;
     let other = seen.other.iter().map(|(name, v)| ((*name).to_string(), json!(v)));
     json!({
@@ -58,7 +58,7 @@ fn estimate(e: &Estimate) -> Value {
 }
 
 /// What the chemical sensor said since the last question.
-fn chemical(t_s: f64, g: &Gathered) -> Value {
+fn chemical(t_s: f64, g: &ReadingsSince) -> Value {
     json!({
         "readings": g.readings, "detections": g.detections, "highest": g.highest,
         "mean": (g.readings > 0).then(|| g.sum / f64::from(g.readings)),
@@ -76,7 +76,7 @@ fn ranging(scan: &RangeScan) -> Value {
     json!({"place_body_m": scan.p_BS.as_slice(), "max_m": scan.max_m, "beams": beams})
 }
 
-fn gantry(seen: &GantryObservation, gathered: &Gathered) -> Value {
+fn gantry(seen: &GantryObservation, gathered: &ReadingsSince) -> Value {
     let joints = &seen.readings.joints;
     let scans: Vec<Value> =
         (gathered.scans.iter()).map(|scan| json!({"t_s": scan.t_s, "volts": &scan.volts[..scan.count]})).collect();

@@ -151,9 +151,9 @@ mod tests {
     const PURE: &[&str] = &[
         "Weak",
         "added_roll",
-        "advance",
+        "advance_ratio",
         "albedo",
-        "area",
+        "area_share",
         "bed_albedo",
         "bed_texture",
         "centre_weight",

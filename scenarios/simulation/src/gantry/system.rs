@@ -1,8 +1,8 @@
 //! The systems of gantries: probes and encoders, the drives, digest and score, frames.
 
-use crate::control::{Gathered, QuestionContent};
+use crate::control::{QuestionContent, ReadingsSince};
 use crate::frame::GantryFrame;
-use crate::machines::{Known, Searching};
+use crate::machines::{Inputs, SearcherKind};
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
@@ -69,19 +69,19 @@ pub(crate) fn read_probes(
     }
 }
 
-impl Searching for HeadGoal {
-    type Known = (&'static OnboardTime, &'static GantryReadings);
+impl SearcherKind for HeadGoal {
+    type Inputs = (&'static OnboardTime, &'static GantryReadings);
     const WORDS: [&'static str; 2] = ["gantry", "tracker"];
 
-    fn see((now, readings): &Known<Self>, told: Option<ReplyOutcome>) -> GantryObservation {
+    fn see((now, readings): &Inputs<Self>, told: Option<ReplyOutcome>) -> GantryObservation {
         GantryObservation { t_s: now.0.t_s(), readings: **readings, told }
     }
 
-    fn gather(_: f64, (_, readings): &Known<Self>, gathered: &mut Gathered) {
+    fn gather(_: f64, (_, readings): &Inputs<Self>, gathered: &mut ReadingsSince) {
         gathered.scans.extend(readings.scan);
     }
 
-    fn ask(seen: GantryObservation, gathered: Gathered) -> QuestionContent {
+    fn ask(seen: GantryObservation, gathered: ReadingsSince) -> QuestionContent {
         QuestionContent::Gantry(seen, Box::new(gathered))
     }
 }

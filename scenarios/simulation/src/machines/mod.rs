@@ -34,12 +34,12 @@
 //! [`Briefing`](crate::auv::Briefing).
 
 mod own;
-mod searching;
+mod searcher_kind;
 pub(crate) mod system;
 mod turns;
 
 pub(crate) use own::{LaneComponents, own};
-pub(crate) use searching::{Known, NewSearcher, Searching};
+pub(crate) use searcher_kind::{Inputs, NewSearcher, SearcherKind};
 pub use turns::{BodiesMove, SystemTurn, Systems};
 
 use crate::error::AssembleError;

@@ -1,6 +1,6 @@
 //! The systems of all machines with a searcher: questions to those outside this program, and decisions.
 
-use super::searching::Searching;
+use super::searcher_kind::SearcherKind;
 use crate::control::exchanges::ExchangeState;
 use crate::searchers::{OnboardTime, SearcherId, SearcherParts, must_be_sound};
 use bevy_ecs::prelude::{Query, Res};
@@ -8,9 +8,9 @@ use robots::handoff::Decision;
 use world::clock::Clock;
 
 /// Asks the searchers outside this program; the answers come between this stage and the next.
-pub(crate) fn ask<G: Searching>(
+pub(crate) fn ask<G: SearcherKind>(
     clock: Res<Clock>,
-    mut machines: Query<(G::Known, &SearcherId, &Decision<G>, &mut ExchangeState)>,
+    mut machines: Query<(G::Inputs, &SearcherId, &Decision<G>, &mut ExchangeState)>,
 ) {
     for (known, id, decision, mut consulting) in &mut machines {
         G::gather(clock.t_s(), &known, &mut consulting.gathered);
@@ -24,14 +24,14 @@ pub(crate) fn ask<G: Searching>(
 type Deciding<'a, G> = (
     &'a SearcherId,
     &'a OnboardTime,
-    <G as Searching>::Known,
+    <G as SearcherKind>::Inputs,
     &'a mut SearcherParts<G>,
     &'a mut Decision<G>,
     Option<&'a mut ExchangeState>,
 );
 
 /// Lets each searcher decide.
-pub(crate) fn decide<G: Searching>(mut machines: Query<Deciding<G>>) {
+pub(crate) fn decide<G: SearcherKind>(mut machines: Query<Deciding<G>>) {
     let [machine, part] = G::WORDS;
     for (id, now, known, mut searching, mut decision, consulting) in &mut machines {
         let seen = G::see(&known, consulting.and_then(|mut c| c.take_told()));

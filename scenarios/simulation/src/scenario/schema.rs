@@ -5,7 +5,7 @@ use super::id::Id;
 use super::success::SuccessSpec;
 use super::version::Version;
 use crate::machines::ApparatusSpec;
-use eyes::Sighted;
+use eyes::StandardEyes;
 use eyes::camera::OpticsSpec;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
@@ -198,7 +198,7 @@ impl RobotSpec {
             bed: terrain.clone(),
             chart: Obstacles(obstacles.0.iter().filter(charted).cloned().collect()),
             maps: self.map.is_some(),
-            eyes: Arc::new(Sighted),
+            eyes: Arc::new(StandardEyes),
         }
     }
 }

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 use rheotaxis::scenario::FolderFiles;
 use robots::handoff::{Actuation, ActuatorCommand};
-use robots::vehicles::{FittedDrive, SHIPPED, Vehicle, VehicleSpec};
+use robots::vehicles::{SHIPPED, Vehicle, VehicleDrive, VehicleSpec};
 use std::error::Error;
 use std::hint::black_box;
 use std::path::Path;
@@ -59,7 +59,7 @@ fn seconds(craft: &Vehicle) -> f64 {
         Actuation::Fins(_) => Actuation::Fins(ActuatorCommand { rudder_rad: 0.05, stern_rad: 0.0, rpm: 1000.0 }),
         idle => {
             // A little of every drive.
-            let little = |d: &FittedDrive| d.named.idle + 0.05 * (d.limits[1] - d.named.idle);
+            let little = |d: &VehicleDrive| d.named.idle + 0.05 * (d.limits[1] - d.named.idle);
             craft.drives().iter().enumerate().fold(idle, |set, (k, drive)| set.with_drive(k, little(drive)))
         }
     };

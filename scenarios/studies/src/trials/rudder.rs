@@ -1,7 +1,7 @@
 //! The rudder of a vehicle: what turns it as one, how far it goes, and where it is.
 
 use robots::handoff::{Actuation, DriveEffect};
-use robots::vehicles::{FittedDrive, Vehicle};
+use robots::vehicles::{Vehicle, VehicleDrive};
 
 /// Least share of the strongest fin at which a fin counts as a part of the rudder.
 const LEAST: f64 = 1e-3;
@@ -21,7 +21,7 @@ impl Rudder {
     /// The rudder of a vehicle; `None` if no fin of it turns it.
     pub(super) fn fitted(craft: &Vehicle) -> Option<Self> {
         let drives = craft.drives();
-        let turns = |drive: &FittedDrive| match drive.does {
+        let turns = |drive: &VehicleDrive| match drive.does {
             // FLU: to starboard is a negative moment about z.
             DriveEffect::Lifts(arm) => -arm[5],
             _ => 0.0,

@@ -58,8 +58,8 @@ pub fn read<T: DeserializeOwned + JsonSchema + 'static>(
     Err(ScenarioError::from_faults(name, faults.collect()))
 }
 
-/// What may stand in a file that is read as a `T`. Making it takes as long as checking some hundred texts, and whoever
-/// mends a file, or reads many, asks for the same one again.
+/// What may stand in a file that is read as a `T`. Making it takes some ten times as long as checking a text, and
+/// whoever mends a file, or reads many, asks for the same one again.
 fn legal<T: JsonSchema + 'static>(registry: &Registry) -> Arc<Reference> {
     static LAST: Mutex<Option<(TypeId, Registry, Arc<Reference>)>> = Mutex::new(None);
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);

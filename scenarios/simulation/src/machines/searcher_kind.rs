@@ -1,8 +1,8 @@
-//! A machine with a searcher: how one comes into a run, and what its kind adds to the systems that all of them share.
+//! A kind of machine with a searcher: how one comes into a run, and what its kind adds to the systems that all of them share.
 
 use super::Launch;
 use crate::control::exchanges::ExchangeState;
-use crate::control::{Gathered, QuestionContent};
+use crate::control::{QuestionContent, ReadingsSince};
 use crate::score::Score;
 use crate::searchers::{OnboardTime, Roster, SearcherId, SearcherParts};
 use bevy_ecs::prelude::{Bundle, Entity, World};
@@ -13,23 +13,24 @@ use world::clock::Clock;
 use world::seeds::Stream;
 
 /// What the searcher of a kind of machine may know of it, as components.
-pub(crate) type Known<'w, 's, G> = <<G as Searching>::Known as QueryData>::Item<'w, 's>;
+pub(crate) type Inputs<'w, 's, G> = <<G as SearcherKind>::Inputs as QueryData>::Item<'w, 's>;
 
 /// A kind of machine with a searcher.
-pub(crate) trait Searching: MachineGoal {
+pub(crate) trait SearcherKind: MachineGoal {
     /// What its searcher may know.
-    type Known: ReadOnlyQueryData;
-    /// What it is called, and what decides for it.
+    type Inputs: ReadOnlyQueryData;
+    /// What it is called, and what decides for it. The second also names the stream of its random numbers: with another
+    /// word every run would draw others.
     const WORDS: [&'static str; 2];
 
     /// What its searcher sees in this tick.
-    fn see(known: &Known<Self>, told: Option<ReplyOutcome>) -> Self::Seen;
+    fn see(known: &Inputs<Self>, told: Option<ReplyOutcome>) -> Self::Seen;
 
     /// Adds what its instruments say in this tick to what they said since the last question.
-    fn gather(t_s: f64, known: &Known<Self>, gathered: &mut Gathered);
+    fn gather(t_s: f64, known: &Inputs<Self>, gathered: &mut ReadingsSince);
 
     /// What a searcher outside this program is asked.
-    fn ask(seen: Self::Seen, gathered: Gathered) -> QuestionContent;
+    fn ask(seen: Self::Seen, gathered: ReadingsSince) -> QuestionContent;
 }
 
 /// A searcher that is to come into a run.
@@ -45,7 +46,7 @@ pub(crate) struct NewSearcher<'a, G: MachineGoal> {
     pub(crate) drives: Option<usize>,
 }
 
-impl<G: Searching> NewSearcher<'_, G> {
+impl<G: SearcherKind> NewSearcher<'_, G> {
     /// Puts it into the world, with the components of its machine. It joins the score.
     pub(crate) fn join(self, world: &mut World, launch: &Launch, machine: impl Bundle) -> Entity {
         let Launch { seed, dt_s, .. } = *launch;

@@ -15,7 +15,7 @@ const LONGEST: u64 = 1 << 20;
 const REMUS: &str = "remus100";
 
 /// What a vehicle is built from.
-pub(in crate::vehicles) struct Opened<'a> {
+pub(in crate::vehicles) struct VehicleSource<'a> {
     /// What its `vehicle.ron` says.
     pub(in crate::vehicles) file: VehicleFile,
     /// Its URDF.
@@ -24,7 +24,7 @@ pub(in crate::vehicles) struct Opened<'a> {
     path: String,
 }
 
-impl<'a> Opened<'a> {
+impl<'a> VehicleSource<'a> {
     /// The vehicle that a scenario asks for.
     pub(in crate::vehicles) fn new(spec: &VehicleSpec, files: &'a dyn Files) -> Result<Self, RobotError> {
         match spec {
@@ -66,11 +66,11 @@ impl<'a> Opened<'a> {
 
     /// The REMUS of the program, with the terms and the URDF that a scenario asks for.
     fn remus(spec: &RemusSpec, files: &'a dyn Files) -> Result<Self, RobotError> {
-        let mut opened = Self::folder(Path::new(REMUS), &BuiltIn)?;
-        if let TermsSpec::Torpedo(hull) = &mut opened.file.hydrodynamics.terms {
+        let mut source = Self::folder(Path::new(REMUS), &BuiltIn)?;
+        if let TermsSpec::Torpedo(hull) = &mut source.file.hydrodynamics.terms {
             hull.published = spec.parameters == ParameterSet::Reference;
         }
-        Ok(Self { urdf: urdf_of(spec.urdf.as_deref(), files)?, ..opened })
+        Ok(Self { urdf: urdf_of(spec.urdf.as_deref(), files)?, ..source })
     }
 
     /// A problem in its `vehicle.ron`.
