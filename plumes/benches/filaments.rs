@@ -6,7 +6,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::uniform::UniformSpec;
+use plumes::flow::plane_current::uniform::UniformSpec;
 use plumes::flow::{BlockageSpec, CurrentSpec, WaterSpec};
 use plumes::release::{ReleaseSpec, SourceSpec};
 use std::path::Path;

@@ -4,7 +4,7 @@ use divan::{Bencher, black_box};
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::bed::BedSpec;
 use plumes::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
-use plumes::flow::meander::MeanderSpec;
+use plumes::flow::plane_current::meander::MeanderSpec;
 use plumes::flow::waves::{SpectrumSpec, WavesSpec};
 use plumes::flow::{BlockageSpec, CurrentSpec, FlowGrid, GridShape, Water, WaterSpec};
 use std::path::Path;

@@ -3,8 +3,8 @@
 use divan::{Bencher, black_box};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
+use plumes::flow::channel::open_channel::OpenChannelSpec;
 use plumes::flow::eddies::EddiesSpec;
-use plumes::flow::open_channel::OpenChannelSpec;
 use plumes::flow::{CurrentSpec, GridShape, Water, WaterSpec};
 use plumes::release::{NozzleSpec, ReleaseSpec, SourceSpec};
 use world::area::Area;

@@ -2,11 +2,14 @@
 
 mod adaptive;
 mod against;
+mod cache;
 mod cut_off;
 mod damaged;
 mod keyed;
+mod lanes;
 mod permeable;
 mod plans;
+mod reproduce;
 mod seeds;
 mod tracks;
 

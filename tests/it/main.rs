@@ -1,49 +1,21 @@
 //! What holds: one test binary.
+//!
+//! | folder | what it holds |
+//! | --- | --- |
+//! | `physics` | vehicles under physics: published trajectories, single effects, contacts, waves |
+//! | `missions` | whole missions: what they find, that they repeat bit by bit, what goes wrong in them |
+//! | `wire` | what others see of a run and ask of it: live state, recordings, searchers outside the program |
+//! | `campaign` | campaigns, lanes, kept spin-ups and reproduced tables |
+//! | `input` | what users type and write, what they are answered, and what is on their disks and terminals |
+//! | `structure` | the never-rules of README, the packages, and that README and docs promise what is so |
+//!
+//! `common` and `waits` are what several of them need.
 
-mod abnormal;
-mod arguments;
-mod autopilot;
-mod bad_input;
-mod cache;
 mod campaign;
 mod common;
-mod cost;
-mod determinism;
-mod explained;
-mod eyes;
-mod faults;
-mod flume;
-mod golden;
-mod hulls;
-mod interrupt;
-mod kinematic;
-mod lanes;
-mod layouts;
-mod live;
-mod memory;
-mod ocean;
-mod outputs;
-mod outside;
-mod packages;
-mod planning;
-mod promises;
-mod rapier_alone;
-mod readme;
-mod rejection;
-mod reproduce;
-mod scenarios;
-mod score;
-mod sea;
-mod segment;
-mod spin_up;
-mod streams;
+mod input;
+mod missions;
+mod physics;
 mod structure;
-mod structure_files;
-mod structure_robots;
-mod subregions;
-mod vehicle;
-mod vehicle_contacts;
-mod vehicle_effects;
-mod vehicle_mass;
-mod vehicle_published;
 mod waits;
+mod wire;

@@ -1,5 +1,11 @@
 //! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure_robots`.
 
+mod files;
+mod packages;
+mod promises;
+mod readme;
+mod robots;
+
 use crate::common::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -11,41 +11,7 @@ mod step;
 mod store;
 mod tally;
 #[cfg(test)]
-mod tests_bands;
-#[cfg(test)]
-mod tests_datum;
-#[cfg(test)]
-mod tests_drift;
-#[cfg(test)]
-mod tests_even;
-#[cfg(test)]
-mod tests_even_obstacles;
-#[cfg(test)]
-mod tests_even_quay;
-#[cfg(test)]
-mod tests_evenness;
-#[cfg(test)]
-mod tests_flume;
-#[cfg(test)]
-mod tests_images;
-#[cfg(test)]
-mod tests_index;
-#[cfg(test)]
-mod tests_kept;
-#[cfg(test)]
-mod tests_mass;
-#[cfg(test)]
-mod tests_mean;
-#[cfg(test)]
-mod tests_mixed;
-#[cfg(test)]
-mod tests_one_water;
-#[cfg(test)]
-mod tests_round;
-#[cfg(test)]
-mod tests_water;
-#[cfg(test)]
-mod tests_waves;
+mod tests;
 mod walls;
 mod water;
 

@@ -3,12 +3,12 @@
 use world::catalogue::Entry;
 use world::kind;
 
+use super::channel::open_channel::OpenChannelSpec;
+use super::plane_current::meander::MeanderSpec;
+use super::plane_current::tide::TideSpec;
+use super::plane_current::uniform::UniformSpec;
 use crate::flow::current::CurrentParams;
 use crate::flow::layered::LayeredSpec;
-use crate::flow::meander::MeanderSpec;
-use crate::flow::open_channel::OpenChannelSpec;
-use crate::flow::tide::TideSpec;
-use crate::flow::uniform::UniformSpec;
 use crate::flow::waves::WavesSpec;
 
 kind! {

@@ -13,6 +13,9 @@
 //! surface, and the boundary layers of the side walls are omitted: the mean is the same across the channel. Sublayer
 //! and log law meet where they cross (11.6 wall units on a smooth bed), with a kink.
 
+pub(super) mod flume;
+pub mod open_channel;
+
 use nalgebra::Vector2;
 use world::math;
 

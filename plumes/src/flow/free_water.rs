@@ -22,10 +22,10 @@ use nalgebra::Vector2;
 use std::sync::Arc;
 use world::fields::SideWalls;
 
+use super::channel::flume::Flume;
 use crate::flow::bed::BoundaryLayer;
 use crate::flow::channel::Channel;
 use crate::flow::eddies::{Eddies, Small};
-use crate::flow::flume::Flume;
 use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn};
 use crate::flow::mixing::MixingSpec;

@@ -215,7 +215,7 @@ fn split(c: f32, n: usize) -> (usize, f32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flow::tests_water::{duck, duck_area, duck_bed, places};
+    use crate::flow::tests::water::{duck, duck_area, duck_bed, places};
     use world::fields::{Flow, Mixing};
 
     struct Linear;

@@ -8,27 +8,16 @@ pub mod coloured_noise;
 mod cost;
 mod current;
 pub mod eddies;
-mod flume;
 pub mod free_water;
 pub mod grid;
 pub mod ground;
 pub mod layered;
-pub mod meander;
 pub mod mixing;
 pub mod number;
-pub mod open_channel;
-mod plane_current;
+pub mod plane_current;
 mod solenoidal;
 #[cfg(test)]
-pub(crate) mod tests_kit;
-#[cfg(test)]
-mod tests_sample;
-#[cfg(test)]
-mod tests_sea;
-#[cfg(test)]
-pub(crate) mod tests_water;
-pub mod tide;
-pub mod uniform;
+pub(crate) mod tests;
 pub mod water;
 mod water_spec;
 pub mod waves;

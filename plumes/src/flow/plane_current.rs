@@ -1,5 +1,9 @@
 //! Currents that are the same at all depths: a velocity, and its slopes where the current knows them.
 
+pub mod meander;
+pub mod tide;
+pub mod uniform;
+
 use dyn_clone::DynClone;
 use nalgebra::Vector2;
 use world::limits::range::stream_m_s;

@@ -11,19 +11,15 @@ mod decision;
 mod estimate;
 mod gantry;
 mod goal;
-mod layers;
 mod lcdp;
 mod need;
 mod pictures;
 mod pilot_spec;
 mod rates;
 mod readings;
-mod readings_fault;
-mod regions;
 mod reply;
 mod shown;
 mod side;
-mod zone;
 
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use bounds::Bounds;
@@ -38,7 +34,6 @@ pub use gantry::{
     GantryLayout, GantryObservation, GantryReadings, JointReadings, MAX_PROBES, ProbeMount, ProbeScan, TrackerState,
 };
 pub use goal::{Goal, GuidanceStatus, HeadGoal, Manoeuvre, Vertical};
-pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
 pub use need::Need;
 pub use pictures::{Picture, SidescanPing};
@@ -48,11 +43,12 @@ pub use readings::{
     AdcpReading, AltimeterReading, Attitude, Beam, ChemicalReading, CtdReading, DepthReading, DvlReading, LblFix,
     RangeScan, Readings,
 };
-pub use regions::{Region, RegionState, Regions, region_name};
 pub use reply::{ExchangeTiming, HeadOrder, MotionOrder, MoveOrder, Reply, ReplyOutcome};
 pub use shown::Shown;
+pub use shown::layers::{Layer, LayerState};
+pub use shown::regions::{Region, RegionState, Regions, region_name};
+pub use shown::zone::Zone;
 pub use side::Side;
-pub use zone::Zone;
 
 #[cfg(test)]
 pub(crate) mod testing;

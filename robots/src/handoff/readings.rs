@@ -1,5 +1,7 @@
 //! What the instruments reported in this tick; `None` if one did not report.
 
+mod fault;
+
 use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};

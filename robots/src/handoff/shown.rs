@@ -1,9 +1,13 @@
 //! What a strategy shows of itself to figures, recording and live state. Nothing of it moves the vehicle.
 
-use super::layers::Layer;
-use super::regions::Regions;
-use super::zone::Zone;
+pub(super) mod layers;
+pub(super) mod regions;
+pub(super) mod zone;
+
+use layers::Layer;
 use nalgebra::{Vector2, Vector3};
+use regions::Regions;
+use zone::Zone;
 
 /// What a strategy shows beside its decision. What it does not have is empty.
 #[derive(Clone, Debug, Default, PartialEq)]

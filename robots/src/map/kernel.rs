@@ -10,13 +10,18 @@
 //! standard deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
 //! `terms` and `releases`. The vehicle's place is the middle of its cell, as in the paper.
 
-use super::anywhere::{REACH, ROOT_TAU, ReleaseSets};
-use super::flow_history::FlowHistory;
-use super::releases::Gatherer;
+mod anywhere;
+pub(super) mod flow_history;
+pub(super) mod releases;
+pub(super) mod terms;
+
 use super::spec::TrajectorySpec;
-use super::terms::Terms;
 use crate::handoff::BeliefGrid;
+use anywhere::{REACH, ROOT_TAU, ReleaseSets};
+use flow_history::FlowHistory;
+use releases::Gatherer;
 use std::sync::Arc;
+use terms::Terms;
 use world::math;
 
 /// The kernel over a grid, centred on the vehicle's place.

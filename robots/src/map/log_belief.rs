@@ -10,7 +10,7 @@
 //! cell. Errors of navigation: see `navigation`.
 
 use super::credible;
-use super::navigation::{Block, NavigationError};
+use super::doubt::navigation::{Block, NavigationError};
 use crate::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
 use world::math;

@@ -3,32 +3,24 @@
 //! All mappers share one back-trajectory (`flow_history`, `releases`, `kernel`); each mapper's file says how it uses
 //! that.
 
-mod alternatives;
-mod anywhere;
 mod bayesian;
 mod catalogue;
 mod cost;
 mod credible;
-mod evidence;
-mod flow_history;
 mod hmm;
 mod kernel;
 mod log_belief;
 mod mapper;
-mod navigation;
 mod over_cells;
 mod particle_filter;
 mod pomdp;
-mod releases;
-mod shifts;
 mod spec;
-mod terms;
 mod watch;
 mod workings;
 
 pub use bayesian::BayesianSpec;
 pub use catalogue::{MapSpec, Maps};
-pub use evidence::{DoubtSpec, Repeats};
+pub use doubt::evidence::{DoubtSpec, Repeats};
 pub use hmm::{Hmm, HmmSpec};
 pub use mapper::{MapParams, Mapper};
 pub use particle_filter::{ParticleFilter, ParticleFilterSpec};
@@ -37,13 +29,8 @@ pub use spec::{GridSpec, TrajectorySpec};
 pub use watch::MapObservation;
 pub use workings::CellsSpec;
 
+mod doubt;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
-mod tests_belief;
-#[cfg(test)]
-mod tests_doubt;
-#[cfg(test)]
-mod tests_kernel;
-#[cfg(test)]
-mod tests_search;
+mod tests;

@@ -6,7 +6,7 @@
 //!
 //! *Deviations*: none.
 
-use super::alternatives::Alternatives;
+use super::doubt::alternatives::Alternatives;
 use super::kernel::Kernel;
 use super::mapper::Mapper;
 use super::watch::{MapObservation, Sighting};

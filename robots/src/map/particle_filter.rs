@@ -15,13 +15,13 @@
 //! releases that could have been met, as Lenser & Veloso 2000 reset a lost robot. The belief on the grid is the
 //! weight of the particles in each cell, with the share ε spread over all cells.
 
-use super::alternatives::Alternatives;
 use super::cost::{PARTICLE_S, by_kernel};
-use super::evidence::{DoubtSpec, mixed};
+use super::doubt::alternatives::Alternatives;
+use super::doubt::evidence::{DoubtSpec, mixed};
+use super::doubt::shifts::Shifts;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
 use super::mapper::{MapParams, Mapper};
-use super::shifts::Shifts;
 use super::spec::{GridSpec, TrajectorySpec, must};
 use super::watch::MapObservation;
 use super::workings::Workings;
@@ -309,5 +309,4 @@ impl Mapper for ParticleFilter {
 }
 
 #[cfg(test)]
-#[path = "tests_particles.rs"]
 mod tests;

@@ -1,6 +1,6 @@
 //! Parameters common to all mappers: the grid, and the model of how dye travels.
 
-use super::flow_history::FlowHistory;
+use super::kernel::flow_history::FlowHistory;
 use crate::error::{RobotError, require};
 use crate::handoff::BeliefGrid;
 use schemars::JsonSchema;

@@ -1,6 +1,6 @@
 //! Shared by the mappers' tests: the paper's area, eq. 1 and 2 written out, and a small plume.
 
-use super::flow_history::FlowHistory;
+use super::kernel::flow_history::FlowHistory;
 use super::spec::TrajectorySpec;
 use super::watch::MapObservation;
 use crate::handoff::BeliefGrid;

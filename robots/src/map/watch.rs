@@ -7,7 +7,7 @@
 //! *Deviations*: the sensor reports many times in a time unit. One detection makes it a unit with a detection, at the
 //! place of the last detection; otherwise the place is that of the last reading.
 
-use super::flow_history::{FlowHistory, SLACK_S};
+use super::kernel::flow_history::{FlowHistory, SLACK_S};
 use crate::handoff::BeliefGrid;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;

@@ -6,9 +6,9 @@
 //!
 //! *Deviations*: none.
 
-use super::evidence::{DoubtSpec, Evidence};
+use super::doubt::evidence::{DoubtSpec, Evidence};
+use super::doubt::navigation::NavigationError;
 use super::log_belief::LogBelief;
-use super::navigation::NavigationError;
 use super::spec::{GridSpec, TrajectorySpec};
 use super::watch::Watch;
 use crate::error::RobotError;

@@ -160,5 +160,4 @@ impl Planner for AStar {
 }
 
 #[cfg(test)]
-#[path = "tests_a_star.rs"]
 mod tests;

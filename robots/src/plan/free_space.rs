@@ -320,5 +320,4 @@ fn round(lattice: &BeliefGrid, span: [usize; 3], reach_m: f64, half_diagonal_m: 
 }
 
 #[cfg(test)]
-#[path = "tests_room.rs"]
 mod tests;

@@ -166,5 +166,4 @@ impl Search {
 }
 
 #[cfg(test)]
-#[path = "tests_search.rs"]
 mod tests;

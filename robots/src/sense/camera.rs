@@ -8,12 +8,14 @@
 //!
 //! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 
-use super::camera_spec::{CameraSpec, turned};
+pub(super) mod spec;
+
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use crate::error::{RobotError, require};
 use crate::handoff::{Picture, Readings};
 use nalgebra::{UnitQuaternion, Vector3};
+use spec::{CameraSpec, turned};
 use std::sync::Arc;
 use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};

@@ -3,7 +3,6 @@
 mod adcp;
 mod altimeter;
 mod camera;
-mod camera_spec;
 mod catalogue;
 mod compass;
 mod ctd;
@@ -16,7 +15,6 @@ mod probe;
 mod ranging;
 mod sensor;
 mod sidescan;
-mod sidescan_fan;
 mod suite;
 #[cfg(test)]
 pub(crate) mod testing;
@@ -25,7 +23,7 @@ mod tools;
 pub use adcp::{Adcp, AdcpSpec, Look};
 pub use altimeter::{Altimeter, AltimeterSpec};
 pub use camera::Camera;
-pub use camera_spec::{CameraSpec, LampSpec, SensorSpec, looking, turned};
+pub use camera::spec::{CameraSpec, LampSpec, SensorSpec, looking, turned};
 pub use catalogue::PARTS;
 pub use compass::{Compass, CompassSpec};
 pub use ctd::{Ctd, CtdSpec};

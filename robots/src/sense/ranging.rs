@@ -198,5 +198,4 @@ fn way_to_bed(terrain: &Terrain, from: &Vector3<f64>, dir: &Vector3<f64>, max_m:
 }
 
 #[cfg(test)]
-#[path = "ranging_tests.rs"]
 mod tests;

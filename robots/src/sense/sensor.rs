@@ -1,6 +1,6 @@
 //! What every instrument does, and what it is told.
 
-use super::camera_spec::CameraSpec;
+use super::camera::spec::CameraSpec;
 use super::on_board::OnBoard;
 use super::tools::EchoTarget;
 use crate::error::RobotError;

@@ -23,10 +23,10 @@
 
 use super::on_board::{OnBoard, Sampler};
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
-use super::sidescan_fan::{Fan, from_db};
 use super::tools::EchoTarget;
 use crate::error::{RobotError, require};
 use crate::handoff::{Readings, SidescanPing};
+use fan::{Fan, from_db};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -202,6 +202,6 @@ impl Sidescan {
     }
 }
 
+mod fan;
 #[cfg(test)]
-#[path = "sidescan_tests.rs"]
 mod tests;

@@ -1,6 +1,6 @@
 //! All instruments of a robot, read together.
 
-use super::camera_spec::CameraSpec;
+use super::camera::spec::CameraSpec;
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::{

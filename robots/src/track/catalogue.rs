@@ -1,7 +1,7 @@
 //! The searchers of a gantry, and the units of the tracker, by name.
 
 use super::chemotaxis::ChemotaxisSpec;
-use super::crab_spec::CrabSpec;
+use super::crab::spec::CrabSpec;
 use super::external::ExternalSpec;
 use super::spec::GantryStrategyParams;
 use world::catalogue::Entry;

@@ -6,22 +6,37 @@
 //!
 //! *Deviations*: see the units.
 
+pub mod advance;
+pub mod builder;
+#[cfg(test)]
+mod closed_loop_tests;
+pub mod decide;
+pub mod history;
+pub mod pace;
+pub mod predictor;
+pub mod rate;
+pub(super) mod spec;
+pub mod spikes;
+pub mod steer;
+pub mod stop;
+pub mod threshold;
+
 use super::acquire::Acquisition;
-use super::builder::DataBuilder;
 use super::command::MotionCommand;
-use super::crab_spec::CrabSpec;
-use super::decide::{Ask, DecisionUnit, Memory};
-use super::history::History;
-use super::predictor::Predictor;
 use super::spec::GantryStrategyParams;
-use super::spikes::SpikeAnalyser;
-use super::stop::StopRule;
-use super::threshold::ThresholdAnalyser;
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, GantryLayout, GantryObservation, HeadGoal, JointReadings, ProbeScan, TrackerState,
 };
 use crate::searcher::Strategy;
+use builder::DataBuilder;
+use decide::{Ask, DecisionUnit, Memory};
+use history::History;
+use predictor::Predictor;
+use spec::CrabSpec;
+use spikes::SpikeAnalyser;
+use stop::StopRule;
+use threshold::ThresholdAnalyser;
 use world::catalogue::Entry;
 use world::registry::Listed;
 use world::seeds::Stream;

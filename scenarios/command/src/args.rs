@@ -1,21 +1,35 @@
 //! The command line: its subcommands, their arguments and their help.
 
-use super::args_cache::{self, CacheArgs, CacheCommandArgs};
-use super::args_campaign::CampaignArgs;
-use super::args_control::{ControlArgs, RerunMcapArgs};
-use super::args_explain::ExplainArgs;
-use super::args_init::InitArgs;
-use super::args_key::KeyArgs;
-use super::args_live::{ListenArgs, TopicsArgs};
-use super::args_picture::PictureArgs;
-use super::args_reproduce::ReproduceArgs;
-use super::args_ros2::Ros2Args;
-use super::args_values::{Speed, bytes, within};
-use super::args_vehicle::VehicleArgs;
-use super::args_vision::{ScoreVisionArgs, SegmentArgs};
+pub(super) mod cache;
+pub(super) mod campaign;
+pub(super) mod control;
+pub(super) mod explain;
+pub(super) mod init;
+mod key;
+pub(super) mod live;
+pub(super) mod picture;
+pub(super) mod reproduce;
+mod ros2;
+pub(super) mod values;
+pub(super) mod vehicle;
+pub(super) mod vision;
+
 use super::version;
+use cache::{CacheArgs, CacheCommandArgs};
+use campaign::CampaignArgs;
 use clap::{Parser, Subcommand, ValueEnum};
+use control::{ControlArgs, RerunMcapArgs};
+use explain::ExplainArgs;
+use init::InitArgs;
+use key::KeyArgs;
+use live::{ListenArgs, TopicsArgs};
+use picture::PictureArgs;
+use reproduce::ReproduceArgs;
+use ros2::Ros2Args;
 use std::path::{Path, PathBuf};
+use values::{Speed, bytes, within};
+use vehicle::VehicleArgs;
+use vision::{ScoreVisionArgs, SegmentArgs};
 
 /// Simulator for chemical-plume tracing by underwater vehicles.
 #[derive(Clone, Debug, Parser)]
@@ -75,7 +89,7 @@ pub enum Command {
     #[command(long_about = RUN_ABOUT)]
     Run(RunArgs),
     /// Make a recorded run again, with the answers that searchers outside the program gave.
-    #[command(long_about = super::args_control::RERUN_ABOUT)]
+    #[command(long_about = control::RERUN_ABOUT)]
     Rerun(RerunMcapArgs),
     /// Check scenarios without running them, and estimate what a run takes.
     #[command(long_about = CHECK_ABOUT)]
@@ -87,37 +101,37 @@ pub enum Command {
     #[command(long_about = LIST_ABOUT)]
     List(ListArgs),
     /// Explain a field of a scenario: unit, range, default, meaning, source.
-    #[command(long_about = super::args_explain::EXPLAIN_ABOUT)]
+    #[command(long_about = explain::EXPLAIN_ABOUT)]
     Explain(ExplainArgs),
     /// List the live state that a run publishes over zenoh.
-    #[command(long_about = super::args_live::TOPICS_ABOUT)]
+    #[command(long_about = live::TOPICS_ABOUT)]
     Topics(TopicsArgs),
     /// Print what runs publish over zenoh while they go, one JSON object a line.
-    #[command(long_about = super::args_live::LISTEN_ABOUT)]
+    #[command(long_about = live::LISTEN_ABOUT)]
     Listen(ListenArgs),
     /// Compare variants of a scenario over thousands of runs, on one machine or many.
-    #[command(long_about = super::args_campaign::CAMPAIGN_ABOUT)]
+    #[command(long_about = campaign::CAMPAIGN_ABOUT)]
     Campaign(CampaignArgs),
     /// Repeat the papers' experiments over many seeds and compare the figures.
-    #[command(long_about = super::args_reproduce::REPRODUCE_ABOUT)]
+    #[command(long_about = reproduce::REPRODUCE_ABOUT)]
     Reproduce(ReproduceArgs),
     /// Show or clear the spin-ups that are kept so that they need not be made again.
-    #[command(long_about = args_cache::ABOUT)]
+    #[command(long_about = cache::ABOUT)]
     Cache(CacheCommandArgs),
     /// Measure the statistics of a scenario's water and plume and compare them with published ones.
     #[command(long_about = STATISTICS_ABOUT)]
     Statistics(StatisticsArgs),
     /// Take an underwater picture of a scenario's plume.
-    #[command(long_about = super::args_picture::PICTURE_ABOUT)]
+    #[command(long_about = picture::PICTURE_ABOUT)]
     Picture(PictureArgs),
     /// Find dye and its source in a picture by colour.
-    #[command(long_about = super::args_vision::SEGMENT_ABOUT)]
+    #[command(long_about = vision::SEGMENT_ABOUT)]
     Segment(SegmentArgs),
     /// Score how well dye and source are found, on rendered pictures whose truth is known.
-    #[command(long_about = super::args_vision::SCORE_VISION_ABOUT)]
+    #[command(long_about = vision::SCORE_VISION_ABOUT)]
     ScoreVision(ScoreVisionArgs),
     /// Check a vehicle of your own and put it through trials.
-    #[command(long_about = super::args_vehicle::VEHICLE_ABOUT)]
+    #[command(long_about = vehicle::VEHICLE_ABOUT)]
     Vehicle(VehicleArgs),
 }
 

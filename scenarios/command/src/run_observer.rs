@@ -2,11 +2,11 @@
 #![allow(clippy::disallowed_methods, reason = "pace and wall time are for people; neither enters the run")]
 
 use super::args::RunArgs;
-use super::args_values::Speed;
 use super::failure::Failure;
 use super::lane_observers::LaneObservers;
 use super::progress::Progress;
 use super::say;
+use crate::args::values::Speed;
 use output::files::{ReportError, begin_run};
 use output::follow::Follower;
 use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id, topics};

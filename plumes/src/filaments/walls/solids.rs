@@ -81,7 +81,7 @@ impl Solids {
 
 #[cfg(test)]
 mod tests {
-    use crate::filaments::tests_water::{Given, plume, pour, source};
+    use crate::filaments::tests::water::{Given, plume, pour, source};
     use nalgebra::Vector3;
     use std::path::Path;
     use world::obstacles::{BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};

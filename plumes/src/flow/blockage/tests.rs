@@ -1,7 +1,7 @@
 //! Blocked water: free of divergence, tangent to everything, conserving mass, and unchanged where there is no obstacle.
 
 use super::BlockageSpec;
-use crate::flow::tests_kit::{layer, meander, rough, two_layers, uniform, wave};
+use crate::flow::tests::kit::{layer, meander, rough, two_layers, uniform, wave};
 use crate::flow::{CurrentSpec, Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use std::path::Path;

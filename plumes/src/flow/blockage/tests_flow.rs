@@ -1,7 +1,7 @@
 //! Blocked water compared with potential theory, and over time.
 
 use super::tests::{area, block, eastward, pile, solids, spec};
-use crate::flow::tests_kit::meander;
+use crate::flow::tests::kit::meander;
 use crate::flow::{Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use world::fields::Flow;

@@ -4,7 +4,7 @@ use super::stretch::{LENGTH, Shape, Stretch};
 use super::{Eddies, EddiesSpec};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::Channel;
-use crate::flow::open_channel::OpenChannelSpec;
+use crate::flow::channel::open_channel::OpenChannelSpec;
 use crate::flow::{Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;

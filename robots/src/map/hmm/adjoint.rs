@@ -13,7 +13,7 @@
 
 use super::mapper::Hmm;
 use super::transition::Hops;
-use crate::map::terms::{LEAST, Terms};
+use crate::map::kernel::terms::{LEAST, Terms};
 
 /// When less than this share of odour is left in the map, it is followed no further back.
 const GONE: f64 = 1e-12;

@@ -18,13 +18,13 @@
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
-use crate::map::alternatives::Alternatives;
-use crate::map::evidence::DoubtSpec;
-use crate::map::flow_history::SLACK_S;
+use crate::map::doubt::alternatives::Alternatives;
+use crate::map::doubt::evidence::DoubtSpec;
+use crate::map::kernel::flow_history::SLACK_S;
+use crate::map::kernel::releases::Gatherer;
+use crate::map::kernel::terms::Terms;
 use crate::map::mapper::{MapParams, Mapper};
-use crate::map::releases::Gatherer;
 use crate::map::spec::{GridSpec, TrajectorySpec, invalid, must};
-use crate::map::terms::Terms;
 use crate::map::watch::MapObservation;
 use crate::map::workings::Workings;
 use schemars::JsonSchema;

@@ -1,9 +1,9 @@
 //! Maps of where the source may be, at chosen times, with track, plume, obstacles and plan (after Wang & Pang, Figs. 7,
 //! 8).
 
-use super::map_layers as layers;
-use super::map_legend::short;
-use super::small_maps::{LEFT, axes, place, scale, shades, sheet, vehicle};
+use super::map::legend::short;
+use super::map::small_maps::{LEFT, axes, place, scale, shades, sheet, vehicle};
+use super::marks;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::label_box::width_of;
 use crate::charts::palette::INK;
@@ -86,7 +86,7 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, s: &BeliefSnapshot, t
         let rows: Vec<_> = t.rows.iter().filter(|r| r.t_s <= s.belief.t_s).collect();
         let smelt = |r: &&&TrackRow| r.reading.is_some_and(|v| Some(v) > t.info.threshold);
         let places = rows.iter().filter(smelt).map(|r| [r.p[0], r.p[1]]);
-        layers::detections(c, panel, places);
+        marks::detections(c, panel, places);
         let line = rows.iter().map(|r| panel.position([r.p[0], r.p[1]])).collect();
         c.polyline(line, &Style::line("#ffffff", 3.0).faint(0.7));
         let line = rows.iter().map(|r| panel.position([r.p[0], r.p[1]])).collect();
@@ -97,7 +97,7 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, s: &BeliefSnapshot, t
     }
     let plan: Vec<_> = s.planned.iter().map(|p| panel.position([p.x, p.y])).collect();
     c.polyline(plan, &Style::line(PLAN, 1.6).dashed("5 3"));
-    layers::sources(c, panel, run);
+    marks::sources(c, panel, run);
     let best = s.belief.grid.centre(s.belief.best);
     best_cell(c, panel.position([best.x, best.y]));
     axes(c, panel);
@@ -139,11 +139,11 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
     scale(c, [x, y], words, x + if space { 330.0 } else { 195.0 });
     type Draw = fn(&mut Canvas, [f64; 2]);
     let signs: [(Draw, &str); 7] = [
-        (layers::true_source, "true source"),
+        (marks::true_source, "true source"),
         (best_cell, "most probable cell"),
         (vehicle, "vehicle"),
         (|c, p| sample(c, p, &Style::line(INK, 1.3)), "its true track"),
-        (layers::detection, "detection"),
+        (marks::detection, "detection"),
         (|c, p| sample(c, p, &Style::line(PLAN, 1.6).dashed("5 3")), "planned path"),
         (
             |c, [x, y]| {

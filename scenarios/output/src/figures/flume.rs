@@ -2,8 +2,8 @@
 //!
 //! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 2 (field) and Fig. 9 (tracks), combined.
 
-use super::map_layers as layers;
-use super::map_legend::{BAR, LINE, Mark, SIZE, entry, heading, line, short, signs};
+use super::map::legend::{BAR, LINE, Mark, SIZE, entry, heading, line, short, signs};
+use super::marks;
 use super::section::{Axes, Section};
 use super::thinned::{stretches, thinned};
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -58,7 +58,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         c.polygon(corners, &Style::fill("#8c6d4f").edged(INK, 1.0));
     }
     for s in run.sources {
-        layers::true_source(&mut c, panel.position(axes.cm([s.position.x, s.position.y])));
+        marks::true_source(&mut c, panel.position(axes.cm([s.position.x, s.position.y])));
     }
     track(&mut c, &panel, &axes, t);
     marks(&mut c, &panel, &axes, t);
@@ -66,7 +66,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     panel.frame(&mut c, 1.2);
     panel.x_ticks(&mut c, true, 11.0);
     panel.y_ticks(&mut c, 60.0, 11.0);
-    layers::scale_bar(&mut c, &panel, "cm");
+    marks::scale_bar(&mut c, &panel, "cm");
     let origin = if run.sources.is_empty() { "start" } else { "source" };
     let names =
         [format!("Down-stream of the {origin} (cm)"), format!("Left of the {origin}, looking down-stream (cm)")];
@@ -123,10 +123,10 @@ fn marks(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
         probe(c, panel.position(axes.cm([tip[0], tip[1]])));
     }
     if let Some(first) = t.rows.first() {
-        layers::start(c, panel.position(axes.cm(first.head)));
+        marks::start(c, panel.position(axes.cm(first.head)));
     }
     if let Some(d) = t.declared {
-        layers::declared(c, panel.position(axes.cm(d)));
+        marks::declared(c, panel.position(axes.cm(d)));
     }
 }
 
@@ -142,10 +142,10 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
     }
     let marks: [Mark<'_>; 5] = [
         (true, halt, "end of a motion"),
-        (true, layers::start, "start"),
+        (true, marks::start, "start"),
         (!t.tips.is_empty(), probe, "probes at the end"),
-        (t.declared.is_some(), layers::declared, "stopped: source declared"),
-        (!run.sources.is_empty(), layers::true_source, "true source"),
+        (t.declared.is_some(), marks::declared, "stopped: source declared"),
+        (!run.sources.is_empty(), marks::true_source, "true source"),
     ];
     signs(c, x, &mut y, &marks);
     y += 10.0;

@@ -1,15 +1,21 @@
 //! The map: area, bed, plume, track by behaviour, and what was found where (after Pang 2009, Fig. 7).
 
-use super::map_layers::{self as layers, Bed};
-use super::map_legend::keys;
-use super::map_section;
-use super::map_vehicles;
+pub(super) mod legend;
+mod section;
+pub(super) mod small_maps;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_vehicles;
+
+use super::marks::{self, Bed};
 use super::plume_load::PlumeLoad;
-use super::solids;
+use super::{solids, vehicles};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{GREY, INK};
 use crate::charts::panel::{Panel, range_of};
 use crate::results::{RobotTrack, RunReport, SourceTruth};
+use legend::keys;
 use nalgebra::Vector2;
 
 /// Largest size of the map's panel with keys beside it and with keys below it, px.
@@ -28,6 +34,7 @@ const LEAST_SHEET: f64 = 640.0;
 const ENLARGED: [f64; 2] = [1.5, 2.5];
 /// Largest and least inset, px.
 const INSET: [f64; 2] = [225.0, 120.0];
+
 /// The map as SVG.
 pub fn map(run: &RunReport<'_>) -> String {
     sheet(run).svg("map")
@@ -41,7 +48,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     let mut c = Canvas::new(panel.right() + if wide { 34.0 } else { COLUMN + 35.0 }, 0.0);
     let plume = run.plume.and_then(|p| PlumeLoad::from_plume(p, &panel));
     let bed = Bed::from_run(run, &panel);
-    layers::reserve(&mut c, &panel);
+    marks::reserve(&mut c, &panel);
     draw(&mut c, run, &panel, &bed, plume.as_ref(), false);
     panel.frame(&mut c, 1.2);
     panel.x_ticks(&mut c, true, 11.0);
@@ -49,10 +56,10 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     panel.names(&mut c, 12.0, ["East (m)", "North (m)"], [36.0, panel.left - 22.0]);
     let title = run.summary.headline();
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
-    layers::scale_bar(&mut c, &panel, "m");
-    layers::north(&mut c, &panel);
+    marks::scale_bar(&mut c, &panel, "m");
+    marks::north(&mut c, &panel);
     let mut bottom = panel.bottom() + 50.0;
-    if let Some(below) = map_section::draw(&mut c, run, &panel, bottom + 34.0) {
+    if let Some(below) = section::draw(&mut c, run, &panel, bottom + 34.0) {
         bottom = below;
     }
     // Keys and inset: in a column beside the map, or in a row below it.
@@ -90,7 +97,7 @@ fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
     let times = inset.px_per_unit() / panel.px_per_unit();
     let words = format!("Near the source (box on the map), {times:.1} ×");
     c.text([inset.left, inset.top - 7.0], 10.0, Anchor::Start, &words);
-    layers::scale_bar(c, inset, "m");
+    marks::scale_bar(c, inset, "m");
     let (a, b) = (panel.position([inset.x[0], inset.y[1]]), panel.position([inset.x[1], inset.y[0]]));
     panel.clip(c);
     c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &Style::line(GREY, 1.0));
@@ -99,36 +106,36 @@ fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
 
 fn draw(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, bed: &Bed, plume: Option<&PlumeLoad>, close: bool) {
     panel.clip(c);
-    layers::bed(c, panel, bed);
+    marks::bed(c, panel, bed);
     let own = if close { run.plume.and_then(|p| PlumeLoad::from_plume(p, panel)) } else { None };
     solids::draw(c, panel, run.obstacles, run.terrain, true);
     if let Some(plume) = plume.or(own.as_ref()) {
-        layers::plume(c, panel, plume);
+        marks::plume(c, panel, plume);
     }
-    layers::bed_lines(c, panel, bed);
+    marks::bed_lines(c, panel, bed);
     let corners = run.area.corners().map(|p| [p.x, p.y]);
     c.polygon(panel.all(&corners), &Style::line(INK, 1.6).dashed("7 4"));
     solids::draw(c, panel, run.obstacles, run.terrain, false);
     let robots = &run.track.robots;
     let several = robots.len() > 1;
     for (k, t) in robots.iter().enumerate().filter(|_| several) {
-        map_vehicles::band(c, panel, t, k);
+        vehicles::band(c, panel, t, k);
     }
     for t in robots {
-        layers::regions(c, panel, t);
-        layers::believed(c, panel, t, several);
-        layers::detections(c, panel, t.detections.iter().copied());
-        layers::track(c, panel, t, close, several);
-        layers::marks(c, panel, t);
+        marks::regions(c, panel, t);
+        marks::believed(c, panel, t, several);
+        marks::detections(c, panel, t.detections.iter().copied());
+        marks::track(c, panel, t, close, several);
+        marks::marks(c, panel, t);
     }
-    layers::sources(c, panel, run);
+    marks::sources(c, panel, run);
     // Names last, where nothing else is drawn; the inset needs none.
     if !close {
-        layers::source_names(c, panel, run);
+        marks::source_names(c, panel, run);
         for t in robots {
-            layers::names(c, panel, t, several);
+            marks::names(c, panel, t, several);
         }
-        layers::bed_labels(c, panel, bed);
+        marks::bed_labels(c, panel, bed);
     }
     c.unclip();
 }

@@ -6,10 +6,7 @@ mod convergence;
 mod flume;
 mod layers_panel;
 mod map;
-mod map_layers;
-mod map_legend;
-mod map_section;
-mod map_vehicles;
+pub(super) mod marks;
 mod odour;
 mod plume_load;
 mod probe_records;
@@ -18,13 +15,9 @@ mod series;
 mod series_panels;
 mod shaded_cells;
 mod sidescan;
-mod small_maps;
 mod solids;
-#[cfg(test)]
-mod tests_map;
-#[cfg(test)]
-mod tests_vehicles;
 mod thinned;
+mod vehicles;
 
 pub use approach::approach;
 pub use belief::belief;

@@ -1,8 +1,8 @@
 //! Where odour was believed to be, at chosen times: probability of detection, the odour's way to the vehicle, and the
 //! vehicle's best way to the odour (products of Farrell, Pang & Li 2003 in addition to the source map).
 
-use super::map_layers as layers;
-use super::small_maps::{LEFT, axes, place, scale, shades, sheet, vehicle};
+use super::map::small_maps::{LEFT, axes, place, scale, shades, sheet, vehicle};
+use super::marks;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::panel::Panel;
 use crate::results::RunReport;
@@ -44,7 +44,7 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let x = LEFT + 380.0;
     vehicle(&mut c, [x, y - 4.0]);
     c.text([x + 9.0, y], 10.0, Anchor::Start, "vehicle");
-    layers::true_source(&mut c, [x + 68.0, y - 4.0]);
+    marks::true_source(&mut c, [x + 68.0, y - 4.0]);
     c.text([x + 79.0, y], 10.0, Anchor::Start, "true source");
     for (from, colour, words) in keys {
         let x = LEFT + from;
@@ -76,6 +76,6 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
         let p = o.grid.centre(*cell);
         vehicle(c, panel.position([p.x, p.y]));
     }
-    layers::sources(c, panel, run);
+    marks::sources(c, panel, run);
     axes(c, panel);
 }

@@ -2,7 +2,7 @@
 //!
 //! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 3 (concentration at a point) and Fig. 8 (threshold and spikes).
 
-use super::map_legend::short;
+use super::map::legend::short;
 use super::series_panels::{self as panels, BLUE, Band, ORANGE};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, DETECTION, GREY, INK};

@@ -1,7 +1,7 @@
 //! A sidescan's record of a declared place: its last passes as waterfalls, and all passes placed where the vehicle
 //! believed itself to be.
 
-use super::map_layers as layers;
+use super::marks;
 use super::shaded_cells::{self, ShadedCells};
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette;
@@ -213,9 +213,9 @@ fn signs(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>, robot: &RobotEchoes
     for o in run.obstacles {
         c.polygon(panel.all(&o.corners), &Style::line("#ffffff", 1.2));
     }
-    layers::sources(c, panel, run);
+    marks::sources(c, panel, run);
     if let Some(d) = track.and_then(|t| t.declared().last()) {
-        layers::declared(c, panel.position(d));
+        marks::declared(c, panel.position(d));
     }
     if let Some(p) = surveyed(run, robot) {
         found(c, panel.position(p));
@@ -243,9 +243,9 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], run: &RunReport<'_>, robot: &RobotEchoe
     c.text([x + 140.0, y + 14.0], 9.0, Anchor::Middle, &format!("−{:.0}", -RANGE_DB[0]));
     c.text([end, y + 14.0], 9.0, Anchor::Middle, &format!("{:.0}", RANGE_DB[1]));
     let y = y + 34.0;
-    layers::true_source(c, [x + 6.0, y - 4.0]);
+    marks::true_source(c, [x + 6.0, y - 4.0]);
     c.text([x + 17.0, y], 10.0, Anchor::Start, "true source");
-    layers::declared(c, [x + 106.0, y - 4.0]);
+    marks::declared(c, [x + 106.0, y - 4.0]);
     c.text([x + 118.0, y], 10.0, Anchor::Start, "declared");
     found(c, [x + 190.0, y - 4.0]);
     c.text([x + 205.0, y], 10.0, Anchor::Start, "by the sidescan; object in a pass (detector's defaults)");

@@ -1,14 +1,26 @@
 //! Checks of what a scenario means. They find contradictions that reading alone cannot see; each has the field's path.
 
-use super::check_path::{names, robot_error, twins};
+mod able;
+mod berth;
+mod faults;
+mod fitted;
+mod gantry;
+mod limits;
+mod noise;
+mod obstacles;
+mod path;
+mod resolved;
+mod sources;
+mod steps;
+mod times;
+mod view;
+
+use super::cost;
 use super::fault::{Severity, UnplacedFault};
 use super::folder_files::FolderFiles;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
-use super::{
-    check_able, check_berth, check_faults, check_fitted, check_limits, check_noise, check_obstacles, check_resolved,
-    check_sources, check_steps, check_times, check_view, cost,
-};
 use eyes::camera::Optics;
+use path::{names, robot_error, twins};
 use plumes::error::PlumeError;
 use robots::error::RobotError;
 use robots::sense::{OnBoard, SensorSuite};
@@ -34,22 +46,22 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     let terrain = scenario.terrain.build(&area);
     let mut found = Vec::new();
     slope(&scenario.terrain, &mut found);
-    let mut fits = check_limits::sizes(scenario, &area, &terrain, &mut found);
+    let mut fits = limits::sizes(scenario, &area, &terrain, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
-        fits &= check_limits::bounds(i, robot, &area, &terrain, &mut found);
+        fits &= limits::bounds(i, robot, &area, &terrain, &mut found);
     }
     let cost = cost::cost(scenario);
     fits = fits && cost::judge(&cost, memory_bytes, &mut found);
     // Any seed will do, because whether the water can be built does not depend on its random numbers.
     let water = fits.then(|| {
         let water = scenario.water.build(&area, &terrain, 0)?;
-        check_limits::sound(scenario, water, &area, &terrain)
+        limits::sound(scenario, water, &area, &terrain)
     });
     match &water {
         Some(Ok(water)) => {
-            check_limits::speeds(scenario, water, &terrain, &mut found);
-            check_able::plume(scenario, &area, &terrain, water, &mut found);
-            check_sources::releases(scenario, &area, &terrain, water, &mut found);
+            limits::speeds(scenario, water, &terrain, &mut found);
+            able::plume(scenario, &area, &terrain, water, &mut found);
+            sources::releases(scenario, &area, &terrain, water, &mut found);
         }
         Some(Err(PlumeError::Invalid { field, problem })) => {
             found.push(UnplacedFault::error(field, problem));
@@ -59,55 +71,55 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
         found.push(UnplacedFault::error(field, problem));
     }
-    let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    let obstacles = obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
     let solid = obstacles.without(&scenario.permeable);
     if fits {
-        check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
+        obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
     }
-    check_obstacles::known("permeable", &scenario.permeable, &scenario.obstacles, &mut found);
-    check_sources::sources(scenario, &area, &terrain, &solid, &mut found);
+    obstacles::known("permeable", &scenario.permeable, &scenario.obstacles, &mut found);
+    sources::sources(scenario, &area, &terrain, &solid, &mut found);
     machines(scenario, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
         let step_s = scenario.time.step_s.get();
         let vehicle = parts(i, robot, step_s, base_dir, &mut found);
         let limit_s = scenario.time.limit_s.get();
-        check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
+        faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
         if let Some(vehicle) = &vehicle {
-            let place = check_view::RobotSurroundings { area: &area, terrain: &terrain, obstacles: &obstacles };
+            let place = view::RobotSurroundings { area: &area, terrain: &terrain, obstacles: &obstacles };
             if fits {
-                check_view::view(i, robot, vehicle, &place, &mut found);
+                view::view(i, robot, vehicle, &place, &mut found);
             }
             let p_W = robot.start.p_W(&terrain);
             let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
                 .map_or(0.0, |w| w.velocity_without_eddies(&p_W, 0.0).norm());
-            check_able::speeds(i, robot, vehicle, water_m_s, &mut found);
-            check_able::capabilities(i, robot, vehicle, step_s, water_m_s, &mut found);
+            able::speeds(i, robot, vehicle, water_m_s, &mut found);
+            able::capabilities(i, robot, vehicle, step_s, water_m_s, &mut found);
         }
         let setting = robot.setting(&area, &terrain, &obstacles);
         let path = format!("robots[{i}].chart");
-        check_obstacles::known(&path, &robot.chart, &scenario.obstacles, &mut found);
+        obstacles::known(&path, &robot.chart, &scenario.obstacles, &mut found);
         if fits {
             mind(i, robot, &setting, &mut found);
         }
-        check_fitted::fitted(i, robot, vehicle.as_ref(), &mut found);
-        check_noise::fluorometer(i, robot, &mut found);
+        fitted::fitted(i, robot, vehicle.as_ref(), &mut found);
+        noise::fluorometer(i, robot, &mut found);
     }
-    check_berth::berths(&scenario.robots, &terrain, &mut found);
+    berth::berths(&scenario.robots, &terrain, &mut found);
     for (i, gantry) in scenario.gantries.iter().enumerate() {
         let step_s = scenario.time.step_s.get();
-        super::check_gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
-        check_noise::probes(i, gantry, &mut found);
+        gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
+        noise::probes(i, gantry, &mut found);
     }
-    check_able::declarations(scenario, &mut found);
-    check_times::times(scenario, &mut found);
-    check_able::purpose(scenario, &mut found);
+    able::declarations(scenario, &mut found);
+    times::times(scenario, &mut found);
+    able::purpose(scenario, &mut found);
     if let Some(Ok(water)) = &water
         && !found.iter().any(|f| f.severity == Severity::Error)
     {
         cost::patience(&cost, &mut found);
-        check_steps::steps(scenario, water, &area, &terrain, &mut found);
-        check_resolved::resolved(scenario, &area, &terrain, &mut found);
+        steps::steps(scenario, water, &area, &terrain, &mut found);
+        resolved::resolved(scenario, &area, &terrain, &mut found);
     }
     found
 }

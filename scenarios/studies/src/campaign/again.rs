@@ -3,7 +3,7 @@
 use super::contained::contained;
 use super::plan::Campaign;
 use super::report::{Film, Pick, RemadeRun};
-use super::row::RunRow;
+use super::rows::row::RunRow;
 use super::threads::pool;
 use output::follow::Follower;
 use rayon::prelude::*;

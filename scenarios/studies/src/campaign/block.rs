@@ -4,15 +4,14 @@
 //! The declarations are written first, then the rows. If a kill comes between the two, there are declarations of runs
 //! that have no row yet. Readers leave these out, so no row that was written is lost.
 
-use super::columns::as_csv;
 use super::contained::contained;
 use super::error::CampaignError;
 use super::manifest::{FILE, Manifest};
 use super::plan::hash;
-use super::record::Record;
-use super::row::{DeclarationRow, RunRow};
-use super::seal;
-use super::table::{TableWriter, read};
+use super::rows::columns::as_csv;
+use super::rows::record::Record;
+use super::rows::row::{DeclarationRow, RunRow};
+use super::rows::table::{TableWriter, read};
 use parquet::file::metadata::KeyValue;
 use std::collections::BTreeMap;
 use std::fs;
@@ -198,5 +197,6 @@ fn rows_hash(rows: &[RunRow]) -> String {
     hash(&as_csv(rows).concat())
 }
 
+mod seal;
 #[cfg(test)]
 mod tests;

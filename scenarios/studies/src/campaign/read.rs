@@ -1,13 +1,13 @@
 //! The rows of a campaign's folder.
 
 use super::block::{BlockState, present, read_block};
-use super::columns::csv_fields;
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
-use super::record::Record;
-use super::row::RunRow;
-use super::table::TableWriter;
+use super::rows::columns::csv_fields;
+use super::rows::record::Record;
+use super::rows::row::RunRow;
+use super::rows::table::TableWriter;
 use std::error::Error;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};

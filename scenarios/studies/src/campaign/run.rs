@@ -7,7 +7,7 @@ use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::plan::Campaign;
-use super::row::RunRow;
+use super::rows::row::RunRow;
 use super::shard::Shard;
 use super::share::Share;
 use super::work::{Event, Limits, Work};

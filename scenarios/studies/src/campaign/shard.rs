@@ -1,6 +1,6 @@
 //! Which share of a campaign's blocks this process does.
 
-use super::error::CampaignError;
+use crate::campaign::error::CampaignError;
 use std::str::FromStr;
 
 /// A share: that of process `index` (from 0) of `count` processes.

@@ -1,11 +1,13 @@
 //! A share of a campaign: the runs still to do, and the blocks that their rows fill.
 
-use super::block::{BlockState, add_to_block, block_path, declarations_path, present, read_block, write_block};
-use super::error::CampaignError;
-use super::manifest::Manifest;
-use super::row::RunRow;
 use super::shard::Shard;
 use super::work::Event;
+use crate::campaign::block::{
+    BlockState, add_to_block, block_path, declarations_path, present, read_block, write_block,
+};
+use crate::campaign::error::CampaignError;
+use crate::campaign::manifest::Manifest;
+use crate::campaign::rows::row::RunRow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};

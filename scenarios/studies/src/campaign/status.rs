@@ -4,7 +4,7 @@ use super::block::{BlockState, present, read_block};
 use super::enough::{Demand, wanted};
 use super::error::CampaignError;
 use super::manifest::Manifest;
-use super::row::RunRow;
+use super::rows::row::RunRow;
 use super::seeds::Seeds;
 use std::path::Path;
 use world::registry::Registry;

@@ -1,12 +1,16 @@
 //! The threads of a campaign. Each takes the arms of one seed at a time, those with the same ocean in lanes, and every
 //! row is kept as soon as its run ends.
+
 #![allow(clippy::disallowed_methods, reason = "the limit of wall time decides when to stop, never what a run does")]
 
+pub(crate) mod in_lanes;
+pub(super) mod one_run;
+
 use super::error::CampaignError;
-use super::in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
-use super::one_run::RunName;
 use super::plan::Campaign;
-use super::row::RunRow;
+use super::rows::row::RunRow;
+use in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
+use one_run::RunName;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::collections::BTreeMap;

@@ -2,9 +2,9 @@
 
 use super::element::Element;
 use crate::filaments::plume::{Plume, PlumeSettings};
-use crate::filaments::tests_water::{Given, basin, source};
+use crate::filaments::tests::water::{Given, basin, source};
 use crate::flow::GridShape;
-use crate::flow::tests_water::{duck, duck_area, duck_bed};
+use crate::flow::tests::water::{duck, duck_area, duck_bed};
 use crate::release::{BuoyancySpec, SourceSpec};
 use crate::simd::dispatch::InstructionSet;
 use nalgebra::Vector3;

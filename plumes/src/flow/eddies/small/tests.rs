@@ -3,9 +3,9 @@
 use super::{Small, SmallSpec};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::Channel;
+use crate::flow::channel::open_channel::OpenChannelSpec;
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::eddies::tests_eddies::{BED, channel_spec, flume};
-use crate::flow::open_channel::OpenChannelSpec;
 use crate::flow::{Water, WaterSpec};
 use crate::simd::f32x4::F32x4;
 use world::math;

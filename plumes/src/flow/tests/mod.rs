@@ -1,0 +1,6 @@
+//! The whole water: its parts together, and what a hull feels beside differences of its velocity.
+
+pub(crate) mod kit;
+mod sample;
+mod sea;
+pub(crate) mod water;

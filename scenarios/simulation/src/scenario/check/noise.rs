@@ -1,0 +1,76 @@
+//! Warns of chemical sensors whose noise alone crosses the threshold of detection.
+
+use crate::scenario::fault::UnplacedFault;
+use crate::scenario::gantry::GantryBlock;
+use crate::scenario::schema::RobotSpec;
+use robots::sense::FluorometerSpec;
+use robots::track::{CrabSpec, ThresholdSpec};
+
+/// Noise of a normal distribution rises above this many of its standard deviations once in 740 readings: at 10 Hz, about
+/// once a minute.
+const SIGMAS: f64 = 3.0;
+
+/// A robot's fluorometer.
+pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<UnplacedFault>) {
+    if let Some(spec) = robot.sensors.get::<FluorometerSpec>() {
+        let above_v = spec.threshold.get() * spec.full_scale_v.get();
+        let path = format!("robots[{i}].sensors.fluorometer.noise_v");
+        loud(path, spec.noise_v.get(), above_v, found);
+    }
+}
+
+/// A gantry's probes, against the least threshold of its tracker.
+pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<UnplacedFault>) {
+    if let Some(crab) = block.tracker.get::<CrabSpec>() {
+        let least_v = match &crab.threshold {
+            ThresholdSpec::HalfMean(rule) => rule.floor_v.get(),
+            ThresholdSpec::Level(rule) => rule.level_v.get(),
+        };
+        let above_v = least_v - block.probes.range_v[0].get();
+        let path = format!("gantries[{i}].probes.noise_v");
+        loud(path, block.probes.noise_v.get(), above_v, found);
+    }
+}
+
+/// Noise against a threshold that lies so far above the output in clean water.
+fn loud(path: String, noise_v: f64, above_v: f64, found: &mut Vec<UnplacedFault>) {
+    if noise_v > 0.0 && above_v < SIGMAS * noise_v {
+        let problem = format!(
+            "noise of {noise_v} V is more than a third of what the threshold lies above clean water, {above_v:.4} V: it \
+             detects where nothing is"
+        );
+        found.push(UnplacedFault::warning(path, problem).hint("lower the noise, or raise the threshold"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scenario::told::told;
+
+    #[test]
+    fn noise_that_crosses_the_threshold_is_told() {
+        let channel = |fluorometer: &str| {
+            let fitted = format!("fluorometer: ({fluorometer})");
+            told("uniform_channel", &[("fluorometer: ()", &fitted)])
+        };
+        // Four per cent of 5 V are 0.2 V.
+        for (fluorometer, noise_v, above_v) in [
+            ("noise_v: 0.3", "0.3", "0.2000"),
+            ("noise_v: 0.07", "0.07", "0.2000"),
+            ("threshold: 0.01", "0.02", "0.0500"),
+        ] {
+            let want = format!(
+                "robots[0].sensors.fluorometer.noise_v: noise of {noise_v} V is more than a third of what the threshold \
+                 lies above clean water, {above_v} V: it detects where nothing is"
+            );
+            assert_eq!(channel(fluorometer), [want]);
+        }
+        for fine in ["noise_v: 0.06", "threshold: 0.01, noise_v: 0.01", "threshold: 0, noise_v: 0"] {
+            assert_eq!(channel(fine), [""; 0]);
+        }
+        let probes = "probes: (full_scale_kg_m3: 4.7";
+        let loud = format!("{probes}, noise_v: 0.01");
+        let said = told("flume_crab_paper", &[(probes, &loud)]);
+        assert!(said[0].starts_with("gantries[0].probes.noise_v: noise of 0.01 V"), "{said:?}");
+    }
+}

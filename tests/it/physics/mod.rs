@@ -1,0 +1,12 @@
+//! Vehicles under physics: against published trajectories, single effects, contacts, waves.
+
+mod autopilot;
+mod hulls;
+mod kinematic;
+mod rapier_alone;
+mod sea;
+mod vehicle;
+mod vehicle_contacts;
+mod vehicle_effects;
+mod vehicle_mass;
+mod vehicle_published;
