@@ -4,14 +4,13 @@ use super::args::RunArgs;
 use super::say;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use nalgebra::Vector2;
-use output::results::GantrySummary;
-use output::results::{DeclarationSummary, DeclaredKind, RobotSummary, Summary};
+use output::results::Summary;
 use output::shown::printable;
 use rheotaxis::frame::Frame;
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer};
-use robots::handoff::{RegionState, Verdict, region_name};
+use robots::handoff::region_name;
 use std::path::Path;
 
 /// Steps of a bar that shows a share.
@@ -125,45 +124,18 @@ impl Progress {
     }
 
     fn tell(&self, summary: &Summary, out: &Path) {
-        let run = &summary.run;
-        say::line(format_args!(
-            "{}: {} after {:.0} s ({} filaments, {})",
-            self.name,
-            summary.outcome.label(),
-            run.totals.mission_s,
-            run.totals.filaments,
-            match run.real_time_factor_with_spin_up {
-                Some(x) if run.totals.spin_up_kept => {
-                    format!("{x:.0} x real time, spin-up taken from the cache")
-                }
-                Some(x) => format!("{x:.0} x real time, spin-up included"),
-                None => "in no time".to_string(),
-            }
-        ));
-        for robot in &summary.robots {
-            say::line(format_args!(
-                "  {}: travelled {:.0} m, {} detections{}",
-                robot.id,
-                robot.travelled_m,
-                robot.detections,
-                match robot.first_detection_s {
-                    Some(t) => format!(", the first after {t:.0} s"),
-                    None => String::new(),
-                }
-            ));
-            for line in declared_lines(robot) {
-                say::line(format_args!("  {}: {line}", robot.id));
+        say::line(summary.headline());
+        for (_, id, facts) in summary.machine_facts() {
+            for fact in facts.iter().filter(|f| f.brief) {
+                say::line(format_args!("  {id}: {}: {}", fact.name, fact.value));
             }
         }
         for abnormal in &summary.abnormal {
             say::line(format_args!("  ! {}: {}", abnormal.robot, abnormal.line));
         }
-        for g in &summary.gantries {
-            for line in gantry_lines(g) {
-                say::line(format_args!("  {}: {line}", g.id));
-            }
+        for fact in summary.run_facts().iter().filter(|f| f.brief) {
+            say::line(format_args!("  {}: {}", fact.name, fact.value));
         }
-        say::line(format_args!("  digest {}", summary.digest));
         say::line(format_args!("  results in {}: open report.html", out.display()));
     }
 }
@@ -177,92 +149,6 @@ impl Observer for Progress {
             _ => {}
         }
     }
-}
-
-/// What a robot declared, how the search of each subregion ended, and the remark about its map.
-fn declared_lines(robot: &RobotSummary) -> Vec<String> {
-    let of_region = |d: &DeclarationSummary| (d.region.unwrap_or(0), declaration(d));
-    let mut by_region: Vec<(u32, String)> = robot.declarations.iter().map(of_region).collect();
-    let quiet = |state| matches!(state, RegionState::Declared | RegionState::UpFlowEdge);
-    for (k, region) in (0..).zip(&robot.regions) {
-        if !quiet(region.state) {
-            let said = format!("subregion {}: {}", region.name, region.state.label());
-            by_region.push((k, said));
-        }
-    }
-    by_region.sort_by_key(|(k, _)| *k);
-    let none = (robot.sources_declared == 0).then(|| "declared no source".to_string());
-    let remark = robot.map.as_ref().and_then(|m| m.remark.clone());
-    let lines = by_region.into_iter().map(|(_, said)| said);
-    none.into_iter().chain(lines).chain(remark).collect()
-}
-
-/// A declaration in words.
-fn declaration(d: &DeclarationSummary) -> String {
-    let mut said = match &d.region_name {
-        Some(name) => format!("subregion {name}: "),
-        None => String::new(),
-    };
-    let at = d.position;
-    said += match d.kind {
-        DeclaredKind::Source => "declared a source",
-        DeclaredKind::UpFlowEdge => "traced the plume to its up-flow edge",
-    };
-    said += &format!(" at {:.0} m E, {:.0} m N after {:.0} s ({})", at.east_m, at.north_m, d.t_s, d.rule);
-    if let Some(m) = d.traced_m {
-        said += &format!(", {m:.0} m from the first detection");
-    }
-    if d.kind == DeclaredKind::UpFlowEdge {
-        return said;
-    }
-    if let Some(error) = &d.error {
-        said += &format!("; {:.1} m from {}", error.total_m, error.source);
-        if let (Some(along), Some(across)) = (error.along_flow_m, error.across_flow_m) {
-            said += &format!(" ({along:+.1} m along the flow, {across:+.1} m across)");
-        }
-    }
-    if d.verdict != Verdict::Unchecked {
-        said += &format!("; {}", d.verdict.label());
-    }
-    said
-}
-
-/// The results of a gantry in words.
-fn gantry_lines(g: &GantrySummary) -> Vec<String> {
-    let [steps, casts, sweeps] = g.moves;
-    let mut lines = vec![format!(
-        "travelled {:.2} m in {steps} steps, {casts} casts and {sweeps} sweeps; {} scans with a spike{}",
-        g.travelled_m,
-        g.spikes,
-        match g.first_spike_s {
-            Some(t) => format!(", the first after {t:.1} s"),
-            None => String::new(),
-        }
-    )];
-    if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
-        lines.push(format!(
-            "from the first step up-stream: {:.1} cm/s, straight distance over path length (NGDR) {ngdr:.2}",
-            100.0 * v
-        ));
-    }
-    match (&g.declaration, g.stopped) {
-        (Some(d), _) => {
-            let error = d.error.as_ref();
-            let off = error.map_or_else(String::new, |e| format!(", {:.1} cm from {}", 100.0 * e.total_m, e.source));
-            let parts = error.and_then(|e| Some((e.along_flow_m?, e.across_flow_m?)));
-            let parts = parts.map_or_else(String::new, |(along, across)| {
-                let (along, across) = (100.0 * along, 100.0 * across);
-                format!(" ({along:+.1} cm along the flow, {across:+.1} cm across)")
-            });
-            lines.push(format!("stopped after {:.1} s{off}{parts}", d.t_s));
-        }
-        (None, Some(_)) => lines.push("gave up".to_string()),
-        (None, None) => lines.push("did not stop".to_string()),
-    }
-    if g.blocked {
-        lines.push("a drive stopped because something was in its way".to_string());
-    }
-    lines
 }
 
 /// A bar of a length, which nobody sees if the command is quiet or there is no terminal.

@@ -2,6 +2,7 @@
 
 pub mod belief_track;
 mod echoes;
+mod facts;
 mod gantry_path;
 mod headline;
 mod map_end;
@@ -21,6 +22,7 @@ pub(crate) mod track_columns;
 
 pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
 pub use echoes::{Echoes, RobotEchoes};
+pub use facts::Fact;
 pub use gantry_path::{GantryPath, GantrySummary};
 pub use map_end::MapEnd;
 pub use map_stated::{MapStated, NEAR_M};

@@ -33,6 +33,20 @@ pub struct SourceError {
     pub north_m: f64,
 }
 
+impl SourceError {
+    /// The distance from its source, and its parts along and across the flow, in a unit of which `per_m` make a metre.
+    pub(super) fn in_words(&self, per_m: f64, unit: &str) -> String {
+        let parts = match (self.along_flow_m, self.across_flow_m) {
+            (Some(a), Some(b)) => {
+                let (a, b) = (per_m * a, per_m * b);
+                format!(": {a:+.1} {unit} along the flow (down-flow positive), {b:+.1} {unit} across")
+            }
+            _ => String::new(),
+        };
+        format!("{:.1} {unit} from {}{parts}", per_m * self.total_m, self.source)
+    }
+}
+
 /// What was declared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
