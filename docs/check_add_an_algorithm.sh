@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Does what README says under "To add an algorithm", in a copy of the tree: applies docs/add_an_algorithm.patch, builds,
+# Does what docs/add_an_algorithm.md says, in a copy of the tree: applies docs/add_an_algorithm.patch, builds,
 # and uses the new behaviour in a scenario. The copy shares the target folder, so that no dependency is built twice.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -38,9 +38,9 @@ rheotaxis=$target/release/rheotaxis
 "$rheotaxis" explain robots.strategy.Amp.reacquire.Spiral.spacing_m | grep --quiet "default  8" ||
     fail "explain does not say the default of spacing_m"
 
-# The scenario that README shows, and the one it comes from: they differ in nothing but how they reacquire the plume.
-shown=$(sed -n 's/^strategy: \(Amp(.*Spiral(.*)\),$/\1/p' tree/README.md)
-[ -n "$shown" ] || fail "README shows no strategy with Spiral"
+# The scenario that the page shows, and the one it comes from: they differ in nothing but how they reacquire the plume.
+shown=$(sed -n 's/^strategy: \(Amp(.*Spiral(.*)\),$/\1/p' tree/docs/add_an_algorithm.md)
+[ -n "$shown" ] || fail "the page shows no strategy with Spiral"
 "$rheotaxis" init uniform_channel "$runs/bowtie.ron" > /dev/null
 grep --quiet "strategy: Amp(.*)," "$runs/bowtie.ron" || fail "uniform_channel has no strategy on a line of its own"
 sed "s/strategy: Amp(.*),/strategy: $shown,/" "$runs/bowtie.ron" > "$runs/spiral.ron"
@@ -53,4 +53,4 @@ for name in bowtie spiral; do
 done
 digest() { grep --max-count=1 '"digest"' "$runs/$1/summary.json"; }
 [ "$(digest bowtie)" != "$(digest spiral)" ] || fail "both behaviours gave the same run: Spiral was never entered"
-echo "README's example compiles, is listed and explained, and flies"
+echo "The example compiles, is listed and explained, and flies"

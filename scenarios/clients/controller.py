@@ -5,7 +5,7 @@
     rheotaxis run duck_external --allow-control &
     python controller.py [ENDPOINT]                  # else all runs at tcp/127.0.0.1:7447 to 7510
 
-The run asks once a period and waits; docs/doors.md has the fields of a question and of an answer.
+The run asks once a period and waits; docs/interfaces.md has the fields of a question and of an answer.
 """
 import json, math, sys, time
 import zenoh

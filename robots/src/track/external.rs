@@ -53,7 +53,7 @@ impl Listed for ExternalSpec {
     const ENTRY: Entry = Entry {
         name: "External",
         what: "a searcher outside this program moves the head, asked in lock-step over zenoh, from Python or from Rust",
-        source: "ours; docs/doors.md",
+        source: "ours; docs/interfaces.md",
     };
 }
 

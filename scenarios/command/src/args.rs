@@ -172,8 +172,8 @@ pub struct RunArgs {
     /// What others may do to the run.
     #[command(flatten)]
     pub control: ControlArgs,
-    /// Configuration file of zenoh (JSON5), for routers, TLS, users and access control. docs/wire.md has some to start
-    /// from.
+    /// Configuration file of zenoh (JSON5), for routers, TLS, users and access control. docs/interfaces.md has some to
+    /// start from.
     #[arg(long, value_name = "FILE", conflicts_with = "no_zenoh")]
     pub zenoh_config: Option<PathBuf>,
     /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].

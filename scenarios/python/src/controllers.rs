@@ -97,7 +97,7 @@ pub(crate) fn unanswered(asking: &[(String, ExchangeTiming)], deciders: &[(Strin
     let line = |(id, asks): &&(String, ExchangeTiming)| {
         format!(
             "{id} asks a controller every {} s and has none, so that its `on_late` decides: give \
-             controllers={{\"{id}\": f}} (docs/doors.md), or controllers={{}} if that is meant",
+             controllers={{\"{id}\": f}} (docs/interfaces.md), or controllers={{}} if that is meant",
             asks.period_s
         )
     };

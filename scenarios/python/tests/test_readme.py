@@ -1,4 +1,4 @@
-"""README's examples in Python run as they are printed."""
+"""The examples in Python of README and of the page about interfaces run as they are printed."""
 
 import os
 import re
@@ -13,26 +13,25 @@ ROOT = Path(__file__).parents[3]
 BINARY = Path(os.environ.get("RHEOTAXIS_BINARY", ROOT / "target/release/rheotaxis"))
 
 
-def example(words):
-    """The one block with these words."""
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.S)
-    assert len(blocks) == 2
+def example(page, words):
+    """The one block of a page with these words."""
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.S)
     [block] = [block for block in blocks if words in block]
     return block
 
 
 def test_readme_runs_as_printed(capsys):
     pytest.importorskip("gymnasium")
-    exec(compile(example("import rheotaxis"), "README.md", "exec"), {})
+    exec(compile(example("README.md", "import rheotaxis"), "README.md", "exec"), {})
     assert "found" in capsys.readouterr().out
 
 
 @pytest.mark.skipif(
     not BINARY.is_file(), reason=f"skipped: no {BINARY} (cargo build --release, or set RHEOTAXIS_BINARY)"
 )
-def test_the_subscriber_of_readme_hears_a_run_to_its_end(tmp_path, capsys):
+def test_the_subscriber_of_the_docs_hears_a_run_to_its_end(tmp_path, capsys):
     pytest.importorskip("zenoh")
-    block, default = example("zenoh.open"), "range(7447, 7511)"
+    block, default = example("docs/interfaces.md", "zenoh.open"), "range(7447, 7511)"
     assert block.count(default) == 1 and len(block.split("\n\n")[1].splitlines()) < 10
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
@@ -48,7 +47,7 @@ def test_the_subscriber_of_readme_hears_a_run_to_its_end(tmp_path, capsys):
                     break
             assert run.poll() is None, "the run has ended"
             time.sleep(0.1)
-        exec(compile(block.replace(default, f"[{address[1]}]"), "README.md", "exec"), {})
+        exec(compile(block.replace(default, f"[{address[1]}]"), "docs/interfaces.md", "exec"), {})
     finally:
         run.kill()
         run.wait()

@@ -17,7 +17,8 @@ fn pages() -> Vec<(String, String)> {
     let docs = fs::read_dir(root().join("docs")).expect("the folder of the docs");
     let docs = docs.map(|f| f.expect("a file").file_name().into_string().expect("UTF-8"));
     let docs = docs.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}"));
-    let mut names: Vec<String> = docs.chain(["README.md".into(), "CONTRIBUTING.md".into()]).collect();
+    let beside = ["README.md", "CONTRIBUTING.md", "tests/README.md"].map(String::from);
+    let mut names: Vec<String> = docs.chain(beside).collect();
     names.sort();
     let text = |name: &String| fs::read_to_string(root().join(name)).expect("a page");
     names.iter().map(|name| (name.clone(), text(name))).collect()
@@ -124,7 +125,7 @@ fn commands_of_the_docs_do_what_the_docs_say() {
     let left = fs::read_to_string(dir.path().join("runs/uniform_channel-1/run-files.txt"));
     let left = left.expect("it is one of the commands");
     for name in left.lines().filter(|l| !l.starts_with('#') && !l.ends_with(".tmp")) {
-        assert!(names_in_readme(name), "README's table of results has no {name}");
+        assert!(outputs_name(name), "docs/outputs.md has no {name}");
     }
 }
 
@@ -134,14 +135,14 @@ fn readme_has_the_share_of(table: &str) {
     let share = line.and_then(|l| l.split_whitespace().find(|w| w.contains('/')));
     let share = share.expect("a count of the runs");
     let readme = fs::read_to_string(root().join("README.md")).expect("the page");
-    let row = readme.lines().find(|l| l.contains("(`reproduce duck_st`)"));
+    let row = readme.lines().find(|l| l.starts_with("| `duck_st` |"));
     assert!(row.is_some_and(|row| row.contains(share)), "README has not {share}: {row:?}");
 }
 
-/// Whether the first column of README's table of results has a file: `series-<robot>.svg`, `.png` stands for both.
-fn names_in_readme(name: &str) -> bool {
-    let readme = fs::read_to_string(root().join("README.md")).expect("the page");
-    let rows = readme.lines().skip_while(|l| !l.starts_with("| file | holds |"));
+/// Whether the first column of the table in docs/outputs.md has a file: `series-<robot>.svg`, `.png` stands for both.
+fn outputs_name(name: &str) -> bool {
+    let page = fs::read_to_string(root().join("docs/outputs.md")).expect("the page");
+    let rows = page.lines().skip_while(|l| !l.starts_with("| file | holds |"));
     let cells = rows.take_while(|l| l.starts_with('|')).filter_map(|l| l.split('|').nth(1));
     let mut all = Vec::new();
     for cell in cells {
@@ -157,13 +158,13 @@ fn names_in_readme(name: &str) -> bool {
 }
 
 #[test]
-fn readme_names_every_scenario_and_only_those() {
-    let readme = fs::read_to_string(root().join("README.md")).expect("the page");
+fn docs_name_every_scenario_and_only_those() {
+    let page = fs::read_to_string(root().join("docs/scenarios.md")).expect("the page");
     for template in CATALOG {
         let named = format!("`{}`", template.name);
-        assert!(readme.contains(&named), "README does not name {named}");
+        assert!(page.contains(&named), "docs/scenarios.md does not name {named}");
     }
-    let rows = readme.lines().skip_while(|l| !l.starts_with("| scenario | what |")).skip(2);
+    let rows = page.lines().skip_while(|l| !l.starts_with("| scenario | what |")).skip(2);
     for row in rows.take_while(|l| l.starts_with('|')) {
         let cell = row.split('|').nth(1).expect("a first cell");
         for name in cell.split('`').skip(1).step_by(2) {

@@ -1,4 +1,4 @@
-//! README's example of how to add an algorithm is the one that `docs/check_add_an_algorithm.sh` builds and runs.
+//! The example of how to add an algorithm is the one that `docs/check_add_an_algorithm.sh` builds and runs.
 
 use crate::common::root;
 use std::fs;
@@ -8,7 +8,7 @@ fn read(name: &str) -> String {
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The code blocks of README's section, of one language.
+/// The code blocks of a page, of one language.
 fn blocks<'a>(section: &'a str, language: &str) -> Vec<&'a str> {
     let fence = format!("```{language}\n");
     let parts = section.split(&fence).skip(1);
@@ -29,12 +29,8 @@ fn parts(patch: &str) -> Vec<(&str, Vec<&str>)> {
 }
 
 #[test]
-fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
-    let (readme, patch) = (read("README.md"), read("docs/add_an_algorithm.patch"));
-    let from = readme.find("## To add an algorithm").expect("the section");
-    let section = &readme[from..];
-    let section = &section[..section.find("\n## Checks").expect("the next section")];
-
+fn the_algorithm_that_the_docs_add_is_the_one_that_is_built() {
+    let (page, patch) = (read("docs/add_an_algorithm.md"), read("docs/add_an_algorithm.patch"));
     let parts = parts(&patch);
     let (new, old): (Vec<_>, Vec<_>) = (parts.iter()).partition(|(name, _)| name.ends_with("spiral.rs"));
     let [(_, lines)] = new[..] else {
@@ -42,15 +38,18 @@ fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
     };
     let file: String = lines.iter().map(|l| format!("{}\n", &l[1..])).collect();
     let (code, tests) = file.split_once("\n#[cfg(test)]").expect("it has tests");
-    assert_eq!(blocks(section, "rust"), [code]);
+    assert_eq!(blocks(&page, "rust"), [code]);
     assert!(tests.contains("#[test]"));
 
-    let shown = blocks(section, "diff");
+    let shown = blocks(&page, "diff");
     assert_eq!(shown.len(), old.len());
     for (name, lines) in old {
         let changed = lines.iter().filter(|l| !l.starts_with(' '));
         for line in changed {
-            assert!(shown.iter().any(|block| block.lines().any(|l| l == *line)), "{name}: README does not show {line}");
+            assert!(
+                shown.iter().any(|block| block.lines().any(|l| l == *line)),
+                "{name}: the page does not show {line}"
+            );
         }
     }
     for line in shown.iter().flat_map(|block| block.lines()) {

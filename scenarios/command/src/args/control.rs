@@ -10,8 +10,8 @@ use std::path::PathBuf;
 pub struct ControlArgs {
     /// Let others control the run over zenoh: decide for robots and gantries whose strategy is `External`, pause, step,
     /// speed up and stop the run. Whoever reaches the endpoint can: it is on the loopback interface unless you say
-    /// otherwise; docs/wire.md tells how to let in only some. A configuration that lets in anybody on the network is
-    /// refused.
+    /// otherwise; docs/interfaces.md tells how to let in only some. A configuration that lets in anybody on the network
+    /// is refused.
     #[arg(long, conflicts_with = "no_zenoh")]
     pub allow_control: bool,
     /// With --allow-control, let anybody on the network control the run, without a user, a client certificate or access

@@ -30,7 +30,7 @@ pub(super) fn warning(config: &Config, options: &LiveOptions) -> Result<Option<S
     }
     Ok(Some(format!(
         "--allow-control without users or access control: anybody on the network can control this run: {ways}; see \
-         docs/wire.md for configurations that tell who may"
+         docs/interfaces.md for configurations that tell who may"
     )))
 }
 

@@ -4,7 +4,7 @@ use super::write::PLUME;
 use crate::columns::TableInfo;
 use crate::results::{belief_track, odour, pictures, probes, track_columns};
 
-/// The tables of a run, in the order of README.
+/// The tables of a run, in the order of docs/outputs.md.
 pub fn tables() -> Vec<TableInfo> {
     let tables = [
         (

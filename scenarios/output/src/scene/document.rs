@@ -1,7 +1,7 @@
 //! The scene as a JSON document: the attachment `scene.json` of a recording, and the live key `meta/scene`.
 //!
 //! SI units; east, north, up; z = 0 at the still surface. Long arrays are base64 of little-endian f32, or u32 for
-//! numbers of corners, row by row. `docs/scene.md` describes every field.
+//! numbers of corners, row by row. `docs/interfaces.md` describes every field.
 
 use super::{Machine, Mesh, Scene, SensorPlace};
 use base64::Engine;

@@ -2,7 +2,7 @@
 //! joints, drives and sensors. Recordings, live state and ROS 2 show the same scene.
 //!
 //! [`Scene::from_scenario`] makes it from a scenario; [`Scene::document`] writes it as the JSON text that viewers read
-//! (`docs/scene.md`); [`Scene::markers`] and [`frames`] write it for ROS 2.
+//! (`docs/interfaces.md`); [`Scene::markers`] and [`frames`] write it for ROS 2.
 
 mod bed;
 mod document;

@@ -224,8 +224,8 @@ def run(
 
     ``controllers`` decide for robots and gantries whose strategy is ``External``: a function for all of them, or a dict
     of functions by id. A function gets a question as a dict and returns an answer as a dict, with the fields of
-    docs/doors.md; None changes nothing. An exception of it ends the run and is raised here; an answer that the machine
-    cannot carry out raises ValueError. A ``rheotaxis.PolicyController`` stands in the place of a function. A machine
+    docs/interfaces.md; None changes nothing. An exception of it ends the run and is raised here; an answer that the
+    machine cannot carry out raises ValueError. A ``rheotaxis.PolicyController`` stands in the place of a function. A machine
     that asks and has no controller gives a RunWarning; ``controllers={}`` says that none is meant.
 
     ``files`` names a folder for the files that the command would write, ``run.mcap`` among them if ``recording``.

@@ -120,7 +120,7 @@ pub struct ScenarioMessage {
     pub ron: String,
 }
 
-/// What is there before the run, to be drawn; scene.json in the recording. See docs/scene.md.
+/// What is there before the run, to be drawn; scene.json in the recording. See docs/interfaces.md.
 #[derive(Serialize, JsonSchema)]
 pub struct SceneMessage {
     /// Version of the form of this document.
