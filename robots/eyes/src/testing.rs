@@ -43,6 +43,9 @@ pub(crate) fn seen(t_s: f64, position: Vector2<f64>, heading_deg: f64, flow: Opt
         sidescan: None,
         told: None,
         picture: None,
+        dvl: None,
+        adcp: None,
+        ctd: None,
         other: Vec::new(),
     }
 }

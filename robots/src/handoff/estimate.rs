@@ -1,5 +1,6 @@
 //! What the vehicle believes. It is a type of its own so that nobody can confuse it with the truth.
 
+use super::{AdcpReading, CtdReading, DvlReading};
 use super::{Attitude, Belief, Capabilities, ChemicalReading, GuidanceStatus, RangeScan};
 use super::{Picture, ReplyOutcome, SidescanPing};
 use bevy_ecs::prelude::Component;
@@ -87,6 +88,12 @@ pub struct Observation {
     pub able: Capabilities,
     /// Belief about the source's place, if the robot keeps a map of it.
     pub belief: Option<Belief>,
+    /// Bottom track, as the Doppler log reported it in this tick.
+    pub dvl: Option<DvlReading>,
+    /// Water track, as the current profiler reported it in this tick.
+    pub adcp: Option<AdcpReading>,
+    /// Density, as the CTD reported it in this tick.
+    pub ctd: Option<CtdReading>,
     /// Forward ranging, if the sensor reported in this tick.
     pub ranging: Option<RangeScan>,
     /// Sidescan sonar, if it reported in this tick.

@@ -9,13 +9,13 @@
 //! a first order without a speed does not leave it to sink. Who answers, and how, is the business of the run: here are
 //! only the answers.
 
+use super::about::About;
 use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams, StrategySpec};
-use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Need, Observation, Outcome,
-    Reply, ReplyOutcome, Shown, Vertical,
+    Behaviour, Decision, ExchangeTiming, Goal, GuidanceStatus, Manoeuvre, MotionOrder, Observation, Outcome, Reply,
+    ReplyOutcome, Shown, Vertical,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -75,7 +75,7 @@ impl StrategyParams for ExternalSpec {
         let late = match &self.on_late {
             OnLate::Hold => Late::Hold,
             OnLate::Abort => Late::Abort,
-            OnLate::Fallback(spec) if spec.consulted().is_some() => {
+            OnLate::Fallback(spec) if spec.about().consulted.is_some() => {
                 return Err(RobotError::invalid(
                     "strategy.on_late",
                     "must be a strategy of this program, got External",
@@ -96,21 +96,15 @@ impl StrategyParams for ExternalSpec {
         self.fallback().map_or(Ok(()), |spec| spec.check(setting))
     }
 
-    fn consulted(&self) -> Option<ExchangeTiming> {
-        Some(ExchangeTiming { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() })
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        let needs = self.fallback().map_or_else(Vec::new, |spec| spec.needs());
-        needs.into_iter().map(|n| n.within("on_late")).collect()
-    }
-
-    fn wishes(&self) -> Wishes {
-        self.fallback().map(|spec| spec.wishes().within("on_late")).unwrap_or_default()
-    }
-
-    fn declares_at_most(&self) -> usize {
-        usize::MAX
+    fn about(&self) -> About {
+        let fallback = self.fallback().map(|spec| spec.about()).unwrap_or_default();
+        About {
+            needs: fallback.needs.into_iter().map(|n| n.within("on_late")).collect(),
+            wishes: fallback.wishes.within("on_late"),
+            declares_at_most: usize::MAX,
+            consulted: Some(ExchangeTiming { period_s: self.period_s.get(), deadline_s: self.deadline_s.get() }),
+            ..About::default()
+        }
     }
 }
 

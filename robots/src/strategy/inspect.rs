@@ -10,6 +10,7 @@
 //! unseen. Each place is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared
 //! again with the survey's verdict. The mission is completed after the last place, on the spot.
 
+use super::about::About;
 use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use super::survey::{AfterDeclaration, Eyes, PostDeclaration, Progress, SurveySpec};
@@ -17,7 +18,7 @@ use super::wishes::VerticalSpec;
 use super::wishes::Wishes;
 use crate::behave::Stride;
 use crate::error::{RobotError, require};
-use crate::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Vertical};
+use crate::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Vertical};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -78,20 +79,13 @@ impl StrategyParams for InspectSpec {
         Ok(Box::new(Inspect::new(self, &*setting.eyes)?))
     }
 
-    fn searches(&self) -> bool {
-        false
-    }
-
-    fn declares_at_most(&self) -> usize {
-        self.places.len()
-    }
-
-    fn needs(&self) -> Vec<Need> {
-        self.survey.needs("survey")
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical).survey("survey", &self.survey)
+    fn about(&self) -> About {
+        About {
+            declares_at_most: self.places.len(),
+            needs: self.survey.needs("survey"),
+            wishes: Wishes::mission(self.speed_m_s, self.vertical).survey("survey", &self.survey),
+            ..About::no_search()
+        }
     }
 }
 

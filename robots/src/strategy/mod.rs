@@ -1,5 +1,6 @@
 //! Strategies: compositions of behaviours.
 
+mod about;
 mod amp;
 mod catalogue;
 mod external;
@@ -16,6 +17,7 @@ mod survey;
 mod testing;
 mod wishes;
 
+pub use about::About;
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use external::{ExternalSpec, OnLate};
 pub use inspect::{Inspect, InspectSpec, ToldSpec};

@@ -6,6 +6,7 @@
 //!
 //! *Deviations*: none.
 
+use super::about::About;
 use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use crate::behave::{Behave, Stride, TimeTable};
@@ -32,8 +33,8 @@ impl StrategyParams for OpenLoopSpec {
         Ok(Box::new(OpenLoop::new(self)?))
     }
 
-    fn searches(&self) -> bool {
-        false
+    fn about(&self) -> About {
+        About::no_search()
     }
 }
 

@@ -7,6 +7,7 @@
 //!
 //! *Deviations*: a vehicle that hovers holds its place while it stays; any other circles round it.
 
+use super::about::About;
 use super::setting::Setting;
 use super::spec::{Strategy, StrategyParams};
 use super::wishes::VerticalSpec;
@@ -60,15 +61,12 @@ impl StrategyParams for RouteSpec {
         Ok(Box::new(Route::new(self)))
     }
 
-    fn searches(&self) -> bool {
-        false
-    }
-
-    fn wishes(&self) -> Wishes {
-        match self.vertical {
+    fn about(&self) -> About {
+        let wishes = match self.vertical {
             Some(vertical) => Wishes::mission(self.speed_m_s, vertical),
             None => Wishes::speed(self.speed_m_s),
-        }
+        };
+        About { wishes, ..About::no_search() }
     }
 }
 

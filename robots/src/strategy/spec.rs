@@ -1,9 +1,8 @@
 //! What a scenario can say about the strategy.
 
+use super::about::About;
 use super::setting::Setting;
-use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{ExchangeTiming, Need};
 pub use crate::searcher::Strategy;
 use world::area::Area;
 use world::cost::{Cost, Times};
@@ -33,40 +32,9 @@ pub trait StrategyParams: Spec {
         Ok(())
     }
 
-    /// Whether it looks for a source: it then needs a chemical sensor, a flow estimate, and something to find.
-    fn searches(&self) -> bool {
-        true
-    }
-
-    /// The instruments that it needs beside those of a search and of its [`wishes`](Self::wishes); paths below
-    /// `strategy`.
-    fn needs(&self) -> Vec<Need> {
-        Vec::new()
-    }
-
-    /// The heights and speeds that it will command. Who commands any needs instruments to hold them.
-    fn wishes(&self) -> Wishes {
-        Wishes::default()
-    }
-
-    /// Most declarations of it that can remain at the end; those that it rejects itself do not remain.
-    fn declares_at_most(&self) -> usize {
-        usize::from(self.searches())
-    }
-
-    /// If a searcher outside this program decides: how often it is asked.
-    fn consulted(&self) -> Option<ExchangeTiming> {
-        None
-    }
-
-    /// Whether its decisions name subregions.
-    fn has_regions(&self) -> bool {
-        false
-    }
-
-    /// Whether its decisions name layers.
-    fn has_layers(&self) -> bool {
-        false
+    /// What it tells of itself.
+    fn about(&self) -> About {
+        About::default()
     }
 
     /// Its memory and time; paths below `strategy`.

@@ -33,10 +33,11 @@
 //! A strategy is a struct of parameters that a scenario can name, and a state machine that turns an observation into a
 //! decision, once a tick. `examples/library/own_strategy.rs` is a whole one:
 //!
-//! 1. Parameters, with `Listed` (name in files, one sentence, source) and `StrategyParams` (what they build).
+//! 1. Parameters, by [`params!`]: fields with defaults, name in files, one sentence, source. `StrategyParams` says what
+//!    they build.
 //! 2. The state machine, with `Strategy`. It gets what the instruments say and never the truth.
 //! 3. A [`Registry`](world::registry::Registry) with the parameters as a row of the kind `Strategies`, and
-//!    [`load_with`](scenario::load_with) or [`load_text`](scenario::load_text), which read scenarios that name them.
+//!    [`load_with`](scenario::load_with), which reads scenarios that name them.
 //! 4. `command::main_with(&registry)` in a `main` of your own: the whole command, with campaigns and figures, for them.
 //!
 //! # 4. A controller of your own
@@ -69,6 +70,8 @@
 //! | a value that live state, recording and summary show | [`with_topic`] | `own_topic.rs` |
 //! | a machine beside robots and gantries | a row of [`Apparatuses`](machines::Apparatuses) | `own_apparatus.rs` |
 //!
+//! [`prelude`] has the names of a strategy, a sensor and a current; `docs/own_crate.md` is a whole crate with all three.
+//!
 //! [`with_systems`]: extend::Extend::with_systems
 //! [`with_topic`]: extend::Extend::with_topic
 //!
@@ -86,6 +89,8 @@
 //! - [`registry`] lists everything that has a name; [`extend`] adds systems and topics.
 #![deny(unsafe_code)]
 
+pub use {nalgebra, plumes, robots, schemars, serde, world};
+
 pub mod assemble;
 pub mod auv;
 pub mod cache;
@@ -102,6 +107,8 @@ pub mod machines;
 pub mod ocean;
 pub mod outbox;
 pub mod outcome;
+mod params;
+pub mod prelude;
 pub mod registry;
 pub mod scenario;
 pub mod score;

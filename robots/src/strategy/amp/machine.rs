@@ -16,10 +16,9 @@ use super::spec::{AmpSpec, Detections};
 use crate::behave::{Behave, GoTo, Stride};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Need, Observation, Outcome, Shown, Verdict, Vertical, Zone,
-};
+use crate::handoff::{Behaviour, Decision, Declaration, Goal, Observation, Outcome, Shown, Verdict, Vertical, Zone};
 use crate::memory::{FixMove, PlumeMemory};
+use crate::strategy::about::About;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 
@@ -176,16 +175,13 @@ impl StrategyParams for AmpSpec {
         Ok(Box::new(Amp::new(self, &*setting.eyes)?))
     }
 
-    fn needs(&self) -> Vec<Need> {
+    fn about(&self) -> About {
         let mut needs = self.after_declaration.needs();
         needs.extend(self.fixes.needs());
-        needs
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical)
+        let wishes = Wishes::mission(self.speed_m_s, self.vertical)
             .after(&self.after_declaration)
-            .waiting("track_out", self.track_out.waits())
+            .waiting("track_out", self.track_out.waits());
+        About { needs, wishes, ..About::default() }
     }
 }
 

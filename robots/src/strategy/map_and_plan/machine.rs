@@ -24,6 +24,7 @@ use crate::handoff::{
 };
 use crate::memory::PlumeMemory;
 use crate::plan::Revision;
+use crate::strategy::about::About;
 use nalgebra::Vector3;
 use world::area::Area;
 use world::cost::{Cost, Times};
@@ -270,16 +271,13 @@ impl StrategyParams for MapAndPlanSpec {
         self.planner.check(&cells, self.room.plane())
     }
 
-    fn needs(&self) -> Vec<Need> {
+    fn about(&self) -> About {
         let mut needs = self.after_declaration.needs();
         if !self.room.plane() {
             needs.push(Need::vital("room", "depth", NO_DEPTH));
         }
-        needs
-    }
-
-    fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
+        let wishes = Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration);
+        About { needs, wishes, ..About::default() }
     }
 
     fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {

@@ -19,10 +19,11 @@ use super::rectangles::areas;
 use super::spec::{Entry, RegionsSpec, SubregionsSpec};
 use crate::error::{RobotError, require};
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Manoeuvre, Need, Observation, Outcome, Region, RegionState, Regions, Shown,
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState, Regions, Shown,
     UP_FLOW_EDGE, Verdict, detects,
 };
 use crate::places::inside;
+use crate::strategy::about::About;
 use nalgebra::Vector2;
 use world::area::Area;
 use world::cost::{Cost, Times};
@@ -41,30 +42,24 @@ impl StrategyParams for SubregionsSpec {
         self.search.check(setting)
     }
 
-    fn needs(&self) -> Vec<Need> {
-        let needs = self.search.needs().into_iter();
-        needs.map(|n| n.within("search")).collect()
-    }
-
-    fn wishes(&self) -> Wishes {
-        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
-        let search = self.search.wishes().within("search");
-        wishes.verticals.extend(search.verticals);
-        wishes.speeds_m_s.extend(search.speeds_m_s);
-        wishes.waits.extend(search.waits);
-        wishes
-    }
-
-    fn declares_at_most(&self) -> usize {
+    fn about(&self) -> About {
+        let search = self.search.about();
         let regions = match &self.regions {
             RegionsSpec::Grid(grid) => grid.order.len(),
             RegionsSpec::Rectangles(rectangles) => rectangles.list.len(),
         };
-        regions * self.search.declares_at_most()
-    }
-
-    fn has_regions(&self) -> bool {
-        true
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        let inner = search.wishes.within("search");
+        wishes.verticals.extend(inner.verticals);
+        wishes.speeds_m_s.extend(inner.speeds_m_s);
+        wishes.waits.extend(inner.waits);
+        About {
+            needs: search.needs.into_iter().map(|n| n.within("search")).collect(),
+            wishes,
+            declares_at_most: regions * search.declares_at_most,
+            regions: true,
+            ..About::default()
+        }
     }
 
     fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
@@ -112,7 +107,7 @@ impl Subregions {
     /// [`RobotError::Invalid`] if a region makes no sense, or if its strategy cannot be built.
     pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
         let areas = areas(&spec.regions, &setting.area)?;
-        require(!spec.search.has_regions(), "search", "subregions cannot have subregions")?;
+        require(!spec.search.about().regions, "search", "subregions cannot have subregions")?;
         let search = |area: &Area| {
             let setting = Setting { area: *area, ..setting.clone() };
             spec.search.build(&setting).map_err(within_search)

@@ -39,6 +39,7 @@ use crate::handoff::{
     Vertical, Zone,
 };
 use crate::memory::{FixMove, PlumeMemory};
+use crate::strategy::about::About;
 use world::seeds::Stream;
 
 /// State of the planner.
@@ -294,7 +295,7 @@ impl StrategyParams for SubsumptionSpec {
         Ok(Box::new(Subsumption::new(self, setting)?))
     }
 
-    fn needs(&self) -> Vec<Need> {
+    fn about(&self) -> About {
         let survey = self.survey.as_ref().map(|s| s.needs("survey"));
         let mut needs = survey.unwrap_or_default();
         if self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_))) {
@@ -305,10 +306,6 @@ impl StrategyParams for SubsumptionSpec {
             needs.push(Need::vital("eyes", "camera", BLIND));
         }
         needs.extend(self.fixes.needs());
-        needs
-    }
-
-    fn wishes(&self) -> Wishes {
         let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
         for (k, layer) in self.layers.iter().enumerate() {
             if let LayerSpec::Maintain(maintain) = layer {
@@ -316,14 +313,10 @@ impl StrategyParams for SubsumptionSpec {
                 wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
             }
         }
-        match &self.survey {
-            Some(survey) => wishes.survey("survey", survey),
-            None => wishes,
+        if let Some(survey) = &self.survey {
+            wishes = wishes.survey("survey", survey);
         }
-    }
-
-    fn has_layers(&self) -> bool {
-        true
+        About { needs, wishes, layers: true, ..About::default() }
     }
 }
 

@@ -16,7 +16,7 @@ pub struct ExplainArgs {
     /// Print the whole reference as Markdown instead (docs/reference.md).
     #[arg(long, conflicts_with_all = ["path", "json_schema"])]
     pub markdown: bool,
-    /// Print a JSON Schema of scenarios instead, for programs that write them (docs/scenario.schema.json).
+    /// Print a JSON Schema of scenarios instead, for programs that write them.
     #[arg(long, conflicts_with = "path")]
     pub json_schema: bool,
 }

@@ -10,13 +10,14 @@ use world::ranges::Finite;
 /// Its robots.
 pub(super) fn robots(loaded: &Loaded) -> Vec<RobotInfo> {
     let robots = loaded.scenario.robots.iter().map(|spec| {
+        let about = spec.strategy.about();
         let dye = spec.sensors.get::<FluorometerSpec>();
         RobotInfo {
             id: spec.id.as_str().to_string(),
             full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
             threshold: dye.map(|f| f.threshold.get()),
-            regions: spec.strategy.has_regions(),
-            layered: spec.strategy.has_layers(),
+            regions: about.regions,
+            layered: about.layers,
         }
     });
     robots.collect()

@@ -8,7 +8,7 @@ use rheotaxis::error::AssembleError;
 use rheotaxis::extend::{Extend, Systems};
 use rheotaxis::machines::{Apparatuses, Launch, Machine};
 use rheotaxis::ocean::Ocean;
-use rheotaxis::scenario::{Id, load_text, template};
+use rheotaxis::scenario::{Id, load_with};
 use rheotaxis::topic::{Topic, Topics};
 use rheotaxis::trial::{Trial, Unwatched};
 use schemars::JsonSchema;
@@ -115,15 +115,15 @@ impl Machine for Buoy {
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = (Registry::default().with::<Apparatuses, Buoy>()?).with_topic(DYE)?;
-    let buoys = r#"apparatus: [
+    let buoys = r#"[
         Buoy(id: "b1", east_m: -145, north_m: 0, depth_m: 8),
         Buoy(id: "b2", east_m: -145, north_m: 50, depth_m: 8),
-    ],
-    time: (spin_up_s: 300, limit_s: 60)"#;
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text.replace("time: (spin_up_s: 2000, limit_s: 1800)", buoys);
+    ]"#;
+    let scenario = load_with(&registry, "uniform_channel".as_ref())?
+        .set("apparatus", buoys)?
+        .set("time", "(spin_up_s: 300, limit_s: 60)")?;
 
-    let mut trial = Trial::assemble(&load_text(&registry, "buoys", &text)?, 1)?;
+    let mut trial = Trial::assemble(&scenario, 1)?;
     trial.run(&mut Unwatched);
     let summary = trial.apparatus();
     for (id, part) in &summary {

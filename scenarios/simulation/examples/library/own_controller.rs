@@ -7,10 +7,10 @@
 //! `cargo run --release --example library own_controller`
 
 use rheotaxis::control::{Question, QuestionContent, Response};
-use rheotaxis::scenario::{load_text, template};
+use rheotaxis::scenario::load;
 use rheotaxis::trial::Trial;
 use robots::handoff::{Behaviour, Declaration, Manoeuvre, MotionOrder, MoveOrder, Outcome, Reply, Vertical};
-use world::registry::Registry;
+use world::ranges::Positive;
 use world::units::Heading;
 
 /// What to do, from what the robot sees and has gathered since the last question.
@@ -38,11 +38,9 @@ fn decide(question: &Question) -> Response {
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A scenario of the catalogue whose robot asks somebody outside, once a second.
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text
-        .replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "External(period_s: 1)")
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 2000, limit_s: 600");
-    let scenario = load_text(&Registry::default(), "up_stream", &text)?;
+    let scenario = load("uniform_channel".as_ref())?
+        .set("robots[0].strategy", "External(period_s: 1)")?
+        .edit(|s| s.time.limit_s = Positive::new(600.0));
     let mut trial = Trial::assemble(&scenario, 1)?;
     trial.control("auv0", decide)?;
     let ended = trial.finish_quietly();

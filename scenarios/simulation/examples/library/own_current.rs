@@ -2,30 +2,16 @@
 //!
 //! `cargo run --release --example library own_current`
 
-use nalgebra::{Vector2, Vector3};
-use plumes::error::PlumeError;
-use plumes::flow::{CurrentParams, CurrentSlot, Currents, FreeWater, PlaneCurrent};
-use rheotaxis::scenario::{load_text, template};
-use rheotaxis::trial::Trial;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
-use world::ranges::Positive;
-use world::registry::{Listed, Registry};
+use rheotaxis::prelude::*;
 
-/// An eastward jet along north = 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct Jet {
-    /// Speed on the axis, m/s.
-    speed_m_s: Positive,
-    /// Distance from the axis at which half of the speed is left, m.
-    half_width_m: Positive,
-}
-
-/// The name in scenario files, and what `rheotaxis list` says about it.
-impl Listed for Jet {
-    const ENTRY: Entry = Entry { name: "Jet", what: "an eastward jet, slower to its sides", source: "an example" };
+params! {
+    /// An eastward jet along north = 0.
+    struct Jet as "Jet", "an eastward jet, slower to its sides", from "an example" {
+        /// Speed on the axis, m/s.
+        speed_m_s: Positive = Positive::new(0.3),
+        /// Distance from the axis at which half of the speed is left, m.
+        half_width_m: Positive = Positive::new(20.0),
+    }
 }
 
 /// How it joins the water. The water adds all currents up; this one is the same at all depths.
@@ -51,13 +37,12 @@ impl PlaneCurrent for Jet {
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Currents, Jet>()?;
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text
-        .replace("currents: [", "currents: [Jet(speed_m_s: 0.3, half_width_m: 20),")
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 10");
+    let scenario = load_with(&registry, "uniform_channel".as_ref())?
+        .set("water.currents", "[Uniform(heading_deg: 90, speed_m_s: 0.2), Jet(half_width_m: 20)]")?
+        .set("time", "(spin_up_s: 60, limit_s: 10)")?;
 
     // The plume drifts with it, and the vehicle is carried by it.
-    let mut trial = Trial::assemble(&load_text(&registry, "jet", &text)?, 1)?;
+    let mut trial = Trial::assemble(&scenario, 1)?;
     trial.until(10.0);
     let speeds = [0.0, 20.0, 50.0].map(|north_m| {
         let speed_m_s = trial.simulation.velocity(&Vector3::new(0.0, north_m, -5.0)).x;

@@ -2,36 +2,14 @@
 //!
 //! `cargo run --release --example library own_sensor`
 
-use rheotaxis::scenario::{load_text, template};
-use rheotaxis::trial::Trial;
-use robots::error::RobotError;
-use robots::handoff::Readings;
-use robots::sense::{Fitting, Sensor, SensorParams, Sensors, Surroundings};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
-use world::ranges::NonNegative;
-use world::registry::{Listed, Registry};
-use world::seeds::Stream;
+use rheotaxis::prelude::*;
 
-/// The parameters, in the field `pressure` of `sensors`. A field that is left out has its default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-struct PressureParams {
-    /// Standard deviation of the noise, Pa.
-    noise_pa: NonNegative,
-}
-
-impl Default for PressureParams {
-    fn default() -> Self {
-        Self { noise_pa: NonNegative::new(100.0) }
+params! {
+    /// The parameters, in the field `pressure` of `sensors`. A field that is left out has its default.
+    struct PressureParams as "pressure", "pressure of the water above the vehicle", from "an example" {
+        /// Standard deviation of the noise, Pa.
+        noise_pa: NonNegative = NonNegative::new(100.0),
     }
-}
-
-/// The name in scenario files, and what `rheotaxis list` says about it.
-impl Listed for PressureParams {
-    const ENTRY: Entry =
-        Entry { name: "pressure", what: "pressure of the water above the vehicle", source: "an example" };
 }
 
 /// From parameters to an instrument on a vehicle. Its random numbers are its own, so it changes nobody else's.
@@ -62,12 +40,11 @@ impl Sensor for Pressure {
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Sensors, PressureParams>()?;
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text
-        .replace("sensors: (", "sensors: (pressure: (noise_pa: 50), ")
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 10");
+    let scenario = load_with(&registry, "uniform_channel".as_ref())?
+        .set("robots[0].sensors.pressure", "(noise_pa: 50)")?
+        .set("time", "(spin_up_s: 60, limit_s: 10)")?;
 
-    let mut trial = Trial::assemble(&load_text(&registry, "pressure", &text)?, 1)?;
+    let mut trial = Trial::assemble(&scenario, 1)?;
     trial.until(5.0);
     let depth_m = -trial.frame().ok_or("no frame")?.robots[0].truth.pose.p_WB.z;
     let world = &mut trial.simulation.world;

@@ -2,37 +2,17 @@
 //!
 //! `cargo run --release --example library own_strategy`
 
-use rheotaxis::scenario::{load_text, template};
-use rheotaxis::trial::Trial;
-use robots::error::RobotError;
-use robots::handoff::{Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Vertical};
-use robots::strategy::{Setting, Strategies, Strategy, StrategyParams};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
-use world::ranges::Positive;
-use world::registry::{Listed, Registry};
-use world::seeds::Stream;
-use world::units::Heading;
+use rheotaxis::prelude::*;
 
-/// The parameters, as a scenario file gives them. `Positive` is a number that must be above zero; a file with another
-/// number is refused with line and column.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct UpFlowParams {
-    /// Speed through the water, m/s.
-    speed_m_s: Positive,
-    /// Height above the bed, m.
-    altitude_m: Positive,
-}
-
-/// The name in scenario files, and what `rheotaxis list` says about it.
-impl Listed for UpFlowParams {
-    const ENTRY: Entry = Entry {
-        name: "UpFlow",
-        what: "up-stream until it smells something, and there it declares",
-        source: "an example",
-    };
+params! {
+    /// The parameters, as a scenario file gives them. `Positive` is a number that must be above zero; a file with another
+    /// number is refused with line and column.
+    struct UpFlowParams as "UpFlow", "up-stream until it smells something, and there it declares", from "an example" {
+        /// Speed through the water, m/s.
+        speed_m_s: Positive = Positive::new(1.5),
+        /// Height above the bed, m.
+        altitude_m: Positive = Positive::new(2.0),
+    }
 }
 
 /// From parameters to a strategy at work.
@@ -72,12 +52,14 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Strategies, UpFlowParams>()?;
 
     // A scenario of the catalogue with this strategy in the place of its own.
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text
-        .replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "UpFlow(speed_m_s: 1.5, altitude_m: 2)")
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 120");
+    let scenario = load_with(&registry, "uniform_channel".as_ref())?
+        .set("robots[0].strategy", "UpFlow(speed_m_s: 1.5)")?
+        .edit(|s| {
+            s.time.spin_up_s = NonNegative::new(300.0);
+            s.time.limit_s = Positive::new(120.0);
+        });
 
-    let mut trial = Trial::assemble(&load_text(&registry, "up_flow", &text)?, 1)?;
+    let mut trial = Trial::assemble(&scenario, 1)?;
     trial.until(60.0);
     let robot = &trial.frame().ok_or("no frame")?.robots[0];
     let went_m = 150.0 - robot.truth.pose.p_WB.x;

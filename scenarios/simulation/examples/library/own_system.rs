@@ -7,7 +7,7 @@
 
 use bevy_ecs::prelude::{Query, ResMut, Resource};
 use rheotaxis::extend::{Extend, Systems};
-use rheotaxis::scenario::{load_text, template};
+use rheotaxis::scenario::{Loaded, ScenarioError, load_with};
 use rheotaxis::trial::Trial;
 use robots::handoff::Estimate;
 use world::frames::Truth;
@@ -34,18 +34,20 @@ fn count_turns(robots: Query<&Estimate>, mut turns: ResMut<Turns>) {
 /// A system that no searcher may have: it knows where the robot really is.
 fn peek(_robots: Query<&Truth>) {}
 
+/// A minute in a channel of the catalogue.
+fn minute(registry: &Registry) -> Result<Loaded, ScenarioError> {
+    load_with(registry, "uniform_channel".as_ref())?.set("time", "(spin_up_s: 60, limit_s: 60)")
+}
+
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 60");
-
     // The registry carries the system into every run, also into those of campaigns and of the command.
     let registry = Registry::default().with_systems(|systems: &mut Systems| {
         systems.insert(Turns::default());
         // `add_blind` refuses a system that reads the truth. `add` is for those that only measure, judge or publish.
         systems.add_blind(Stage::Estimate, count_turns);
     });
-    let mut trial = Trial::assemble(&load_text(&registry, "turns", &text)?, 1)?;
+    let mut trial = Trial::assemble(&minute(&registry)?, 1)?;
     while trial.step() {}
     let turns = trial.simulation.world.resource::<Turns>();
     println!("turned sharply in {} of {} ticks", turns.sharp, turns.ticks);
@@ -56,7 +58,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let peeking = registry.with_systems(|systems: &mut Systems| {
         systems.add_blind(Stage::Decide, peek);
     });
-    match Trial::assemble(&load_text(&peeking, "peek", &text)?, 1) {
+    match Trial::assemble(&minute(&peeking)?, 1) {
         Ok(_) => Err("a searcher may read the truth".into()),
         Err(refused) => {
             println!("refused, as it should be: {refused}");

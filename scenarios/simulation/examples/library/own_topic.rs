@@ -7,7 +7,7 @@
 
 use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use rheotaxis::extend::{Extend, Systems};
-use rheotaxis::scenario::{load_text, template};
+use rheotaxis::scenario::load_with;
 use rheotaxis::searchers::SearcherId;
 use rheotaxis::topic::{Topic, Topics};
 use rheotaxis::trial::{Event, Observer, Trial, Unwatched};
@@ -66,10 +66,9 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = (Registry::default().with_topic(SMELLS)?).with_systems(|systems: &mut Systems| {
         systems.add_blind(Stage::Report, publish);
     });
-    let text = template("uniform_channel").ok_or("no such scenario")?.text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 60");
-
-    let mut trial = Trial::assemble(&load_text(&registry, "smells", &text)?, 1)?;
+    let channel =
+        |registry| load_with(registry, "uniform_channel".as_ref())?.set("time", "(spin_up_s: 300, limit_s: 60)");
+    let mut trial = Trial::assemble(&channel(&registry)?, 1)?;
     let mut arrived = Arrived::default();
     let digest = trial.run(&mut arrived).digest;
     for published in trial.published() {
@@ -78,8 +77,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{} values in frames", arrived.0);
 
     // The same run without the topic has the same digest.
-    let plain = load_text(&Registry::default(), "smells", &text)?;
-    let same = Trial::assemble(&plain, 1)?.run(&mut Unwatched).digest == digest;
+    let same = Trial::assemble(&channel(&Registry::default())?, 1)?.run(&mut Unwatched).digest == digest;
     if arrived.0 < 100 || trial.published().count() != 1 || !same {
         return Err("the topic did not arrive, or it changed the run".into());
     }

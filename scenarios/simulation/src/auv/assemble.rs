@@ -117,7 +117,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
         name: spec.strategy.name(),
         is_own: spec.strategy.is_own(),
         first: Decision::new(Behaviour::Idle, goal),
-        consulted: spec.strategy.consulted(),
+        consulted: spec.strategy.about().consulted,
         drives: Some(still.named().count()),
     };
     let mapper = (spec.map.as_ref()).map(|map| map.build(&setting.area, Stream::new(seed, id, "map"))).transpose()?;

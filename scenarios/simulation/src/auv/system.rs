@@ -89,6 +89,9 @@ impl SearcherKind for Goal {
             ranging: readings.ranging.clone(),
             sidescan: readings.sidescan.clone(),
             picture: readings.picture.clone(),
+            dvl: readings.dvl,
+            adcp: readings.adcp,
+            ctd: readings.ctd,
             other: readings.other.clone(),
             told,
         }

@@ -46,7 +46,7 @@ fn reference(registry: &Registry, more: &[FileKind]) -> Reference {
     Reference::from_schema(&schema::schema(registry, &kinds))
 }
 
-/// The JSON Schema of a scenario, for `docs/scenario.schema.json`.
+/// The JSON Schema of a scenario, for programs that write them.
 pub fn json_schema(registry: &Registry) -> String {
     format!("{:#}\n", schema::schema(registry, &[]))
 }

@@ -102,7 +102,7 @@ fn robot_cost(robot: &RobotSpec, scenario: &Scenario, depth_m: f64, waves: f64, 
     let steps = times.mission_s / times.step_s;
     let hull = Part::new("", format!("{steps:.1e} steps of a vehicle"));
     let mut cost = Cost::single(hull.takes(steps * (VEHICLE_S[0] + waves * VEHICLE_S[1])));
-    let needs = robot.strategy.needs();
+    let needs = robot.strategy.about().needs;
     let looks = needs.iter().any(|n| ["sidescan", "camera"].contains(&n.instrument));
     let obstacles = scenario.obstacles.len();
     cost.add(robots::sense::cost(&robot.sensors, obstacles, looks, times).under("sensors"));

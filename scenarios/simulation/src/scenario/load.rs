@@ -1,6 +1,7 @@
 //! Reads scenario files.
 
 use super::catalog;
+use super::change::set_value;
 use super::check::check;
 use super::fault::{Fault, ScenarioError, Severity};
 use super::reader;
@@ -76,6 +77,25 @@ impl Loaded {
     /// As [`load`].
     pub fn with_text(&self, path: &Path, text: String) -> Result<Self, ScenarioError> {
         Self::of_text(&self.registry, path, self.name.clone(), self.base_dir.clone(), text)
+    }
+
+    /// The same scenario, changed: `loaded.edit(|s| s.time.limit_s = Positive::new(120.0))`.
+    pub fn edit(mut self, change: impl FnOnce(&mut Scenario)) -> Self {
+        change(&mut self.scenario);
+        self
+    }
+
+    /// The same scenario with a value (RON) at a path: `loaded.set("robots[0].strategy", "External(period_s: 1)")`.
+    ///
+    /// # Errors
+    /// If the scenario has no such path, or its reader refuses the value.
+    pub fn set(&self, path: &str, value: &str) -> Result<Self, ScenarioError> {
+        let changed = set_value(&self.text(), path, value).map_err(|problem| ScenarioError::File {
+            path: self.path.display().to_string(),
+            problem: format!("`{path}` cannot be set: {problem}"),
+            help: None,
+        })?;
+        self.with_text(&self.path, changed)
     }
 
     /// Checks what the scenario means: see [`check`].

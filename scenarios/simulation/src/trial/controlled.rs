@@ -20,7 +20,7 @@ fn those(outside: &[String]) -> String {
 /// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
 pub fn consulted(scenario: &Scenario) -> Vec<(String, ExchangeTiming)> {
     let robots = scenario.robots.iter();
-    let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.consulted()?)));
+    let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.about().consulted?)));
     let gantries = scenario.gantries.iter();
     let gantries = gantries.filter_map(|g| Some((g.id.as_str(), g.tracker.consulted()?)));
     let all = robots.chain(gantries);

@@ -43,7 +43,7 @@ pub(super) fn speeds(i: usize, robot: &RobotSpec, vehicle: &Vehicle, water_m_s: 
         let problem = format!("{start_m_s} m/s is more than the vehicle can do: {}", makes(top_m_s));
         found.push(UnplacedFault::warning(format!("robots[{i}].start.speed_m_s"), problem));
     }
-    for (field, m_s) in robot.strategy.wishes().speeds_m_s {
+    for (field, m_s) in robot.strategy.about().wishes.speeds_m_s {
         if m_s > SLACK * (own_m_s + water_m_s) {
             let by = if limit_m_s < top_m_s { " (guidance.water_speed_limit_m_s)" } else { "" };
             let problem = format!("{m_s} m/s is more than the vehicle can do: {}{by}", makes(own_m_s));
@@ -94,7 +94,7 @@ pub(super) fn capabilities(
         }
     }
     let strategy = robot.strategy.name();
-    let wishes = robot.strategy.wishes();
+    let wishes = robot.strategy.about().wishes;
     // A depth of zero is the surface itself.
     let asked = |v: &Vertical| *v != Vertical::Depth(0.0);
     if let Some((field, _)) = wishes.verticals.iter().find(|(_, v)| asked(v)) {
@@ -148,7 +148,7 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<UnplacedFault>) 
             apart.push(p);
         }
     }
-    let robots = scenario.robots.iter().map(|r| r.strategy.declares_at_most());
+    let robots = scenario.robots.iter().map(|r| r.strategy.about().declares_at_most);
     let most = robots.fold(scenario.gantries.len(), usize::saturating_add);
     if most < apart.len() {
         let problem = format!(
@@ -168,7 +168,7 @@ pub(super) fn plume(
     water: &Water,
     found: &mut Vec<UnplacedFault>,
 ) {
-    let seeks = |r: &RobotSpec| r.strategy.searches();
+    let seeks = |r: &RobotSpec| r.strategy.about().searches;
     if !scenario.robots.iter().any(seeks) && scenario.gantries.is_empty() {
         return;
     }
@@ -195,7 +195,7 @@ pub(super) fn plume(
 
 /// Whether the mission can succeed at all.
 pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
-    let seeks = |r: &RobotSpec| r.strategy.searches();
+    let seeks = |r: &RobotSpec| r.strategy.about().searches;
     let declares = scenario.success.declared_within_m().is_some();
     if scenario.sources.is_empty() {
         if let Some(i) = scenario.robots.iter().position(seeks) {

@@ -44,11 +44,12 @@ fn needs(robot: &RobotSpec, able: Option<&Capabilities>, lacks: &dyn Fn(&str) ->
         "" => need.within("sensors"),
         _ => need,
     };
-    let searches = robot.strategy.searches();
+    let about = robot.strategy.about();
+    let searches = about.searches;
     let known = able.copied().unwrap_or_default();
-    let commands = robot.strategy.wishes().needs(&known);
+    let commands = about.wishes.needs(&known);
     let steers = !commands.is_empty();
-    let mut needs: Vec<Need> = (robot.strategy.needs().into_iter()).map(|n| n.within("strategy")).collect();
+    let mut needs: Vec<Need> = (about.needs.into_iter()).map(|n| n.within("strategy")).collect();
     let of_commands = commands.into_iter().map(|n| match n.field.as_str() {
         "" => of_all(n),
         _ => n.within("strategy"),

@@ -54,7 +54,7 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
         let problem = format!("must be 0 (at each step of the plume) or at least time.step_s, {step}, got {flow_s}");
         found.push(UnplacedFault::error("time.flow_period_s", problem));
     }
-    let robots = scenario.robots.iter().map(|r| r.strategy.consulted());
+    let robots = scenario.robots.iter().map(|r| r.strategy.about().consulted);
     let gantries = scenario.gantries.iter().map(|g| g.tracker.consulted());
     let asked = (robots.enumerate().map(|(i, c)| (format!("robots[{i}].strategy"), c)))
         .chain(gantries.enumerate().map(|(i, c)| (format!("gantries[{i}].tracker"), c)));

@@ -108,7 +108,7 @@ pub(super) fn view(
 ) {
     let depths_m = depths(place);
     let (least_m, most_m) = depths_m;
-    let verticals = robot.strategy.wishes().verticals;
+    let verticals = robot.strategy.about().wishes.verticals;
     let sounders = sounders(&robot.sensors, vehicle);
     for (field, vertical) in &verticals {
         let path = format!("robots[{i}].strategy.{field}");
