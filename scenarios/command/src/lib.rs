@@ -51,7 +51,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
         // Wrong usage, or `--help` and the like.
         Err(said) => return say::usage(&said).into(),
     };
-    cost::set_limit(memory);
-    let work = || commands::dispatch(registry, command).unwrap_or_else(|error| refused(&error));
+    let registry = cost::with_limit(registry.clone(), memory);
+    let work = || commands::dispatch(&registry, command).unwrap_or_else(|error| refused(&error));
     say::end(Exit::guarded(work)).into()
 }

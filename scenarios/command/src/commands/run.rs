@@ -59,7 +59,7 @@ pub(crate) fn run(registry: &Registry, args: &RunArgs) -> Result<Exit, Failure> 
     let ready = writable;
     let seed = args.key.seed(args.seed);
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
-    for group in group_by_ocean(&runs, cost::limit()) {
+    for group in group_by_ocean(&runs, cost::limit(registry)) {
         let group: Vec<_> = group.into_iter().map(|n| &ready[n]).collect();
         exit = exit.worse(together(&group, args, kept.as_ref(), stop));
         if stop.load(Ordering::Relaxed) {

@@ -10,7 +10,7 @@
 //! # use world::seeds::Seed;
 //! let arms = [load("a.ron".as_ref())?, load("b.ron".as_ref())?];
 //! let runs: Vec<_> = arms.iter().map(|arm| (arm, Seed::from(7))).collect();
-//! for group in group_by_ocean(&runs, cost::limit()) {
+//! for group in group_by_ocean(&runs, cost::MEMORY) {
 //!     let mut lanes = Lanes::default();
 //!     for n in group {
 //!         lanes.add(runs[n].0, runs[n].1, || Ok::<_, LaneError>(Unwatched))?;

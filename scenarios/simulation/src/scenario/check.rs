@@ -37,7 +37,7 @@ const BERTH_M: f64 = 1.0;
 
 /// Finds all errors and warnings. File paths in the scenario are relative to `base_dir`.
 pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<UnplacedFault> {
-    check_within(scenario, base_dir, cost::limit())
+    check_within(scenario, base_dir, cost::MEMORY)
 }
 
 /// The same with a limit for the memory of a run, bytes. What does not fit is not built for the checks either.

@@ -2,9 +2,9 @@
 
 use super::fault::UnplacedFault;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
-use std::sync::atomic::{AtomicU64, Ordering};
 use world::cost::{Cost, Part, Times, memory};
 use world::limits::shown;
+use world::registry::Registry;
 
 /// Memory that a run may use unless another limit is given, bytes. It is half of what a common machine has.
 pub const MEMORY: f64 = 4e9;
@@ -23,17 +23,17 @@ const ROWS: (f64, f64) = (400.0, 40_000.0);
 /// Time of a filament in a picture of the plume, s.
 const POINT_S: f64 = 0.3e-6;
 
-/// Limit of this process, bytes, as bits. It is global because memory belongs to the process.
-static LIMIT: AtomicU64 = AtomicU64::new(MEMORY.to_bits());
+struct Limit(f64);
 
-/// Memory that a run of this process may use, bytes.
-pub fn limit() -> f64 {
-    f64::from_bits(LIMIT.load(Ordering::Relaxed))
+/// The registry, under which a run may use so much memory, bytes.
+#[must_use]
+pub fn with_limit(registry: Registry, bytes: f64) -> Registry {
+    registry.carrying(Limit(bytes))
 }
 
-/// Sets [`limit`] for all scenarios that are checked from now on.
-pub fn set_limit(bytes: f64) {
-    LIMIT.store(bytes.to_bits(), Ordering::Relaxed);
+/// Memory that a run of a scenario which is read under this registry may use, bytes.
+pub fn limit(registry: &Registry) -> f64 {
+    registry.carried::<Limit>().last().map_or(MEMORY, |limit| limit.0)
 }
 
 /// The durations and steps of a run.

@@ -2,7 +2,8 @@
 
 use super::catalog;
 use super::change::set_value;
-use super::check::check;
+use super::check::check_within;
+use super::cost;
 use super::fault::{Fault, ScenarioError, Severity};
 use super::reader;
 use super::reader::outline::Outline;
@@ -98,12 +99,12 @@ impl Loaded {
         self.with_text(&self.path, changed)
     }
 
-    /// Checks what the scenario means: see [`check`].
+    /// Checks what the scenario means: see [`check`](super::check).
     ///
     /// # Errors
     /// All mistakes that stop a run. If there are none, the warnings are returned.
     pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
-        let found = check(&self.scenario, &self.base_dir);
+        let found = check_within(&self.scenario, &self.base_dir, cost::limit(&self.registry));
         let text = self.text();
         let outline = Outline::scan(&text);
         let path = self.path.display().to_string();

@@ -49,7 +49,8 @@ pub(crate) fn in_lanes(
 ) {
     let all: Vec<_> = runs.iter().map(|(name, l)| (*l, name.seed)).collect();
     let mut spun = Vec::new();
-    for group in group_by_ocean(&all, cost::limit()) {
+    let limit = runs.first().map_or(cost::MEMORY, |(_, loaded)| cost::limit(&loaded.registry));
+    for group in group_by_ocean(&all, limit) {
         if !(heed.begin)() {
             return;
         }
