@@ -224,7 +224,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
                 let id = physics.add_body(car.0.body_spec("car", t));
                 // Pressed against the wall for a while first.
-                let asked = [(10.0, heading_deg), (50.0, asked_deg), (10.0, asked_deg)];
+                let asked = [(5.0, heading_deg), (30.0, asked_deg), (5.0, asked_deg)];
                 let mut before_m = Vector2::zeros();
                 for (for_s, deg) in asked {
                     before_m = t.pose.p_WB.xy();
@@ -243,7 +243,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 let off = t.pose.heading().turn_to(Heading::from_deg(asked_deg)) / DEG;
                 // A course along the wall, or into the side of the corner, is kept while it slides.
                 assert!(off.abs() < 1.0, "{case}: {off} degrees off");
-                let went_m_s = (t.pose.p_WB.xy() - before_m) / 10.0;
+                let went_m_s = (t.pose.p_WB.xy() - before_m) / 5.0;
                 let free_m_s = Heading::from_deg(asked_deg).unit() * 1.5 + Vector2::new(0.3, 0.0);
                 // Into the side of the corner it goes no farther, as soon as it is there.
                 let into_side = corner.is_some_and(|north_m| free_m_s.y * north_m > 0.0);

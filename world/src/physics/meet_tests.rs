@@ -144,7 +144,7 @@ fn steps_without_a_search_are_those_with_one() {
     let mut rng = Stream::new(10, "meet", "skipped");
     let (mut touched, mut free) = (0, 0);
     for shape in shapes() {
-        for n in 0..16 {
+        for n in 0..9 {
             let step_s = [0.02, 0.1, 1.0][n % 3];
             let start = Vector3::new(3.0 * rng.normal(), 3.0 * rng.normal(), -5.0);
             let v = Vector3::from_fn(|_, _| 1.5 * rng.normal());

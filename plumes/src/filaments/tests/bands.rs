@@ -6,7 +6,8 @@ use crate::filaments::plume::Plume;
 use crate::flow::grid::GridShape;
 use crate::flow::tests::water::{duck, duck_area, duck_bed};
 use crate::flow::water::Water;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
+use world::area::Area;
 use world::digest::Digest;
 use world::fields::{Concentration, Flow};
 use world::terrain::Terrain;
@@ -15,9 +16,13 @@ use world::terrain::Terrain;
 const LONGEST_S: [f64; 3] = [0.5, 5.0, 10.0];
 
 fn plume(rate_hz: f64, terrain: &Terrain) -> Plume {
-    let settings = crate::filaments::PlumeSettings { refresh_s: 10.0, ..Default::default() };
+    within(&basin(), GridShape::default(), rate_hz, terrain)
+}
+
+fn within(area: &Area, grid: GridShape, rate_hz: f64, terrain: &Terrain) -> Plume {
+    let settings = crate::filaments::PlumeSettings { refresh_s: 10.0, grid };
     let spec = source(20.0, rate_hz, 0.001, 0.1);
-    Plume::new(&[spec], &basin(), terrain, 11, settings).expect("a legal source")
+    Plume::new(&[spec], area, terrain, 11, settings).expect("a legal source")
 }
 
 fn digest(plume: &Plume) -> String {
@@ -166,8 +171,11 @@ fn spread_is_2kt_in_all_bands_at_once() {
 #[test]
 fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
     let water = Given(|_| 0.2, |_| (0.02, 1e-3));
+    // What has passed the slice may leave the water soon.
+    let short = Area { centre: Vector2::new(-55.0, 0.0), length_m: 90.0, ..basin() };
     for longest_s in LONGEST_S {
-        let mut p = plume(100.0, &Terrain::Level { depth_m: 40.0 });
+        let grid = GridShape { margin_m: 0.0, ..GridShape::default() };
+        let mut p = within(&short, grid, 100.0, &Terrain::Level { depth_m: 40.0 });
         p.pace(0.0, f64::INFINITY, longest_s);
         let mut across = Vec::new();
         for k in 0..40 {

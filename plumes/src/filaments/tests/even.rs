@@ -80,8 +80,8 @@ impl Scene {
 
     fn fill(&mut self, cells: &Cells, [i, j, k]: [usize; 3]) {
         let bed = |p: Vector2<f64>, plume: &Plume| {
-            let [x, y, z] = plume.grid().local(&p.push(0.0));
-            f64::from(plume.grid().sample(x, y, z).bed_z)
+            let [x, y, _] = plume.grid().local(&p.push(0.0));
+            f64::from(plume.cells.bed(x, y))
         };
         let ds = cells.s[k + 1] - cells.s[k];
         let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
@@ -128,7 +128,7 @@ impl Scene {
         counts.resize(cells.open.len(), 0.0);
         for f in self.plume.all() {
             let c = cells.in_cells(self.plume.grid().world(f).xy());
-            let bed = self.plume.grid().sample(f[0], f[1], f[2]).bed_z;
+            let bed = self.plume.cells.bed(f[0], f[1]);
             let s = f64::from((1.0 - f[2] / bed).clamp(0.0, 1.0));
             let of = |d: usize| (c[d].max(0.0) as usize).min(cells.n[d] - 1);
             counts[cells.cell([of(0), of(1), cells.level(s)])] += 1.0;
@@ -202,6 +202,12 @@ pub(super) fn stays_even(mut scene: Scene, dt: f64, shots: Shots, pool: impl Fn(
     }
     let mut ratios = scene.ratios(&counts, f64::from(shots.count), pool);
     let off = worst(&ratios);
+    {
+        let mut e: Vec<u64> = ratios.iter().map(|r| r[1] as u64).collect();
+        e.sort();
+        let q: Vec<u64> = (0..=10).map(|i| e[(e.len() - 1) * i / 10]).collect();
+        eprintln!("POOLS {} off {off} {:?} plume {} least {least}", e.len(), q, scene.plume.len());
+    }
     let uneven = |[got, even]: &[f64; 2]| (got / even - 1.0).abs();
     ratios.sort_by(|a, b| uneven(b).total_cmp(&uneven(a)));
     assert!(off < 0.05 && ratios.len() >= least, "{off} of {}: {:?}", ratios.len(), &ratios[..5]);
@@ -217,18 +223,18 @@ pub(super) fn mixing(spec: &mut WaterSpec, k_h: f64, k_z: f64) {
     spec.mixing.background_vertical_m2_s = NonNegative::new(k_z);
 }
 
-/// A block 16 m wide in a stream of 0.3 m/s, with cells of 2 m and of 1 m; each column six times, 4 to 7 m of way apart:
-/// 7200 filaments. In 90 and 160 s the water moves 4 to 8 block lengths.
+/// A block 16 m wide in a stream of 0.3 m/s with cells of 2 m, and one 10 m wide with cells of 1 m; each column six
+/// times, 4 to 7 m of way apart: 3600 filaments. In 100 and 160 s the water moves 5 to 8 block lengths.
 #[test]
 fn behind_a_block() {
     let bed = Terrain::Level { depth_m: 6.0 };
-    let solids = solids(&[(block([6.0, 16.0, 6.0]), 1.0, -7.0, 90.0)], &bed);
-    for (cell, frame, per_cell, size, dt, shots) in [
-        (2.0, 2, 600.0, [40.0, 36.0], 4.0, Shots { first: 10, then: 6, count: 6 }),
-        (1.0, 3, 600.0, [28.0, 26.0], 3.0, Shots { first: 10, then: 4, count: 6 }),
+    for (cell, frame, wide, size, dt, shots) in [
+        (2.0, 2, 16.0, [40.0, 36.0], 6.0, Shots { first: 7, then: 4, count: 6 }),
+        (1.0, 3, 10.0, [28.0, 20.0], 4.5, Shots { first: 7, then: 3, count: 6 }),
     ] {
+        let solids = solids(&[(block([6.0, wide, 6.0]), 1.0, -7.0, 90.0)], &bed);
         let spec = eastward(0.3, spec(cell, 2, 0.0));
-        let density = per_cell / (cell * cell * 6.0);
+        let density = 600.0 / (cell * cell * 6.0);
         let area = area(size[0], size[1], 90.0);
         let scene = Scene::new(&spec, &area, &bed, &solids, density, frame);
         stays_even(scene, dt, shots, blocks_of(1, 2), 100);
@@ -236,7 +242,8 @@ fn behind_a_block() {
 }
 
 /// Still water with long kicks, 1.4 m per step beside cells of 2 m: against a turned block, a pile and a thin wall, in
-/// a turned area. Two levels of each column five times 10 s apart: 10 000, of which a kick leaves a part in its place.
+/// a turned area. Two levels of each column five times 10 s apart: 7400 and more, of which a kick leaves a part in its
+/// place.
 #[test]
 fn in_still_water() {
     let bed = Terrain::Level { depth_m: 6.0 };
@@ -250,12 +257,12 @@ fn in_still_water() {
     );
     let mut spec = eastward(0.0, spec(2.0, 4, 0.0));
     mixing(&mut spec, 0.2, 0.02);
-    let scene = Scene::new(&spec, &area(28.0, 30.0, 20.0), &bed, &solids, 1000.0 / 6.0, 3);
+    let scene = Scene::new(&spec, &area(28.0, 30.0, 20.0), &bed, &solids, 140.0, 3);
     stays_even(scene, 5.0, Shots { first: 4, then: 2, count: 5 }, blocks_of(1, 2), 50);
 }
 
-/// A meander, a log law, a sloping bed (1 in 9) and a block that the stream passes over. 40 filaments per m³, pooled
-/// over the open ones of 2 x 2 columns and 2 levels, twelve times 8 s apart: 1 % and less.
+/// A meander, a log law, a sloping bed (1 in 9) and a block that the stream passes over. 30 filaments per m³, pooled
+/// over the open ones of 2 x 2 columns and 2 levels, twelve times 8 s apart: 1.3 % and less.
 #[test]
 fn in_unsteady_water_over_a_slope() {
     let area = area(36.0, 36.0, 70.0);
@@ -265,6 +272,6 @@ fn in_unsteady_water_over_a_slope() {
     spec.currents.push(meander(0.05, 0.02, 9.0));
     spec.bed = rough(0.001, 2.0);
     mixing(&mut spec, 0.01, 1e-3);
-    let scene = Scene::new(&spec, &area, &bed, &solids, 40.0, 2);
-    stays_even(scene, 1.0, Shots { first: 40, then: 8, count: 12 }, blocks_of(2, 2), 90);
+    let scene = Scene::new(&spec, &area, &bed, &solids, 30.0, 2);
+    stays_even(scene, 2.0, Shots { first: 20, then: 4, count: 12 }, blocks_of(2, 2), 90);
 }

@@ -46,43 +46,43 @@ pub struct RenderedPicture {
 /// Takes a picture of `scene` with a camera of the pose `pose_WC`; the sensor's noise depends only on `noise`.
 pub fn render(camera: &CameraSpec, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> RenderedPicture {
     let lamp = camera.lamp.as_ref().map(|l| Lamp::new(l, pose_WC));
-    let volume = Volume::new(camera, pose_WC, scene, lamp.as_ref());
     let (o, from) = (scene.optics, pose_WC.p_WB);
     let range = Volume::range_m(o);
     let near = scene.near(&from, range);
     let n = camera.width as usize * camera.height as usize;
+    let middles =
+        || (0..camera.height).flat_map(|y| (0..camera.width).map(move |x| [x, y].map(|v| f64::from(v) + 0.5)));
+    let ends: Vec<End> =
+        middles().map(|[x, y]| scene.end(&near, &from, &(pose_WC.R_WB * camera.ray(x, y)), range)).collect();
+    let volume = Volume::new(camera, pose_WC, scene, lamp.as_ref(), ends.iter().map(|end| end.way_m));
     let (mut seen, mut radiance) = (Vec::with_capacity(n), Vec::with_capacity(n));
     let mut sum = [0.0; 3];
-    for y in 0..camera.height {
-        for x in 0..camera.width {
-            let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let dir_C = camera.ray(x, y);
-            let dir = pose_WC.R_WB * dir_C;
-            let end = scene.end(&near, &from, &dir, range);
-            let p = from + dir * end.way_m;
-            let lit = lamp.as_ref().map(|l| l.on(&p, o));
-            let surface = scene.radiance(&end, &p, &dir, lit);
-            let veil = volume.before(x, y, end.way_m);
-            let left = each(|i| math::exp(-o.clarity.attenuation[i] * end.way_m));
-            let bare = see(&each(|i| left[i] * surface[i]));
-            let shaded = see(&each(|i| left[i] * veil.passes[i] * surface[i]));
-            let water = [0, 1, 2].map(|k| veil.water[k] + bare[k]);
-            let dyed = [0, 1, 2].map(|k| veil.dyed[k] + shaded[k]);
-            // The lens: light decreases as cos⁴ from the middle.
-            let cos2 = dir_C.z * dir_C.z;
-            let got = dyed.map(|l| l * cos2 * cos2);
-            for i in 0..3 {
-                sum[i] += got[i];
-            }
-            radiance.push(got.map(|v| v as f32));
-            seen.push(PixelTruth {
-                plume: change(&water, &dyed),
-                opacity: (1.0 - veil.passes[GREEN]) as f32,
-                obstacle: obstacle(&end),
-                way_m: end.way_m as f32,
-                clear: (left[GREEN] * veil.passes[GREEN]) as f32,
-            });
+    for ([x, y], end) in middles().zip(ends) {
+        let dir_C = camera.ray(x, y);
+        let dir = pose_WC.R_WB * dir_C;
+        let p = from + dir * end.way_m;
+        let lit = lamp.as_ref().map(|l| l.on(&p, o));
+        let surface = scene.radiance(&end, &p, &dir, lit);
+        let veil = volume.before(x, y, end.way_m);
+        let left = each(|i| math::exp(-o.clarity.attenuation[i] * end.way_m));
+        let bare = see(&each(|i| left[i] * surface[i]));
+        let shaded = see(&each(|i| left[i] * veil.passes[i] * surface[i]));
+        let water = [0, 1, 2].map(|k| veil.water[k] + bare[k]);
+        let dyed = [0, 1, 2].map(|k| veil.dyed[k] + shaded[k]);
+        // The lens: light decreases as cos⁴ from the middle.
+        let cos2 = dir_C.z * dir_C.z;
+        let got = dyed.map(|l| l * cos2 * cos2);
+        for i in 0..3 {
+            sum[i] += got[i];
         }
+        radiance.push(got.map(|v| v as f32));
+        seen.push(PixelTruth {
+            plume: change(&water, &dyed),
+            opacity: (1.0 - veil.passes[GREEN]) as f32,
+            obstacle: obstacle(&end),
+            way_m: end.way_m as f32,
+            clear: (left[GREEN] * veil.passes[GREEN]) as f32,
+        });
     }
     let exposed = ExposedSensor::new(&camera.sensor, sum.map(|s| s / n as f64), noise);
     let bytes = (radiance.iter().enumerate()).flat_map(|(k, l)| exposed.pixel(k as u64, l.map(f64::from))).collect();

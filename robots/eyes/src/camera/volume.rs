@@ -90,8 +90,15 @@ impl Volume {
         (FARTHEST.0 / clearest).min(FARTHEST.1)
     }
 
-    /// Follows the lines of sight of a camera through the scene's water.
-    pub(super) fn new(camera: &CameraSpec, pose_WC: &Pose, scene: &Scene<'_>, lamp: Option<&Lamp>) -> Self {
+    /// Follows the lines of sight of a camera through the scene's water, as far as the picture's pixels see; `seen_m`
+    /// are their distances, row by row.
+    pub(super) fn new(
+        camera: &CameraSpec,
+        pose_WC: &Pose,
+        scene: &Scene<'_>,
+        lamp: Option<&Lamp>,
+        seen_m: impl Iterator<Item = f64>,
+    ) -> Self {
         let range = Self::range_m(scene.optics);
         let tile = camera.width.max(camera.height).div_ceil(TILES);
         let n = [camera.width, camera.height].map(|n| n.div_ceil(tile) as usize + 1);
@@ -111,10 +118,25 @@ impl Volume {
         let clear: Vec<Spectrum> = (0..STEPS)
             .map(|k| each(|i| math::exp(-scene.optics.clarity.attenuation[i] * volume.lines.step(k).1)))
             .collect();
-        for line in 0..volume.lines.dirs.len() {
-            volume.follow(scene.optics, &dye, lamp, line, &clear);
+        for (line, far_m) in volume.farthest(camera.width, seen_m).into_iter().enumerate() {
+            let (last, _) = volume.step_of(far_m);
+            volume.follow(scene.optics, &dye, lamp, line, &clear[..=last]);
+            // Nobody looks farther.
+            volume.veils.resize((line + 1) * STEPS, [f32::NAN; ROW]);
         }
         volume
+    }
+
+    /// The greatest distance in the tiles around each line, m.
+    fn farthest(&self, width: u32, seen_m: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut far_m = vec![0.0_f64; self.lines.dirs.len()];
+        for (n, way_m) in (0_u32..).zip(seen_m) {
+            let (x, y) = (f64::from(n % width) + 0.5, f64::from(n / width) + 0.5);
+            for (line, _) in self.around(x, y) {
+                far_m[line] = far_m[line].max(way_m);
+            }
+        }
+        far_m
     }
 
     fn follow(&mut self, o: &Optics, dye: &DyeGrid, lamp: Option<&Lamp>, line: usize, clear: &[Spectrum]) {
@@ -179,30 +201,9 @@ impl Volume {
 
     /// The veil before a thing at the distance `way_m` behind the place (x, y) of the picture, pixels.
     pub(super) fn before(&self, x: f64, y: f64, way_m: f64) -> Veil {
-        let ways = &self.lines.ways;
-        // The step in which the distance ends, and the part of it that is passed.
-        let grown = math::ln(way_m.max(1e-9) / ways[0]) / math::ln(ways[1] / ways[0]);
-        let (k, part) = if way_m <= ways[0] {
-            (0, way_m / ways[0])
-        } else {
-            let k = ((grown as usize) + 1).min(STEPS - 1);
-            let begin = ways[k - 1];
-            (k, ((way_m - begin) / (ways[k] - begin)).clamp(0.0, 1.0))
-        };
-        let [nx, ny] = self.lines.n;
-        let cell = |x: f64, n: usize| {
-            let x = x / f64::from(self.tile);
-            let i = (x as usize).min(n - 2);
-            (i, x - i as f64)
-        };
-        let ((i, fx), (j, fy)) = (cell(x, nx), cell(y, ny));
+        let (k, part) = self.step_of(way_m);
         let mut sum = [0.0; ROW];
-        for (line, weight) in [
-            (j * nx + i, (1.0 - fx) * (1.0 - fy)),
-            (j * nx + i + 1, fx * (1.0 - fy)),
-            ((j + 1) * nx + i, (1.0 - fx) * fy),
-            ((j + 1) * nx + i + 1, fx * fy),
-        ] {
+        for (line, weight) in self.around(x, y) {
             let far = &self.veils[line * STEPS + k];
             let none: [f32; ROW] = std::array::from_fn(|k| if k < 6 { 0.0 } else { 1.0 });
             let near = if k == 0 { &none } else { &self.veils[line * STEPS + k - 1] };
@@ -212,5 +213,35 @@ impl Volume {
             }
         }
         Veil { water: [sum[0], sum[1], sum[2]], dyed: [sum[3], sum[4], sum[5]], passes: each(|i| sum[6 + i]) }
+    }
+
+    /// The step in which a distance ends, and the part of it that is passed.
+    fn step_of(&self, way_m: f64) -> (usize, f64) {
+        let ways = &self.lines.ways;
+        let grown = math::ln(way_m.max(1e-9) / ways[0]) / math::ln(ways[1] / ways[0]);
+        if way_m <= ways[0] {
+            (0, way_m / ways[0])
+        } else {
+            let k = ((grown as usize) + 1).min(STEPS - 1);
+            let begin = ways[k - 1];
+            (k, ((way_m - begin) / (ways[k] - begin)).clamp(0.0, 1.0))
+        }
+    }
+
+    /// The lines at the corners of the tile around a place of the picture, and their weights there.
+    fn around(&self, x: f64, y: f64) -> [(usize, f64); 4] {
+        let [nx, ny] = self.lines.n;
+        let cell = |x: f64, n: usize| {
+            let x = x / f64::from(self.tile);
+            let i = (x as usize).min(n - 2);
+            (i, x - i as f64)
+        };
+        let ((i, fx), (j, fy)) = (cell(x, nx), cell(y, ny));
+        [
+            (j * nx + i, (1.0 - fx) * (1.0 - fy)),
+            (j * nx + i + 1, fx * (1.0 - fy)),
+            ((j + 1) * nx + i, (1.0 - fx) * fy),
+            ((j + 1) * nx + i + 1, fx * fy),
+        ]
     }
 }

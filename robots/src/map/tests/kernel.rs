@@ -63,6 +63,11 @@ proptest! {
             prop_assert!((there[i] - e).abs() <= 2.0 * cut + 1e-11);
         }
     }
+}
+
+proptest! {
+    // Each case writes out 600 releases over 1000 cells.
+    #![proptest_config(fixed(32))]
 
     #[test]
     fn merged_releases_change_the_logarithm_by_less_than_one_per_cent_of_its_largest(

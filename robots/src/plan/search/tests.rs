@@ -39,9 +39,11 @@ fn slow(room: &FreeSpace, costs: Costs, start: usize, goal: usize) -> Option<u32
     s.take_in(room);
     let mut g = vec![FAR; s.penalty.len()];
     g[s.padded(room, start)] = 0;
+    // There and back in turn: what is nearer is before or behind.
+    let mut order: Vec<usize> = (0..room.lattice().len()).collect();
     loop {
         let mut changed = false;
-        for cell in 0..room.lattice().len() {
+        for &cell in &order {
             let at = s.padded(room, cell);
             if !room.free(cell) || g[at] == FAR {
                 continue;
@@ -56,6 +58,7 @@ fn slow(room: &FreeSpace, costs: Costs, start: usize, goal: usize) -> Option<u32
         if !changed {
             break;
         }
+        order.reverse();
     }
     let cost = g[s.padded(room, goal)];
     (cost != FAR).then_some(cost)

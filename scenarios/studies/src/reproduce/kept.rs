@@ -267,7 +267,8 @@ mod tests {
     /// A false figure is not seen by its digest.
     #[test]
     fn every_measure_of_a_run_and_of_its_declarations_is_checked() {
-        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
+        let dir = tempfile::tempdir().unwrap();
+        let reference = wanted(&Registry::default(), &["wp_laminar".into()], &["pomdp".into()]).unwrap().remove(0);
         let stop = AtomicBool::new(false);
         let plan = Plan { n: 1, first_seed: 4, key: Key::public(), until_half_width: None, jobs: 1 };
         let begun = RowResult::begin(&reference);

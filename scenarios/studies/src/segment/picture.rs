@@ -199,6 +199,8 @@ mod tests {
                 assert_eq!(want, whole, "{format:?}");
             }
             for n in 0..bytes.len() {
+                // A file that is replaced in place is waited for by some file systems; a new one is not.
+                std::fs::remove_file(&path).unwrap();
                 std::fs::write(&path, &bytes[..n]).unwrap();
                 match read_picture(&path) {
                     Ok(got) => assert_eq!(got, want, "{format:?}: {n} of {} bytes", bytes.len()),

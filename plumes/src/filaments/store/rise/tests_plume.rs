@@ -82,7 +82,7 @@ fn filaments_follow_their_elements() {
 #[test]
 fn it_settles_at_its_level_and_stays_below_the_surface() {
     let mut p = plume(outfall(-5.0, 1.0), &Stratified, 30.0);
-    drifted(&mut p, &Stratified, 1000, 1.0);
+    drifted(&mut p, &Stratified, 500, 1.0);
     let old: Vec<f32> = p.stores[0].z[..2000].to_vec();
     // F^¼ N^(−¾) with F the flux over π: 0.36 m; the level of no buoyancy lies 4 times as high.
     let (low, high) = old.iter().fold((0.0_f32, -30.0_f32), |(l, h), z| (l.min(*z), h.max(*z)));
@@ -90,7 +90,7 @@ fn it_settles_at_its_level_and_stays_below_the_surface() {
     // In even water it goes to the surface and stays there.
     let still = Given(|_| 0.0, |_| (0.0, 0.0));
     let mut p = plume(outfall(-5.0, 1.0), &still, 5.0);
-    drifted(&mut p, &still, 600, 1.0);
+    drifted(&mut p, &still, 400, 1.0);
     let old = &p.stores[0].z[..1000];
     let lowest = old.iter().fold(0.0_f32, |l, z| l.min(*z));
     assert!(lowest > -0.5 && old.iter().all(|z| *z <= 0.0), "{lowest}");
@@ -139,7 +139,7 @@ fn rising_filaments_are_the_same_on_every_way() {
         let s = &p.stores[0];
         let beside = |n: usize| Vector3::new(s.x[n] + 0.2, s.y[n], s.z[n]).map(f64::from);
         let felt: Vec<u64> = (0..s.x.len()).step_by(97).map(|n| p.concentration(&beside(n)).to_bits()).collect();
-        format!("{:?} {:?} {felt:?}", s.z, elements(p))
+        (s.z.clone(), elements(p).to_vec(), felt)
     };
     let mut first = fresh(InstructionSet::Portable, 1);
     develop(&mut first, 0.0, 200.0);
@@ -179,22 +179,22 @@ fn many_rising_filaments_are_the_same_on_two_threads() {
     let stream = Given(|_| 1.0, |_| (0.01, 1e-3));
     let grown = |threads| {
         let mut spec = outfall(-2.0, 1.0);
-        spec.release.rate_hz = Positive::new(200.0);
+        spec.release.rate_hz = Positive::new(100.0);
         let mut plume = plume(spec, &stream, 30.0);
         plume.use_threads(crate::filaments::threads(threads));
         let mut most = 0;
         let mut left = false;
-        for n in 0..150 {
+        for n in 0..110 {
             let before = plume.stores[0].len();
             plume.drift(&stream, 2.0 * f64::from(n), 2.0 * f64::from(n + 1));
             let now = plume.stores[0].len();
-            left |= now < before + 400 && n > 1;
+            left |= now < before + 200 && n > 1;
             most = most.max(now);
         }
         assert!(most > 2 * crate::filaments::step::WORTH_THREADS, "{most}");
         assert!(left, "nothing left the basin");
         let s = &plume.stores[0];
-        format!("{:?} {:?} {:?} {:?}", s.x, s.y, s.z, elements(&plume))
+        ([s.x.clone(), s.y.clone(), s.z.clone()], elements(&plume).to_vec())
     };
     assert!(grown(1) == grown(2));
 }

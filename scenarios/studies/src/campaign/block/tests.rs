@@ -139,6 +139,12 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     odd
 }
 
+/// Writes a new file: one that is replaced in place is waited for by some file systems.
+fn anew(path: &Path, bytes: &[u8]) {
+    fs::remove_file(path).unwrap();
+    fs::write(path, bytes).unwrap();
+}
+
 /// Reads `n` blocks of which one file is damaged. Returns how many are reported as not whole; the others are unchanged.
 fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
     let ((dir, manifest), campaign) = (folder(), campaign());
@@ -149,7 +155,7 @@ fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
     let mut draw = Stream::new(seed, "damage", "of blocks");
     let mut broken = 0;
     for k in 0..n {
-        fs::write(&path, damaged(&bytes, &mut draw)).unwrap();
+        anew(&path, &damaged(&bytes, &mut draw));
         match read_block(dir, &manifest, 0) {
             BlockState::Broken(said) => {
                 let name = path.file_name().unwrap().to_str().unwrap();
@@ -167,7 +173,7 @@ fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
 #[test]
 fn damaged_blocks_are_not_whole() {
     let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
-    let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(1000);
+    let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(400);
     assert!(survives(block_path, n, 1) >= n * 99 / 100);
     assert!(survives(declarations_path, n, 2) >= n * 99 / 100);
 }
@@ -183,12 +189,12 @@ fn damage_under_a_seal_is_an_answer_and_no_panic() {
         let bytes = fs::read(&path).unwrap();
         let mut draw = Stream::new(3, "damage", "under seals");
         let mut broken = 0;
-        for k in 0..1000 {
+        for k in 0..400 {
             let head = 4 + seal::room().len();
             let mut odd = [&bytes[..4], &seal::room()].concat();
             odd.extend(damaged(&bytes[head..], &mut draw));
             seal::close(&mut odd);
-            fs::write(&path, odd).unwrap();
+            anew(&path, &odd);
             match read_block(dir, &manifest, 0) {
                 BlockState::Broken(_) => broken += 1,
                 BlockState::Done(there) => assert_eq!(there, good, "damage {k}"),
@@ -196,7 +202,7 @@ fn damage_under_a_seal_is_an_answer_and_no_panic() {
             }
         }
         // About a tenth changes only what is not read, such as the statistics of columns.
-        assert!(broken >= 800, "{broken} at {}", path.display());
+        assert!(broken >= 320, "{broken} at {}", path.display());
     }
 }
 
