@@ -202,12 +202,6 @@ pub(super) fn stays_even(mut scene: Scene, dt: f64, shots: Shots, pool: impl Fn(
     }
     let mut ratios = scene.ratios(&counts, f64::from(shots.count), pool);
     let off = worst(&ratios);
-    {
-        let mut e: Vec<u64> = ratios.iter().map(|r| r[1] as u64).collect();
-        e.sort();
-        let q: Vec<u64> = (0..=10).map(|i| e[(e.len() - 1) * i / 10]).collect();
-        eprintln!("POOLS {} off {off} {:?} plume {} least {least}", e.len(), q, scene.plume.len());
-    }
     let uneven = |[got, even]: &[f64; 2]| (got / even - 1.0).abs();
     ratios.sort_by(|a, b| uneven(b).total_cmp(&uneven(a)));
     assert!(off < 0.05 && ratios.len() >= least, "{off} of {}: {:?}", ratios.len(), &ratios[..5]);

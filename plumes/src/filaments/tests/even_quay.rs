@@ -9,7 +9,7 @@ use world::terrain::Terrain;
 
 /// A part of the quay: wall, deck with its lower side within a cell, hull with its sides within cells, two piles, two
 /// layers with no diffusivity between them. Pools of 2 x 2 columns and 2 levels, four times 20 s apart, for
-/// behind the piles the water is exchanged slowly: 6000 and more.
+/// behind the piles the water is exchanged slowly: 6000 and more in most.
 #[test]
 fn under_a_quay() {
     let area = area(32.0, 44.0, 90.0);

@@ -96,7 +96,7 @@ fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
 fn an_hour_without_a_detection_or_with_nothing_else_does_not_underflow() {
     let trajectory = TrajectorySpec::default();
     for detected in [false, true] {
-        for spec in all(&GridSpec::default(), &trajectory, 60) {
+        for spec in all(&GridSpec::default(), &trajectory, 200) {
             let mut mapper = spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("mapper");
             for n in 0..3600 {
                 let t = f64::from(n);

@@ -279,7 +279,7 @@ mod tests {
     /// factor of 2.
     #[test]
     fn flume_has_all_its_figures() {
-        let s = of("flume_crab", 60.0);
+        let s = of("flume_crab", 120.0);
         let named = |name: &str| {
             let mut found = s.figures.iter().filter(|f| f.name.starts_with(name));
             let first = found.next().unwrap_or_else(|| panic!("no {name}"));
