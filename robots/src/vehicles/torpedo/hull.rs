@@ -35,6 +35,8 @@ pub(in crate::vehicles) struct TorpedoHull {
     c: Coefficients,
     equation: Equation,
     propeller: DriveEffect,
+    /// Speed at the greatest rpm, m/s.
+    top_speed_m_s: f64,
     actuators: Actuators,
     /// State, velocity (ENU) and density of the water at the beginning of the last step.
     last: Option<(Truth, Vector3<f64>, f64)>,
@@ -61,7 +63,33 @@ impl TorpedoHull {
         told.extend(differs);
         let propeller = propeller(&c).map_err(|e| source.wrong(format!("hydrodynamics.terms.propeller: {e}")))?;
         let equation = Equation::new(c.body()).expect("its mass is near that of a spheroid in water");
-        Ok(Self { c, equation, propeller, actuators: Actuators::default(), last: None })
+        let mut hull = Self { c, equation, propeller, top_speed_m_s: 0.0, actuators: Actuators::default(), last: None };
+        hull.top_speed_m_s = hull.run_up(f64::MAX);
+        Ok(hull)
+    }
+
+    /// Greatest speed from rest in a minute with the propeller at `rpm`, m/s.
+    fn run_up(&self, rpm: f64) -> f64 {
+        let mut hull = self.clone();
+        let water = WaterSample {
+            velocity: Vector3::zeros(),
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: SEA_WATER_KG_M3,
+        };
+        let ahead = ActuatorCommand { rpm, ..ActuatorCommand::default() };
+        let level = Pose::level(Vector3::new(0.0, 0.0, -10.0), Heading::from_deg(0.0));
+        let mut truth = Truth::at_rest(level);
+        let mut top: f64 = 0.0;
+        for _ in 0..(RUN_UP_S / STEP_S) as u32 {
+            truth = hull.sail(&truth, &water, &ahead, STEP_S);
+            // Held on its line: a heel or a turn would cost speed that a helmsman would not lose.
+            truth.pose = level;
+            truth.v_WB_B = Vector3::new(truth.v_WB_B.x, 0.0, 0.0);
+            truth.w_WB_B = Vector3::zeros();
+            top = top.max(truth.v_WB_B.x);
+        }
+        top
     }
 
     fn sail(&mut self, truth: &Truth, water: &WaterSample, command: &ActuatorCommand, dt_s: f64) -> Truth {
@@ -92,33 +120,14 @@ impl Motion for TorpedoHull {
     fn capabilities(&self, turn_radius_m: f64) -> Capabilities {
         Capabilities {
             least_speed_m_s: self.c.spec.fins.least_speed_m_s.get(),
-            top_speed_m_s: self.top_speed_m_s(f64::MAX),
+            top_speed_m_s: self.top_speed_m_s,
             turning_radius_m: turn_radius_m,
             ..Capabilities::default()
         }
     }
 
     fn top_speed_m_s(&self, rpm: f64) -> f64 {
-        let mut hull = self.clone();
-        let water = WaterSample {
-            velocity: Vector3::zeros(),
-            gradient: Matrix3::zeros(),
-            rate: Vector3::zeros(),
-            density_kg_m3: SEA_WATER_KG_M3,
-        };
-        let ahead = ActuatorCommand { rpm, ..ActuatorCommand::default() };
-        let level = Pose::level(Vector3::new(0.0, 0.0, -10.0), Heading::from_deg(0.0));
-        let mut truth = Truth::at_rest(level);
-        let mut top: f64 = 0.0;
-        for _ in 0..(RUN_UP_S / STEP_S) as u32 {
-            truth = hull.sail(&truth, &water, &ahead, STEP_S);
-            // Held on its line: a heel or a turn would cost speed that a helmsman would not lose.
-            truth.pose = level;
-            truth.v_WB_B = Vector3::new(truth.v_WB_B.x, 0.0, 0.0);
-            truth.w_WB_B = Vector3::zeros();
-            top = top.max(truth.v_WB_B.x);
-        }
-        top
+        if rpm < self.c.spec.propeller.limit_rpm.get() { self.run_up(rpm) } else { self.top_speed_m_s }
     }
 
     fn idle(&self) -> Actuation {
