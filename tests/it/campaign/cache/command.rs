@@ -48,7 +48,7 @@ fn run(dir: &Path, out: &str, more: &[&str]) -> (String, bool) {
     let summary = summary(dir, out);
     let taken = summary["run"]["spin_up_kept"].as_bool().unwrap();
     assert_eq!(said.contains(TAKEN), taken, "{said}");
-    assert_eq!(text(&end.stdout).contains(TAKEN), taken);
+    assert_eq!(text(&end.stdout).contains(", taken from the cache"), taken);
     (summary["digest"].as_str().unwrap().to_string(), taken)
 }
 

@@ -40,7 +40,7 @@ impl Summary {
         let mission = format!("{:.1} s in {} steps, {:.1} s of wall time", t.mission_s, t.steps, t.mission_wall_s);
         let kept = if t.spin_up_kept { ", taken from the cache" } else { "" };
         let spin_up = format!("{:.0} s, {:.1} s of wall time{kept}", t.spin_up_s, t.spin_up_wall_s);
-        let mut facts = vec![Fact::new("Mission", mission), Fact::new("Spin-up", spin_up)];
+        let mut facts = vec![Fact::new("Mission", mission), Fact::brief("Spin-up", spin_up)];
         if let (Some(a), Some(b)) = (self.run.real_time_factor, self.run.real_time_factor_with_spin_up) {
             let speed = format!("{a:.0} × real time; {b:.0} × with the spin-up's wall time");
             facts.push(Fact::brief("Speed", speed));
