@@ -1,4 +1,4 @@
-//! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure_robots`.
+//! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure/robots.rs`.
 
 mod files;
 mod packages;

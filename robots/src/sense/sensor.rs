@@ -104,6 +104,12 @@ pub trait SensorParams: Spec {
         &[]
     }
 
+    /// The names of the numbers that it gives in [`Readings::other`], each with its unit at the end: those are columns of
+    /// tables. One that is not named here is in live state and recording alone.
+    fn numbers(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
     /// field.
     fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {

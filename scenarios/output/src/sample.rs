@@ -48,6 +48,7 @@ pub(crate) fn robots() -> Vec<RobotInfo> {
         threshold: Some(0.04),
         regions: false,
         layered: true,
+        numbers: Vec::new(),
     }]
 }
 

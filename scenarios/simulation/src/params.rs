@@ -1,4 +1,4 @@
-//! The one word that makes a struct parameters of a scenario.
+//! A macro that makes a struct the parameters of something that a scenario can name.
 
 /// Parameters that a scenario can ask for by name, each with its default: the struct, how files and the schema know it,
 /// and its entry in lists. The doc comments of the fields are what `rheotaxis explain` says of them.

@@ -18,6 +18,7 @@ pub(super) fn robots(loaded: &Loaded) -> Vec<RobotInfo> {
             threshold: dye.map(|f| f.threshold.get()),
             regions: about.regions,
             layered: about.layers,
+            numbers: spec.sensors.iter().flat_map(|s| s.numbers().iter().copied()).collect(),
         }
     });
     robots.collect()

@@ -42,6 +42,9 @@ impl RobotRecorder {
         if let Some(TimedReading { t_s, value: scan }) = &r.readings.ranging {
             put("ranging", MessageKind::PointCloud2, &echo_cloud(nanoseconds(*t_s), id, scan))?;
         }
+        for (name, reading) in &r.readings.other {
+            put(&format!("readings/{name}"), MessageKind::Float64, &float64(reading.value))?;
+        }
         if let Some(flow) = &r.estimate.flow {
             put("flow", MessageKind::Vector3Stamped, &believed_flow(t, WORLD, flow))?;
         }

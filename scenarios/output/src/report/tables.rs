@@ -11,7 +11,7 @@ pub fn tables() -> Vec<TableInfo> {
             "track.csv",
             "Where each robot was, and what it believed, read and did: a row for each robot and each \
                 `record.frame_period_s`.",
-            track_columns::columns(true, true),
+            track_columns::columns(true, true, &["<number>"]),
         ),
         (
             "probes-<gantry>.csv",

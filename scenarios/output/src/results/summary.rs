@@ -96,6 +96,9 @@ pub struct RobotSummary {
     /// Share of the time with a thruster at its limit; `None` of a vehicle whose autopilot shares out no forces among
     /// thrusters.
     pub saturated: Option<f64>,
+    /// Last numbers of its instruments of other crates, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub last_numbers: BTreeMap<&'static str, f64>,
     /// Behaviour at the end.
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.

@@ -47,6 +47,8 @@ struct Robot {
     in_region: Option<Vector2<f64>>,
     /// Fixes of the last minute: the time, and how far each moved the estimate, m.
     fixes: VecDeque<(f64, f64)>,
+    /// Newest numbers of instruments of other crates.
+    numbers: BTreeMap<&'static str, f64>,
     behaviour_s: Vec<(Behaviour, f64)>,
     /// The most probable cell of its map and since when, with the map's cells.
     best: Option<(f64, usize, Arc<BeliefGrid>)>,
@@ -65,6 +67,7 @@ impl Robot {
             regions: Regions::default(),
             in_region: None,
             fixes: VecDeque::new(),
+            numbers: BTreeMap::new(),
             behaviour_s: Vec::new(),
             best: None,
             map: None,
@@ -97,6 +100,7 @@ impl Robot {
 
     /// Notes what is known about a declaration only at the time when it is made.
     fn declared(&mut self, t_s: f64, r: &RobotFrame) {
+        self.numbers.extend(r.readings.other.iter().map(|(name, reading)| (*name, reading.value)));
         self.fixes.extend(r.fix_m.map(|m| (t_s, m)));
         self.fixes.retain(|(then, _)| t_s - then <= FIX_S);
         if r.shown.regions.now.is_some() && r.shown.regions.now != self.regions.now {
@@ -164,6 +168,7 @@ impl Robot {
             }),
             consulted: score.consulted,
             saturated: score.saturation.map(|s| s.share()),
+            last_numbers: self.numbers.clone(),
             last_behaviour: self.behaviour.name().to_owned(),
             behaviour_s: self
                 .behaviour_s

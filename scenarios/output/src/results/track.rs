@@ -7,6 +7,7 @@ use crate::columns::header;
 use crate::files::ReportError;
 use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Behaviour, Declaration, Layer, Region, Vertical, region_name};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What tables and figures need to know about a robot beforehand.
@@ -22,6 +23,8 @@ pub struct RobotInfo {
     pub regions: bool,
     /// Whether its planner has layers.
     pub layered: bool,
+    /// Names of the numbers that its instruments of other crates give.
+    pub numbers: Vec<&'static str>,
 }
 
 /// One moment of one robot, as the figures need it.
@@ -190,6 +193,8 @@ pub struct TrackTable {
     track: Track,
     /// Whether the table has the column of subregions.
     regions: bool,
+    /// Numbers of instruments of other crates, a column each.
+    numbers: Vec<&'static str>,
 }
 
 impl TrackTable {
@@ -204,13 +209,15 @@ impl TrackTable {
         }
         // There is a column for layers or subregions only if a robot has them.
         let mut table = Self::in_memory(robots);
-        table.file = Some(TableFile::create(path, &header(&columns(table.regions, table.layered)))?);
+        table.file = Some(TableFile::create(path, &header(&columns(table.regions, table.layered, &table.numbers)))?);
         Ok(table)
     }
 
     /// Keeps data for the figures only, without a file.
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
+        let numbers: BTreeSet<&'static str> = robots.iter().flat_map(|r| r.numbers.iter().copied()).collect();
         Self {
+            numbers: numbers.into_iter().collect(),
             file: None,
             layered: robots.iter().any(|r| r.layered),
             regions: robots.iter().any(|r| r.regions),
@@ -242,6 +249,9 @@ impl TrackTable {
                 if self.layered {
                     file.text(r.holding_layer().unwrap_or(""));
                 }
+                for name in &self.numbers {
+                    file.number(r.readings.other.get(name).map(|reading| reading.value), 6);
+                }
                 file.end_row()?;
             }
         }
@@ -262,4 +272,28 @@ fn row(table: &mut TableFile, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
         table.number(number, places);
     }
     table.text(r.behaviour.name());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{frames, robots};
+    use rheotaxis::frame::TimedReading;
+
+    #[test]
+    fn a_number_of_another_crate_is_a_column() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("track.csv");
+        let [info] = robots().try_into().expect("one robot");
+        let mut table = TrackTable::create(&path, vec![RobotInfo { numbers: vec!["pressure_pa"], ..info }]).unwrap();
+        for mut frame in frames(2) {
+            frame.robots[0].readings.other.insert("pressure_pa", TimedReading { t_s: frame.t_s, value: 80_198.5 });
+            table.push(&frame).unwrap();
+        }
+        table.finish();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let mut lines = text.lines();
+        assert!(lines.next().unwrap().ends_with(",layer,pressure_pa"), "{text}");
+        assert!(lines.all(|line| line.ends_with(",80198.500000")), "{text}");
+    }
 }

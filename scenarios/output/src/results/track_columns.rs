@@ -41,11 +41,12 @@ const AFTER: [ColumnInfo; 3] = columns! {
     "layer", "", "Layer of the planner that controls the vehicle; only if a robot's planner has layers.";
 };
 
-/// All columns, in order.
-pub(crate) fn columns(regions: bool, layered: bool) -> Vec<ColumnInfo> {
+/// All columns, in order; the last ones are `numbers` of instruments of other crates.
+pub(crate) fn columns(regions: bool, layered: bool, numbers: &[&'static str]) -> Vec<ColumnInfo> {
     let all = BEFORE.into_iter().chain(COLUMNS).chain(AFTER);
     let written = all.filter(|c| (regions || c.name != "region") && (layered || c.name != "layer"));
-    written.collect()
+    let what = "Number that an instrument of another crate gives under this name; its unit is at the end of the name.";
+    written.chain(numbers.iter().map(|name| ColumnInfo::new(name, "", what))).collect()
 }
 
 /// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. `full_scale_ug_l` is the greatest

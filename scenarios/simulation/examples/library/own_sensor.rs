@@ -17,6 +17,11 @@ impl SensorParams for PressureParams {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
         Ok(Box::new(Pressure { noise_pa: self.noise_pa.get(), rng: on.robot.stream("pressure") }))
     }
+
+    // A column of track.csv; live state, recording, summary and page have it, too.
+    fn numbers(&self) -> &'static [&'static str] {
+        &["pressure_pa"]
+    }
 }
 
 /// The instrument at work. Sensors are the only parts of a searcher that may read the truth: they turn it into

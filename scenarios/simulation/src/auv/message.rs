@@ -2,7 +2,7 @@
 
 use super::topics::{
     BehaviourMessage, ChemicalMessage, CommandMessage, DeclarationMessage, EstimateMessage, FlowMessage, GoalMessage,
-    LayersMessage, RangingMessage, TruthMessage,
+    LayersMessage, RangingMessage, ReadingsMessage, TruthMessage,
 };
 use crate::frame::{RobotFrame, TimedReading};
 use crate::incidents::Incident;
@@ -36,6 +36,10 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Incident]) -> Said 
         let free = scan.beams.len() - echoes_body_m.len();
         let place_body_m = scan.p_BS.into();
         said.add("ranging", &RangingMessage { t_s: *t_s, place_body_m, echoes_body_m, max_m: scan.max_m, free });
+    }
+    if !r.readings.other.is_empty() {
+        let numbers = r.readings.other.iter().map(|(name, reading)| (*name, reading.value)).collect();
+        said.add("readings", &ReadingsMessage { t_s, numbers });
     }
     said.add("behaviour", &behaviour(t_s, r, abnormal));
     if !r.shown.layers.is_empty() {

@@ -6,6 +6,7 @@ use robots::handoff::Behaviour;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The topics of each robot.
 pub const TOPICS: &[Topic] = &[
@@ -17,6 +18,7 @@ pub const TOPICS: &[Topic] = &[
     Topic::of::<FlowMessage>("flow", "auv/<id>/flow", STATE_RATE),
     Topic::of::<BehaviourMessage>("behaviour", "auv/<id>/behaviour", STATE_RATE),
     Topic::of::<RangingMessage>("ranging", "auv/<id>/ranging", STATE_RATE),
+    Topic::of::<ReadingsMessage>("readings", "auv/<id>/readings", STATE_RATE),
     Topic::of::<LayersMessage>("layers", "auv/<id>/layers", STATE_RATE),
     Topic::of::<DeclarationMessage>("declaration", "auv/<id>/declaration/<number>", "with the state, once made"),
     Topic::of::<PictureMessage>(
@@ -229,6 +231,15 @@ pub struct RangingMessage {
     pub max_m: f64,
     /// Beams without an echo.
     pub free: usize,
+}
+
+/// Newest numbers of instruments of other crates; absent for a vehicle that has none.
+#[derive(Serialize, JsonSchema)]
+pub struct ReadingsMessage {
+    /// Simulated time, s; zero is the start of the mission.
+    pub t_s: f64,
+    /// The numbers by name.
+    pub numbers: BTreeMap<&'static str, f64>,
 }
 
 /// Who holds the vehicle among the layers of its planner; absent for a strategy without layers.

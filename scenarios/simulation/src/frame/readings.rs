@@ -1,6 +1,7 @@
 //! What a robot's instruments reported between two frames.
 
 use robots::handoff::{AdcpReading, AltimeterReading, Attitude, DepthReading, DvlReading, RangeScan, Readings};
+use std::collections::BTreeMap;
 
 /// A reading and its time.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub struct NewestReadings {
     pub altimeter: Option<TimedReading<AltimeterReading>>,
     /// Forward ranging.
     pub ranging: Option<TimedReading<RangeScan>>,
+    /// Numbers of instruments of other crates, by name.
+    pub other: BTreeMap<&'static str, TimedReading<f64>>,
 }
 
 impl NewestReadings {
@@ -43,6 +46,7 @@ impl NewestReadings {
         replace(&mut self.depth, t_s, readings.depth.as_ref());
         replace(&mut self.altimeter, t_s, readings.altimeter.as_ref());
         replace(&mut self.ranging, t_s, readings.ranging.as_ref());
+        self.other.extend(readings.other.iter().map(|&(name, value)| (name, TimedReading { t_s, value })));
     }
 
     /// Fills what is missing with earlier readings, for whoever leaves out a frame.
@@ -58,6 +62,9 @@ impl NewestReadings {
         keep(&mut self.depth, &earlier.depth);
         keep(&mut self.altimeter, &earlier.altimeter);
         keep(&mut self.ranging, &earlier.ranging);
+        for (name, reading) in &earlier.other {
+            self.other.entry(name).or_insert_with(|| reading.clone());
+        }
     }
 }
 
@@ -67,6 +74,18 @@ mod tests {
 
     fn depth(depth_m: f64) -> Readings {
         Readings { depth: Some(DepthReading { depth_m }), ..Readings::default() }
+    }
+
+    #[test]
+    fn a_number_of_another_crate_is_heard_under_its_name() {
+        let of = |name, value| Readings { other: vec![(name, value)], ..Readings::default() };
+        let mut heard = NewestReadings::default();
+        heard.hear(1.0, &of("pressure_pa", 8e4));
+        let mut next = NewestReadings::default();
+        next.hear(2.0, &of("salt_g_l", 35.0));
+        next.fill(&heard);
+        let values: Vec<_> = next.other.iter().map(|(name, r)| (*name, r.t_s, r.value)).collect();
+        assert_eq!(values, [("pressure_pa", 1.0, 8e4), ("salt_g_l", 2.0, 35.0)]);
     }
 
     #[test]

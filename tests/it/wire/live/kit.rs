@@ -5,7 +5,7 @@ use crate::waits::{PATIENCE, until};
 
 use nalgebra::{Vector2, Vector3};
 use output::live::{Live, LiveMeta, LiveOptions, Scene, topics};
-use rheotaxis::frame::{Frame, NewestReadings, PlumeFrame, RobotFrame, WaterFrame};
+use rheotaxis::frame::{Frame, NewestReadings, PlumeFrame, RobotFrame, TimedReading, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
 use robots::handoff::{
@@ -108,7 +108,11 @@ pub(super) fn frame(step: u64) -> Frame {
         command: Some(Command::Steer(Setpoint { heading, water_speed_m_s: 2.0, vertical })),
         keeps_height: true,
         actuators: Actuation::default(),
-        readings: NewestReadings { ranging: Some(super::readings::ping_ahead()), ..NewestReadings::default() },
+        readings: NewestReadings {
+            ranging: Some(super::readings::ping_ahead()),
+            other: BTreeMap::from([("pressure_pa", TimedReading { t_s: 1.0, value: 8e4 })]),
+            ..NewestReadings::default()
+        },
         shown: Shown {
             zone: Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0),
             layers: vec![

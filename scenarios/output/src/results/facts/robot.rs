@@ -40,6 +40,9 @@ impl RobotSummary {
         facts.push(Fact::brief("Travelled", format!("{:.0} m", self.travelled_m)));
         let [last, most] = [self.final_position_error_m, self.greatest_position_error_m];
         facts.push(Fact::new("Error of its own position", format!("{last:.1} m at the end, {most:.1} m at most")));
+        for (name, value) in &self.last_numbers {
+            facts.push(Fact::new(format!("Last {name}"), format!("{value}")));
+        }
         let times: Vec<String> = self.behaviour_s.iter().map(|(b, s)| format!("{b} {s:.0} s")).collect();
         facts.push(Fact::new("Time in behaviours", times.join(", ")));
         facts
