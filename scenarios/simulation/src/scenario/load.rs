@@ -99,7 +99,7 @@ impl Loaded {
         self.with_text(&self.path, changed)
     }
 
-    /// Checks what the scenario means: see [`check`](super::check).
+    /// Checks what the scenario means: see [`check()`](super::check()).
     ///
     /// # Errors
     /// All mistakes that stop a run. If there are none, the warnings are returned.
