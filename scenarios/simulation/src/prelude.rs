@@ -1,6 +1,6 @@
 //! What a strategy, a sensor or a current of your own needs, under one name: `use rheotaxis::prelude::*`.
 //!
-//! The whole of each crate is beside it: [`world`](crate::world), [`plumes`](crate::plumes), [`robots`](crate::robots).
+//! The whole of each crate is beside it: [`world`], [`plumes`], [`robots`].
 
 pub use crate::params;
 pub use crate::scenario::{Loaded, load, load_with};
