@@ -1,10 +1,11 @@
 //! The words and numbers of a report: kinds of declarations, ends of searches, title and rule, masses.
 
 use super::tests::told;
-use crate::results::{DeclaredKind, Summary, TrackTable};
-use crate::sample::{area, frames, plume};
+use crate::record::Recorder;
+use crate::results::{DeclaredKind, RobotInfo, Summary, TrackTable};
+use crate::sample::{area, frames, info, plume, robots};
 use nalgebra::Vector2;
-use rheotaxis::frame::Frame;
+use rheotaxis::frame::{Frame, TimedReading};
 use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
 
@@ -143,4 +144,35 @@ fn a_headline_says_how_the_run_ended() {
     one.kind = DeclaredKind::UpFlowEdge;
     summary.robots[0].declarations = vec![one];
     assert_eq!(ended(&summary), "found after 2000 s");
+}
+
+/// A sensor of another crate: its number is in table, recording, summary and page.
+#[test]
+fn a_number_of_another_crate_is_told_everywhere() {
+    let mut run = frames(20);
+    for f in &mut run {
+        f.robots[0].readings.other.insert("pressure_pa", TimedReading { t_s: f.t_s, value: 80_198.5 });
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let (csv, mcap) = (dir.path().join("track.csv"), dir.path().join("run.mcap"));
+    let [robot] = robots().try_into().expect("one robot");
+    let mut table = TrackTable::create(&csv, vec![RobotInfo { numbers: vec!["pressure_pa"], ..robot }]).unwrap();
+    let mut recorder = Recorder::create(&mcap, &info()).unwrap();
+    for f in &run {
+        table.push(f).unwrap();
+        recorder.frame(f).unwrap();
+    }
+    table.finish();
+    recorder.finish("00ff", 1).unwrap();
+
+    let text = std::fs::read_to_string(&csv).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    assert!(head.ends_with(",pressure_pa"), "{head}");
+    assert!(rows.lines().count() == run.len() && rows.lines().all(|row| row.ends_with(",80198.500000")), "{rows}");
+    let topic = b"/auv0/readings/pressure_pa";
+    assert!(std::fs::read(&mcap).unwrap().windows(topic.len()).any(|bytes| bytes == topic));
+    let (summary, _) = told(&run);
+    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
+    assert_eq!(json["robots"][0]["last_numbers"]["pressure_pa"], 80_198.5);
+    assert!(super::html::page(&summary, None, &[], &[], "()").contains("<th>Last pressure_pa</th><td>80198.5"));
 }

@@ -273,27 +273,3 @@ fn row(table: &mut TableFile, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
     }
     table.text(r.behaviour.name());
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sample::{frames, robots};
-    use rheotaxis::frame::TimedReading;
-
-    #[test]
-    fn a_number_of_another_crate_is_a_column() {
-        let dir = tempfile::tempdir().unwrap();
-        let path = dir.path().join("track.csv");
-        let [info] = robots().try_into().expect("one robot");
-        let mut table = TrackTable::create(&path, vec![RobotInfo { numbers: vec!["pressure_pa"], ..info }]).unwrap();
-        for mut frame in frames(2) {
-            frame.robots[0].readings.other.insert("pressure_pa", TimedReading { t_s: frame.t_s, value: 80_198.5 });
-            table.push(&frame).unwrap();
-        }
-        table.finish();
-        let text = std::fs::read_to_string(&path).unwrap();
-        let mut lines = text.lines();
-        assert!(lines.next().unwrap().ends_with(",layer,pressure_pa"), "{text}");
-        assert!(lines.all(|line| line.ends_with(",80198.500000")), "{text}");
-    }
-}

@@ -301,25 +301,25 @@ fn a_rule_that_only_a_type_knows_is_told_with_its_place() {
     assert!(told[0].starts_with("p:3:") && told[0].contains("area.length_m: must be from 1e-18 to 1e18"), "{told:?}");
 }
 
-/// Nonsense of a quarter of a megabyte, such as a log or a table under the wrong name.
+/// Nonsense of a megabyte, such as a log or a table under the wrong name.
 #[test]
 fn long_texts_are_refused() {
-    let long = |part: &str| part.repeat((1 << 18) / part.len());
-    let of_words = long("the quick brown fox; ");
+    let megabyte = |part: &str| part.repeat((1 << 20) / part.len());
+    let of_words = megabyte("the quick brown fox; ");
     let texts = [
         of_words.clone(),
         format!("({of_words})"),
         format!("(title: [{of_words}"),
-        long("("),
-        long(";"),
-        long("]"),
-        long("(]"),
-        long("[(\n"),
-        long("\"\n"),
-        long("a: 1,\n"),
-        format!("({})", long("look: Up,")),
-        format!("(fish: [{}])", long("(id: 3),\n")),
-        format!("({}: 1)", long("x")),
+        megabyte("("),
+        megabyte(";"),
+        megabyte("]"),
+        megabyte("(]"),
+        megabyte("[(\n"),
+        megabyte("\"\n"),
+        megabyte("a: 1,\n"),
+        format!("({})", megabyte("look: Up,")),
+        format!("(fish: [{}])", megabyte("(id: 3),\n")),
+        format!("({}: 1)", megabyte("x")),
     ];
     for text in texts {
         assert!(!said(&text).is_empty(), "{}", &text[..20]);
