@@ -23,7 +23,9 @@ def example(page, words):
 def test_readme_runs_as_printed(capsys):
     pytest.importorskip("gymnasium")
     exec(compile(example("README.md", "import rheotaxis"), "README.md", "exec"), {})
-    assert "found" in capsys.readouterr().out
+    printed = capsys.readouterr().out.split()
+    assert printed == ["found", "time_out"]
+    assert all(f'# "{outcome}": ' in example("README.md", "import rheotaxis") for outcome in printed)
 
 
 @pytest.mark.skipif(
