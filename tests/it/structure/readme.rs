@@ -1,4 +1,4 @@
-//! The example of how to add an algorithm is the one that `docs/check_add_an_algorithm.sh` builds and runs.
+//! The example of how to add an algorithm is the one that `tools/check_add_an_algorithm.sh` builds and runs.
 
 use crate::common::root;
 use std::fs;

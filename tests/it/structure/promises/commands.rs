@@ -116,7 +116,7 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
         In("tests/it/campaign/cut_off.rs", "--max-wall"),
     ),
     ("rheotaxis campaign status DIR", In("tests/it/campaign/seeds.rs", "\"status\"")),
-    ("docs/cluster/gnu_parallel.sh duck_beta /shared/beta 64 -j 2", In("docs/cluster/check.sh", "gnu_parallel.sh")),
+    ("docs/cluster/gnu_parallel.sh duck_beta /shared/beta 64 -j 2", In("tools/check_cluster.sh", "gnu_parallel.sh")),
     ("docs/cluster/gnu_parallel.sh duck_beta /shared/beta 64 --sshloginfile hosts", No("needs other machines")),
     ("#!/bin/sh", No("needs Slurm")),
     (
@@ -127,8 +127,8 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
     ("pip install ray", No("needs a network")),
     (
         "python docs/cluster/ray_campaign.py duck_beta --out /shared/beta --shards 64 --cpus 2 --address auto",
-        In("docs/cluster/check.sh", "ray_campaign.py"),
+        In("tools/check_cluster.sh", "ray_campaign.py"),
     ),
     ("sudo apt-get install parallel; pip install ray duckdb polars", No("needs a network")),
-    ("cargo build --release && docs/cluster/check.sh", No("needs GNU parallel and Ray")),
+    ("cargo build --release && tools/check_cluster.sh", No("needs GNU parallel and Ray")),
 ];

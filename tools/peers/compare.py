@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Compares the speed of the plume with pompy's and with a plain loop, on one core of this machine.
 
-    python3 -m venv .venv && .venv/bin/pip install -r docs/peers/requirements.txt
-    .venv/bin/python docs/peers/compare.py
+    python3 -m venv .venv && .venv/bin/pip install -r tools/peers/requirements.txt
+    .venv/bin/python tools/peers/compare.py
 
 pompy (https://github.com/InsectRobotics/pompy, MIT) is the plume model of Farrell et al. 2002 in NumPy. Its puffs move
 in a plane wind that is the same at all heights; ours move in sheared, stratified water between bed and surface. The

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Lists the licences of everything that the program `rheotaxis` and its Python module link, and says whether they allow it.
 
-    python3 docs/licences.py            # a table: crate, version, licence
-    python3 docs/licences.py --all      # every platform and feature of the lock file, not only this machine's build
+    python3 tools/licences.py            # a table: crate, version, licence
+    python3 tools/licences.py --all      # every platform and feature of the lock file, not only this machine's build
 
 The exit code is 0 when every licence is compatible with "MIT OR Apache-2.0", 1 when one is not, 2 when cargo fails.
 Needs Python 3 and cargo, nothing else. It follows normal dependencies only: what builds or tests the program is not

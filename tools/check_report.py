@@ -1,6 +1,6 @@
 """Drives the animation of a report.html in headless Chromium, over its DevTools.
 
-    python docs/check_report.py runs/duck_st-1/report.html [--pictures FOLDER]
+    python tools/check_report.py runs/duck_st-1/report.html [--pictures FOLDER]
 
 It plays, scrubs by keyboard and by mouse, points at track and strip, turns the script off, and opens the page as a
 telephone and on a dark desktop. Needs the package `websockets` (scenarios/clients/requirements-report.txt). Where there

@@ -3,17 +3,17 @@
 # Not part of the quick tests. It needs GNU parallel and a Python (PYTHON) with ray, duckdb and polars, and takes about
 # two minutes.
 #
-#   cargo build --release && docs/cluster/check.sh
+#   cargo build --release && tools/check_cluster.sh
 set -eu
-here=$(cd "$(dirname "$0")" && pwd)
-PROGRAM=${PROGRAM:-$here/../../target/release/rheotaxis}
+root=$(cd "$(dirname "$0")/.." && pwd)
+PROGRAM=${PROGRAM:-$root/target/release/rheotaxis}
 PYTHON=${PYTHON:-python3}
 export PROGRAM RHEOTAXIS_NO_CACHE=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-sed 's/seeds: 10,/seeds: 3,/' "$here/../../scenarios/catalog/campaigns/uniform_beta.ron" > small.ron
+sed 's/seeds: 10,/seeds: 3,/' "$root/scenarios/catalog/campaigns/uniform_beta.ron" > small.ron
 grep -q 'seeds: 3,' small.ron
 "$PROGRAM" campaign run small.ron --out one --block 12 --jobs 1 --quiet
 
@@ -27,8 +27,8 @@ exit 75
 END
 chmod +x stopped_once
 PROGRAM=$work/stopped_once
-BLOCK=2 "$here/gnu_parallel.sh" small.ron parallel 3 -j 2
-"$PYTHON" "$here/ray_campaign.py" small.ron --out ray --shards 3 --block 2 --program "$PROGRAM"
+BLOCK=2 "$root/docs/cluster/gnu_parallel.sh" small.ron parallel 3 -j 2
+"$PYTHON" "$root/docs/cluster/ray_campaign.py" small.ron --out ray --shards 3 --block 2 --program "$PROGRAM"
 
 "$PYTHON" - <<'PY'
 import duckdb
@@ -61,5 +61,5 @@ import duckdb, sys
 for query in open(sys.argv[1]).read().split(';'):
     if query.strip():
         duckdb.sql(query).show()
-" "$here/queries.sql"
-"$PYTHON" "$here/queries.py" .
+" "$root/docs/cluster/queries.sql"
+"$PYTHON" "$root/docs/cluster/queries.py" .

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tests whether two versions of the program give equivalent statistics.
 
-    docs/equivalence.py BEFORE.csv AFTER.csv [BEFORE.csv AFTER.csv ...]
+    tools/equivalence.py BEFORE.csv AFTER.csv [BEFORE.csv AFTER.csv ...]
 
 Each file holds the rows of a campaign (`rheotaxis campaign merge DIR -o FILE.parquet --csv`). For each pair and each
 quantity, two one-sided tests (Schuirmann 1987, J. Pharmacokinet. Biopharm. 15, 657) at 5 % divided by the number of
