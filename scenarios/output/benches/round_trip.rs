@@ -4,11 +4,10 @@
 use divan::Bencher;
 use output::live::{Live, LiveMeta, LiveOptions, Plane};
 use rheotaxis::control::{Controller, Response};
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::{Loaded, load};
 use rheotaxis::trial::{Trial, Unwatched};
 use std::sync::Arc;
 use std::time::Duration;
-use world::registry::Registry;
 use zenoh::query::Query;
 use zenoh::{Config, Wait};
 
@@ -21,10 +20,9 @@ fn main() {
 
 /// A channel in which the robot asks.
 fn channel() -> Loaded {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))", "strategy: External()");
-    let text = text.replace("spin_up_s: 2000", "spin_up_s: 10");
-    load_text(&Registry::default(), "channel", &text).expect("legal")
+    let channel = load("uniform_channel".as_ref()).expect("in the catalogue");
+    let asks = channel.set("robots[0].strategy", "External()").expect("legal");
+    asks.set("time.spin_up_s", "10").expect("legal")
 }
 
 #[divan::bench(sample_count = 2000, sample_size = 1)]

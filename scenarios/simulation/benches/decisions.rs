@@ -7,17 +7,28 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use rheotaxis::control::{Question, Response};
 use rheotaxis::lanes::{Shared, Worlds};
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::{Loaded, load};
 use robots::handoff::{Manoeuvre, MotionOrder, MoveOrder, Reply};
 use std::sync::Arc;
-use world::registry::Registry;
 use world::units::Heading;
 
-const REMUS: &str = "vehicle: Remus100()";
-const SENSORS: &str =
-    "sensors: (fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl: (noise_m: 1))";
-const SLOW_SENSORS: &str = "sensors: (fluorometer: (rate_hz: 1), dvl: (rate_hz: 1), adcp: (rate_hz: 1), compass: (rate_hz: 1), \
-     depth: (rate_hz: 1), altimeter: (rate_hz: 1), lbl: (noise_m: 1))";
+/// Asked every second.
+const ASKED: [(&str, &str); 4] = [
+    ("robots[0].strategy", "External()"),
+    ("sources[0].release.rate_hz", "0.5"),
+    ("time.limit_s", "36000"),
+    ("record", "(frame_period_s: 40000, plume_period_s: 40000)"),
+];
+/// A point that moves in steps of a second.
+const KINEMATIC: [(&str, &str); 3] = [
+    ("robots[0].vehicle", "Kinematic()"),
+    (
+        "robots[0].sensors",
+        "(fluorometer: (rate_hz: 1), dvl: (rate_hz: 1), adcp: (rate_hz: 1), compass: (rate_hz: 1), \
+         depth: (rate_hz: 1), altimeter: (rate_hz: 1), lbl: (noise_m: 1))",
+    ),
+    ("time.step_s", "1"),
+];
 
 fn main() {
     divan::main();
@@ -25,19 +36,9 @@ fn main() {
 
 /// The channel with a searcher outside that is asked every second.
 fn channel(kinematic: bool) -> Loaded {
-    let changes = [
-        ("strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))", "strategy: External()"),
-        ("release: (rate_hz: 5)", "release: (rate_hz: 0.5)"),
-        ("limit_s: 1800)", "limit_s: 36000), record: (frame_period_s: 40000, plume_period_s: 40000)"),
-    ];
-    let simple = [(REMUS, "vehicle: Kinematic()"), (SENSORS, SLOW_SENSORS), ("time: (", "time: (step_s: 1, ")];
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let all = changes.into_iter().chain(simple.into_iter().filter(|_| kinematic));
-    let text = all.fold(text.to_string(), |text, (from, to)| {
-        assert!(text.contains(from), "the scenario has changed: {from}");
-        text.replace(from, to)
-    });
-    load_text(&Registry::default(), "channel", &text).expect("legal")
+    let channel = load("uniform_channel".as_ref()).expect("in the catalogue");
+    let changes = ASKED.iter().chain(KINEMATIC.iter().filter(|_| kinematic));
+    changes.fold(channel, |loaded, (path, value)| loaded.set(path, value).expect("legal"))
 }
 
 fn answer(place: usize, question: &Question) -> Response {

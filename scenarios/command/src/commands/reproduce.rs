@@ -25,7 +25,7 @@ pub(crate) fn run(registry: &Registry, args: &ReproduceArgs) -> Result<Exit, Fai
     stop::listen();
     let references = wanted(registry, &args.rows, &args.arms)?;
     // Writes to the folder first, so that an error does not come after hours of work.
-    write(&args.out, &[])?;
+    write(&args.out, &[], &command())?;
     if !args.quiet && !args.no_runs {
         say::note(trials(&references, args));
     }
@@ -61,6 +61,12 @@ pub(crate) fn run(registry: &Registry, args: &ReproduceArgs) -> Result<Exit, Fai
         args.out.display()
     ));
     Ok(Exit::Success)
+}
+
+/// The command as it was typed.
+fn command() -> String {
+    let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("rheotaxis".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
 }
 
 /// A line that says how many trials will be run.
@@ -138,7 +144,7 @@ impl Work<'_> {
             }
         }
         let some = self.rows.iter().filter(|r| !r.runs.is_empty());
-        write(&self.args.out, &some.cloned().collect::<Vec<_>>())?;
+        write(&self.args.out, &some.cloned().collect::<Vec<_>>(), &command())?;
         Ok(())
     }
 
@@ -186,7 +192,7 @@ impl Work<'_> {
                 table.write(dir, so_far)?;
             }
             let begun = rows.iter().filter(|r| !r.runs.is_empty());
-            write(&args.out, &begun.cloned().collect::<Vec<_>>())?;
+            write(&args.out, &begun.cloned().collect::<Vec<_>>(), &command())?;
             Ok(())
         });
         bar.finish_and_clear();

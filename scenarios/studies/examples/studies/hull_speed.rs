@@ -44,6 +44,7 @@ impl Flow for Shear {
 }
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    println!("{}", crate::head("hull_speed"));
     for name in SHIPPED.iter().map(|shipped| shipped.folder) {
         let craft = Vehicle::load(&VehicleSpec::Shipped(name.into()), &FolderFiles(Path::new("")))?;
         // The least of three: what else the machine does only adds.

@@ -10,8 +10,7 @@
 
 use nalgebra::Vector3;
 use rheotaxis::ocean::SpunUp;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::{Loaded, load};
 use rheotaxis::trial::{Trial, Unwatched};
 use std::error::Error;
 use std::time::Instant;
@@ -20,31 +19,25 @@ use world::frames::Truth;
 
 /// Steps of a tenth of a second, in which no instrument reads faster.
 const TENTHS: [(&str, &str); 3] = [
-    ("compass: (rate_hz: 20", "compass: (rate_hz: 10"),
-    ("depth: (rate_hz: 20", "depth: (rate_hz: 10"),
-    ("step_s: 0.05", "step_s: 0.1"),
+    ("robots[0].sensors.compass.rate_hz", "10"),
+    ("robots[0].sensors.depth.rate_hz", "10"),
+    ("time.step_s", "0.1"),
 ];
 /// Steps of a fifth of a second, in which no instrument reads faster.
 const FIFTHS: [(&str, &str); 4] = [
-    ("fluorometer: (rate_hz: 10", "fluorometer: (rate_hz: 5"),
-    ("compass: (rate_hz: 20", "compass: (rate_hz: 5"),
-    ("depth: (rate_hz: 20", "depth: (rate_hz: 5"),
-    ("step_s: 0.05", "step_s: 0.2"),
+    ("robots[0].sensors.fluorometer.rate_hz", "5"),
+    ("robots[0].sensors.compass.rate_hz", "5"),
+    ("robots[0].sensors.depth.rate_hz", "5"),
+    ("time.step_s", "0.2"),
 ];
-/// Frames as seldom as somebody needs who reads only the result.
-const QUIET: (&str, &str) = ("success:", "record: (frame_period_s: 10, plume_period_s: 1000),\n    success:");
 
-/// `duck_st` with another vehicle and a few other texts.
+/// `duck_st` with another vehicle and a few other values, and frames as seldom as somebody needs who reads only the
+/// result.
 fn duck(vehicle: &str, changes: &[(&str, &str)]) -> Result<Loaded, Box<dyn Error>> {
-    let bundled = template("duck_st").ok_or("no duck_st in the catalogue")?;
-    let mut text = bundled.text.replace("Remus100()", vehicle);
-    for (from, to) in changes {
-        if text.matches(from).count() != 1 {
-            return Err(format!("duck_st must hold `{from}` once").into());
-        }
-        text = text.replace(from, to);
-    }
-    Ok(load_text(&Registry::default(), "duck_st", &text)?)
+    let quiet = load("duck_st".as_ref())?
+        .set("robots[0].vehicle", vehicle)?
+        .set("record", "(frame_period_s: 10, plume_period_s: 1000)")?;
+    Ok(changes.iter().try_fold(quiet, |loaded, (path, value)| loaded.set(path, value))?)
 }
 
 /// A mission with its plume spun up.
@@ -130,17 +123,17 @@ const PIECE_S: f64 = 10.0;
 /// Prints, for a few seeds, the time of the mission less that of its plume: the plume alone, and the plume with the
 /// questions that the fluorometer asks it.
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
-    let with = |steps: &[(&'static str, &'static str)]| [steps, &[QUIET]].concat();
+    println!("{}", crate::head("kinematic_cost"));
     for (name, vehicle, changes, read_s) in [
-        ("REMUS, steps of 0.05 s", "Remus100()", with(&[]), 0.1),
-        ("point, steps of 0.05 s", "Kinematic()", with(&[]), 0.1),
-        ("point, steps of 0.1 s", "Kinematic()", with(&TENTHS), 0.1),
-        ("point, steps of 0.2 s", "Kinematic()", with(&FIFTHS), 0.2),
+        ("REMUS, steps of 0.05 s", "Remus100()", &[][..], 0.1),
+        ("point, steps of 0.05 s", "Kinematic()", &[][..], 0.1),
+        ("point, steps of 0.1 s", "Kinematic()", &TENTHS[..], 0.1),
+        ("point, steps of 0.2 s", "Kinematic()", &FIFTHS[..], 0.2),
     ] {
         if std::env::args().nth(2).is_some_and(|part| !name.contains(&part)) {
             continue;
         }
-        let loaded = duck(vehicle, &changes)?;
+        let loaded = duck(vehicle, changes)?;
         let (mut beside_ms, mut asking_ms, mut lasts_s) = (Vec::new(), Vec::new(), 0.0);
         for seed in 900_001..900_006 {
             let spun_up = Trial::assemble(&loaded, seed)?.spin_up(&mut Unwatched).ok_or("the spin-up was stopped")?;

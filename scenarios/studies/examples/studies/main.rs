@@ -18,6 +18,18 @@ use std::process::ExitCode;
 /// Name, what it shows, and the example itself.
 type Example = (&'static str, &'static str, fn() -> Result<(), Box<dyn Error>>);
 
+/// What a table of times needs above it: version, command, and the machine that it was measured on.
+fn head(name: &str) -> String {
+    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = about.lines().find(|line| line.starts_with("model name")).and_then(|line| line.split(':').nth(1));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "Version {}, `cargo run --release -p rheotaxis-studies --example studies {name}`, {} with {cores} cores:\n",
+        env!("CARGO_PKG_VERSION"),
+        model.unwrap_or(std::env::consts::ARCH).trim(),
+    )
+}
+
 const EXAMPLES: [Example; 6] = [
     ("own_campaign", "a campaign over arms of your own", own_campaign::main),
     ("rising_thread", "the crab's plume from the side, beside a neutral one [FILE.png]", rising_thread::main),

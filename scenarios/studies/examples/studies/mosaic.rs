@@ -9,8 +9,7 @@ use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::ocean::Origin;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{load_text, template};
+use rheotaxis::scenario::load;
 use robots::handoff::Picture;
 use robots::sense::{CameraSpec, looking, turned};
 use robots::strategy::AddUpSpec;
@@ -23,7 +22,7 @@ use world::units::Heading;
 
 /// The scenario whose water, bed and source these are, and its visibility, here 6 m.
 const SCENARIO: &str = "inspect_places";
-const CLEARER: (&str, &str) = ("visibility_m: 4", "visibility_m: 6");
+const VISIBILITY_M: &str = "6";
 const ALTITUDE_M: f64 = 2.0;
 /// How far the told place is from the source, east and north, m.
 const TOLD_M: [f64; 2] = [0.4, -0.3];
@@ -33,9 +32,7 @@ const CELL_PX: u32 = 4;
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let to = std::env::args().nth(2).unwrap_or("mosaic.png".to_string());
-    let bundled = template(SCENARIO).ok_or("not in the catalogue")?;
-    let text = bundled.text.replace(CLEARER.0, CLEARER.1);
-    let loaded = load_text(&Registry::default(), SCENARIO, &text)?;
+    let loaded = load(SCENARIO.as_ref())?.set("optics.visibility_m", VISIBILITY_M)?;
     let mut ocean = Origin::from_scenario(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
     ocean.spin_up(|_| true);
     let Terrain::Level { depth_m } = ocean.terrain else {

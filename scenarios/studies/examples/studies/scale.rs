@@ -9,13 +9,12 @@
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
 use rheotaxis::lanes::{LaneError, Lanes};
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::{Loaded, load};
 use rheotaxis::trial::{Event, Observer, Trial};
 use std::error::Error;
 use std::process::Command;
 use std::time::Instant;
 use world::math;
-use world::registry::Registry;
 
 /// Mission before and during the measurement, s.
 const WARM_S: f64 = 60.0;
@@ -52,6 +51,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let mut curves = Vec::new();
+    println!("{}", crate::head("scale"));
     println!("| what | number | ms for a second of mission | memory, MB |\n|---|---|---|---|");
     for (what, numbers) in [
         ("filaments, one robot", &FILAMENTS[..]),
@@ -93,12 +93,10 @@ fn measured(what: &str, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
 
 /// The channel with about so many filaments in it, and so many robots that search from different places.
 fn channel(filaments: usize, robots: usize) -> Result<Loaded, Box<dyn Error>> {
-    let text = template("uniform_channel").expect("in the catalogue").text;
     let rate_hz = filaments as f64 / STAYS_S;
-    let text = text
-        .replace("rate_hz: 5)", &format!("rate_hz: {rate_hz})"))
-        .replace("success: Declared(within_m: 20)", "success: Completed");
-    let mut loaded = load_text(&Registry::default(), "channel", &text)?;
+    let mut loaded = load("uniform_channel".as_ref())?
+        .set("sources[0].release.rate_hz", &rate_hz.to_string())?
+        .set("success", "Completed")?;
     let first = loaded.scenario.robots[0].clone();
     for k in 1..robots {
         let mut robot = first.clone();

@@ -99,16 +99,17 @@ fn maps(r: &RowResult) -> Vec<Reliability> {
     r.row.arms.iter().flat_map(|a| of(&a.name)).collect()
 }
 
-/// Writes REPRODUCTION.md, figures.csv, rows.csv and declarations.csv into a folder, which is made if necessary.
+/// Writes REPRODUCTION.md, figures.csv, rows.csv and declarations.csv into a folder, which is made if necessary. The first
+/// says by which command all of it came about.
 ///
 /// # Errors
 /// If the folder or a file cannot be written; all other files are written.
-pub fn write(dir: &Path, all: &[RowResult]) -> Result<Vec<PathBuf>, ReportError> {
+pub fn write(dir: &Path, all: &[RowResult], command: &str) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
     let [rows, declarations] = as_csv(&runs);
     let files = [
-        ("REPRODUCTION.md", markdown(all)),
+        ("REPRODUCTION.md", markdown(all, command)),
         ("figures.csv", figures_csv(all)),
         ("rows.csv", rows),
         ("declarations.csv", declarations),
@@ -134,9 +135,9 @@ pub fn write(dir: &Path, all: &[RowResult]) -> Result<Vec<PathBuf>, ReportError>
     ReportError::combine(failures).map_or(Ok(written), Err)
 }
 
-fn markdown(all: &[RowResult]) -> String {
+fn markdown(all: &[RowResult], command: &str) -> String {
     let mut out = format!(
-        "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every declaration in \
+        "# Reproduction\n\nWritten by `{command}`, version {}. Every run is in rows.csv, every declaration in \
          declarations.csv, every figure in figures.csv.\n\n\
          Shares come with Wilson's 95 % interval (in brackets the paper's own, from its counts); quantiles (linear \
          between order statistics) with a 95 % bootstrap interval of the quantile (percentile, {} resamples, seed 1); means with Student's, of \
