@@ -200,39 +200,3 @@ impl Pair for AvxPair {
         unsafe { [F32x4(x86::_mm256_castps256_ps128(self.0)), F32x4(x86::_mm256_extractf128_ps::<1>(self.0))] }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arithmetic_is_lane_by_lane() {
-        let a = F32x4::new(&[1.0, 2.0, 3.0, 4.0]);
-        let b = F32x4::new(&[0.5, -1.0, 8.0, 0.25]);
-        let got = F32x4::columns([a.add(b), a.sub(b), a.times(3.0), b]);
-        for (d, (x, y)) in [(1.0, 0.5), (2.0, -1.0), (3.0, 8.0), (4.0, 0.25)].into_iter().enumerate() {
-            assert_eq!(got[d], [x + y, x - y, x * 3.0, y]);
-        }
-        assert_eq!(b.array(), [0.5, -1.0, 8.0, 0.25]);
-    }
-
-    /// The same arithmetic for any pair that the machine has.
-    fn lanes<P: Pair>() -> [[f32; 4]; 2] {
-        let rows = [[1.5, -2.0, 3.25, 0.1], [7.0, 0.3, -0.2, 5.5]];
-        // SAFETY: the callers ask the machine first.
-        let [a, b] = unsafe { [P::new(&rows[0], &rows[1]), P::new(&rows[1], &rows[0])] };
-        a.times(0.7).add(b).apart().map(F32x4::array)
-    }
-
-    #[test]
-    fn pairs_are_quads_side_by_side() {
-        let want = |a: f32, b: f32| a * 0.7 + b;
-        let got = lanes::<[F32x4; 2]>();
-        assert_eq!(got[0][0], want(1.5, 7.0));
-        assert_eq!(got[1][3], want(5.5, 0.1));
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx") {
-            assert_eq!(lanes::<AvxPair>(), got);
-        }
-    }
-}
