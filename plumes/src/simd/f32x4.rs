@@ -200,3 +200,19 @@ impl Pair for AvxPair {
         unsafe { [F32x4(x86::_mm256_castps256_ps128(self.0)), F32x4(x86::_mm256_extractf128_ps::<1>(self.0))] }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arithmetic_is_lane_by_lane() {
+        let a = F32x4::new(&[1.0, 2.0, 3.0, 4.0]);
+        let b = F32x4::new(&[0.5, -1.0, 8.0, 0.25]);
+        let got = F32x4::columns([a.add(b), a.sub(b), a.times(3.0), b]);
+        for (d, (x, y)) in [(1.0, 0.5), (2.0, -1.0), (3.0, 8.0), (4.0, 0.25)].into_iter().enumerate() {
+            assert_eq!(got[d], [x + y, x - y, x * 3.0, y]);
+        }
+        assert_eq!(b.array(), [0.5, -1.0, 8.0, 0.25]);
+    }
+}

@@ -10,6 +10,8 @@ use std::fmt::Debug;
 use world::bits::{Reader, Writer};
 use world::fields::{Concentration, Flow};
 
+type Make = fn() -> (Water, Plume);
+
 /// Water with eddies between the walls of a flume, and a nozzle.
 fn in_flume() -> (Water, Plume) {
     (tests_eddies::water(2.5, 2), flume::plume(2.5, 2))
@@ -58,8 +60,7 @@ fn whole(plume: &Plume) -> String {
 #[test]
 fn a_kept_plume_answers_and_goes_on_as_the_one_that_was_kept() {
     // Meanders and layers, eddies between walls, and small eddies with a buoyant release.
-    let cases: [(fn() -> (Water, Plume), f64); 3] =
-        [(|| off_duck(100.0), 173.0), (in_flume, 12.3), (in_fine_flume, 12.3)];
+    let cases: [(Make, f64); 3] = [(|| off_duck(100.0), 173.0), (in_flume, 12.3), (in_fine_flume, 12.3)];
     for (make, end_s) in cases {
         let mut first = make();
         develop(&mut first, end_s);
