@@ -41,8 +41,8 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
     }
 }
 
-/// In a stream with K_h = 0.02 m²/s, y²/(2K·age) has mean 1 but for what is said to lack, with a relative standard error
-/// of √(2/n).
+/// In a stream with K_h = 0.02 m²/s, y²/(2K·age) has mean 1 but for what is said to lack, with a relative standard
+/// error of √(2/n).
 pub(super) fn counts_from_release(p: &Plume, speed_m_s: f64, lacks: f64) {
     let ages: Vec<f64> = p.stores[0].born_s.iter().map(|born| p.now_s - born).collect();
     let (n, mut sum) = (p.len() as f64, 0.0);

@@ -28,8 +28,8 @@ fn put(plume: &mut Plume, p: &Vector3<f64>) {
 }
 
 /// Even dye over so many lattice cells each way, in the places that `of` gives for coordinates from a corner: filaments
-/// on a lattice with a spacing of a quarter of a metre, 0.42 of their size, so that the sum over them is the integral to
-/// 1e-4 or better. Returns its concentration.
+/// on a lattice with a spacing of a quarter of a metre, 0.42 of their size, so that the sum over them is the integral
+/// to 1e-4 or better. Returns its concentration.
 fn even(plume: &mut Plume, n: [usize; 3], of: impl Fn([f64; 3]) -> Option<Vector3<f64>>) -> f64 {
     let h = 0.25;
     for c in 0..n[0] * n[1] * n[2] {
