@@ -124,11 +124,4 @@ mod tests {
         let u = u_star / KARMAN * math::ln(0.2 / 0.001);
         assert!((u - 0.3 * l.factor(0.2, 5.0)).abs() < 1e-12);
     }
-
-    #[test]
-    fn roughness_above_the_layer_is_refused() {
-        let bad = BedSpec { roughness_m: Positive::new(0.5), thickness_m: Positive::new(1.0) };
-        let said = bad.build("water.bed").unwrap_err().to_string();
-        assert!(said.starts_with("water.bed.roughness_m: must be > 0 and at most"));
-    }
 }

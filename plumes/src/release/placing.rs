@@ -139,11 +139,6 @@ mod tests {
         }
     }
 
-    fn problem(spec: SourceSpec) -> String {
-        let (area, terrain) = sea();
-        place(&[spec], &area, &terrain).unwrap_err().to_string()
-    }
-
     #[test]
     fn height_and_depth_name_the_same_place() {
         let (area, terrain) = sea();
@@ -156,25 +151,20 @@ mod tests {
 
     #[test]
     fn what_cannot_be_is_said_with_its_place() {
-        assert_eq!(
-            problem(spec(0.0, 70.0, Some(0.2), None)),
-            "sources[0].north_m: source \"s1\" at east 0 m, north 70 m lies 20.0 m outside the area; bring it inside"
-        );
-        assert_eq!(
-            problem(spec(0.0, 0.0, Some(-0.5), None)),
-            "sources[0].height_m: source \"s1\" is 0.5 m under the bottom; must be from 0 (on the bed) to 6.00 (the water's depth there)"
-        );
-        assert!(
-            problem(spec(0.0, 0.0, None, Some(6.5)))
-                .starts_with("sources[0].depth_m: source \"s1\" is 0.50 m under the bottom")
-        );
-        assert!(problem(spec(0.0, 0.0, Some(7.0), None)).contains("1.00 m above the surface"));
-        assert!(problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m"));
-        assert!(problem(spec(0.0, 0.0, None, None)).contains("neither height_m"));
         let (area, terrain) = sea();
-        let twins = [spec(0.0, 0.0, Some(1.0), None), spec(1.0, 0.0, Some(1.0), None)];
-        let said = place(&twins, &area, &terrain).unwrap_err().to_string();
-        assert_eq!(said, "sources[1].id: \"s1\" is already the name of sources[0]");
+        let twin = || spec(0.0, 0.0, Some(1.0), None);
+        for (specs, field, said) in [
+            (vec![spec(0.0, 70.0, Some(0.2), None)], "sources[0].north_m", "lies 20.0 m outside"),
+            (vec![spec(0.0, 0.0, Some(-0.5), None)], "sources[0].height_m", "0.5 m under the bottom"),
+            (vec![spec(0.0, 0.0, None, Some(6.5))], "sources[0].depth_m", "0.50 m under the bottom"),
+            (vec![spec(0.0, 0.0, Some(7.0), None)], "sources[0].height_m", "1.00 m above the surface"),
+            (vec![spec(0.0, 0.0, Some(1.0), Some(1.0))], "sources[0]", "both height_m and depth_m"),
+            (vec![spec(0.0, 0.0, None, None)], "sources[0]", "neither height_m"),
+            (vec![twin(), twin()], "sources[1].id", "already the name of sources[0]"),
+        ] {
+            let e = place(&specs, &area, &terrain).expect_err(said).to_string();
+            assert!(e.starts_with(field) && e.contains(said), "{e}");
+        }
     }
 
     #[test]

@@ -215,24 +215,4 @@ mod tests {
         }
         assert_eq!(b.array(), [0.5, -1.0, 8.0, 0.25]);
     }
-
-    /// The same arithmetic for any pair that the machine has.
-    fn lanes<P: Pair>() -> [[f32; 4]; 2] {
-        let rows = [[1.5, -2.0, 3.25, 0.1], [7.0, 0.3, -0.2, 5.5]];
-        // SAFETY: the callers ask the machine first.
-        let [a, b] = unsafe { [P::new(&rows[0], &rows[1]), P::new(&rows[1], &rows[0])] };
-        a.times(0.7).add(b).apart().map(F32x4::array)
-    }
-
-    #[test]
-    fn pairs_are_quads_side_by_side() {
-        let want = |a: f32, b: f32| a * 0.7 + b;
-        let got = lanes::<[F32x4; 2]>();
-        assert_eq!(got[0][0], want(1.5, 7.0));
-        assert_eq!(got[1][3], want(5.5, 0.1));
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx") {
-            assert_eq!(lanes::<AvxPair>(), got);
-        }
-    }
 }

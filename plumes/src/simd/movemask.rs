@@ -30,25 +30,3 @@ pub(crate) fn bits(marks: &LaneMask) -> u32 {
     #[cfg(not(target_arch = "x86_64"))]
     marks.iter().enumerate().fold(0, |all, (l, mark)| all | u32::from(mark & 1) << l)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::simd::dispatch::InstructionSet;
-
-    #[test]
-    fn bits_are_the_marked_places() {
-        let mut r = world::seeds::Stream::new(1, "test", "marks");
-        for n in 0..1000 {
-            let want = match n {
-                0 => 0,
-                1 => u32::MAX,
-                _ => (r.uniform() * f64::from(u32::MAX)) as u32,
-            };
-            let marks: LaneMask = std::array::from_fn(|l| mark(want >> l & 1 == 1));
-            for path in InstructionSet::all() {
-                assert_eq!(path.run(|| bits(&marks)), want, "{path:?}");
-            }
-        }
-    }
-}

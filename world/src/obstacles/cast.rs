@@ -54,42 +54,33 @@ impl Obstacles {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Base, BoxShape, ObstacleSpec, ShapeSpec};
+    use super::super::testing::{LEVEL, block, built, standing};
+    use super::super::{ObstacleSpec, Surface};
     use super::*;
-    use crate::ranges::{Finite, HeadingDeg, Positive};
-    use crate::terrain::Terrain;
-    use std::path::Path;
+    use crate::ranges::Finite;
 
-    fn block(id: &str, east_m: f64) -> Obstacle {
-        let m = Positive::new;
-        let spec = ObstacleSpec {
-            surface: Surface { backscatter_db: Finite::new(-5.0), ..Surface::default() },
-            id: id.into(),
-            shape: ShapeSpec::Box(BoxShape { size_m: (m(2.0), m(2.0), m(2.0)) }),
-            east_m: Finite::new(east_m),
-            north_m: Finite::new(0.0),
-            base: Base::default(),
-            heading_deg: HeadingDeg::new(90.0),
-        };
-        Obstacle::build(&spec, &Terrain::Level { depth_m: 10.0 }, Path::new(".")).unwrap()
+    fn cube(east_m: f64) -> Obstacle {
+        let surface = Surface { backscatter_db: Finite::new(-5.0), ..Surface::default() };
+        built(&ObstacleSpec { surface, ..standing(block([2.0; 3]), [east_m, 0.0], 90.0) }, &LEVEL)
     }
 
     #[test]
     fn the_nearer_face_is_met_with_its_normal() {
-        let two = Obstacles(vec![block("far", 20.0), block("near", 10.0)]);
-        let hit = two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 50.0).unwrap();
+        let two = Obstacles(vec![cube(20.0), cube(10.0)]);
+        let from = Vector3::new(0.0, 0.0, -7.0);
+        let hit = two.cast(&from, &Vector3::x(), 50.0).unwrap();
         assert!((hit.way_m - 9.0).abs() < 1e-12 && hit.obstacle == 1);
         assert!((hit.normal + Vector3::x()).norm() < 1e-12);
         assert_eq!(hit.surface.backscatter_db.get(), -5.0);
-        let down = two.cast(&Vector3::new(10.5, 0.0, -5.0), &-Vector3::z(), 50.0).unwrap();
+        let down = two.cast(&Vector3::new(10.5, 0.0, -3.0), &-Vector3::z(), 50.0).unwrap();
         assert!((down.way_m - 3.0).abs() < 1e-12 && (down.normal.z - 1.0).abs() < 1e-12);
-        assert!(two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 8.9).is_none());
+        assert!(two.cast(&from, &Vector3::x(), 8.9).is_none());
     }
 
     #[test]
     fn the_ball_holds_the_solid() {
-        let (middle, r) = block("a", 3.0).ball();
-        assert!((middle - Vector3::new(3.0, 0.0, -9.0)).norm() < 1e-12);
+        let (middle, r) = cube(3.0).ball();
+        assert!((middle - Vector3::new(3.0, 0.0, -7.0)).norm() < 1e-12);
         assert!((r - 3.0f64.sqrt()).abs() < 1e-12);
     }
 }

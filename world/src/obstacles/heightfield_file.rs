@@ -178,28 +178,25 @@ mod tests {
 
     #[test]
     fn broken_files_say_where() {
-        let says = |text: String| {
-            let (place, problem) = parse(&text).expect_err("a broken file");
-            format!("{place}: {problem}")
-        };
-        assert_eq!(says(format!("{HEAD}1 2 3\n4 5\n")), ": 5 heights, not the 3 x 2 = 6 announced");
-        assert_eq!(says(format!("{HEAD}1 2 nan\n4 5 6\n")), ":7: height \"nan\" is not a finite number");
-        assert_eq!(
-            says(format!("{HEAD}1 2 3\n4 -9999 6\n")),
-            ":8: height 2 of the row is missing (NODATA_value -9999): fill the gap first"
-        );
         let unsaid = HEAD.replace("NODATA_value -9999\n", "");
-        assert_eq!(
-            says(format!("{unsaid}1 2 3\n4 5 -9999.0\n")),
-            ":7: height 3 of the row is missing (-9999, which is the format's NODATA_value if no line says another): \
-             fill the gap first"
-        );
+        for (text, said) in [
+            (format!("{HEAD}1 2 3\n4 5\n"), ": 5 heights, not the 3 x 2 = 6"),
+            (format!("{HEAD}1 2 nan\n4 5 6\n"), ":7: height \"nan\""),
+            (format!("{HEAD}1 2 3\n4 -9999 6\n"), ":8: height 2 of the row is missing (NODATA_value -9999)"),
+            (
+                format!("{unsaid}1 2 3\n4 5 -9999.0\n"),
+                ":7: height 3 of the row is missing (-9999, which is the format's",
+            ),
+            (HEAD.replace('3', "1"), ":1: ncols must be a whole number from 2"),
+            (HEAD.replace("cellsize 2", "cellsize x"), ":5: cellsize \"x\""),
+            ("hello\n".into(), ":1: \"hello\" is no line"),
+            (String::new(), ": must say ncols"),
+            (HEAD.replace('3', "900000"), ": 900000 x 2 heights are more than 500000"),
+        ] {
+            let (place, problem) = parse(&text).expect_err(said);
+            assert!(format!("{place}: {problem}").starts_with(said), "{place}: {problem}");
+        }
         let other = format!("{unsaid}NODATA_value 0\n1 2 3\n4 5 -9999\n");
         assert!(parse(&other).is_ok(), "a height where another number stands for gaps");
-        assert_eq!(says(HEAD.replace('3', "1")), ":1: ncols must be a whole number from 2, got \"1\"");
-        assert_eq!(says(HEAD.replace("cellsize 2", "cellsize x")), ":5: cellsize \"x\" is not a finite number");
-        assert_eq!(says("hello\n".into()), ":1: \"hello\" is no line of an Esri ASCII grid");
-        assert!(says(String::new()).contains("must say ncols"));
-        assert!(says(HEAD.replace('3', "900000")).contains("thin it out"));
     }
 }

@@ -10,6 +10,8 @@ mod solid;
 mod spec;
 mod surface;
 #[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tests_placing;

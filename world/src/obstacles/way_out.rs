@@ -54,43 +54,32 @@ impl Obstacles {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Base, BoxShape, ObstacleSpec, ShapeSpec};
+    use super::super::testing::{LEVEL, block, built, standing};
     use super::*;
-    use crate::ranges::{Finite, HeadingDeg, Positive};
-    use crate::terrain::Terrain;
-    use std::path::Path;
 
-    fn block(id: &str, east_m: f64) -> Obstacle {
-        let m = Positive::new;
-        let spec = ObstacleSpec {
-            surface: Default::default(),
-            id: id.into(),
-            shape: ShapeSpec::Box(BoxShape { size_m: (m(4.0), m(6.0), m(3.0)) }),
-            east_m: Finite::new(east_m),
-            north_m: Finite::new(0.0),
-            base: Base::default(),
-            heading_deg: HeadingDeg::new(90.0),
-        };
-        Obstacle::build(&spec, &Terrain::Level { depth_m: 10.0 }, Path::new(".")).unwrap()
+    /// Blocks of 4 m by 6 m and 3 m height at these places east.
+    fn blocks(east_m: &[f64]) -> Obstacles {
+        let at = |east_m: &f64| built(&standing(block([4.0, 6.0, 3.0]), [*east_m, 0.0], 90.0), &LEVEL);
+        Obstacles(east_m.iter().map(at).collect())
     }
 
     #[test]
     fn leads_to_the_nearest_side_or_top_and_never_down() {
-        let one = Obstacles(vec![block("a", 0.0)]);
-        let free = Vector3::new(9.0, 0.0, -9.0);
+        let one = blocks(&[0.0]);
+        let free = Vector3::new(9.0, 0.0, -7.0);
         assert_eq!(one.way_out(&free), free);
-        let side = one.way_out(&Vector3::new(1.5, 0.0, -9.9));
-        assert!((side - Vector3::new(2.001, 0.0, -9.9)).norm() < 1e-9);
-        let top = one.way_out(&Vector3::new(0.0, 0.0, -7.2));
-        assert!((top - Vector3::new(0.0, 0.0, -6.999)).norm() < 1e-9);
+        let side = one.way_out(&Vector3::new(1.5, 0.0, -7.9));
+        assert!((side - Vector3::new(2.001, 0.0, -7.9)).norm() < 1e-9);
+        let top = one.way_out(&Vector3::new(0.0, 0.0, -5.2));
+        assert!((top - Vector3::new(0.0, 0.0, -4.999)).norm() < 1e-9);
     }
 
     #[test]
     fn leads_through_solids_that_overlap() {
-        let two = Obstacles(vec![block("a", 0.0), block("b", 3.0)]);
-        let out = two.way_out(&Vector3::new(1.9, 0.0, -9.9));
+        let two = blocks(&[0.0, 3.0]);
+        let out = two.way_out(&Vector3::new(1.9, 0.0, -7.9));
         assert!(two.containing(&out).is_none());
         // Through both solids it is 3.1 m to the east, 2.9 m up, 3.9 m to the west, and 3 m to the north or south.
-        assert!((out.z + 6.999).abs() < 1e-9);
+        assert!((out.z + 4.999).abs() < 1e-9);
     }
 }

@@ -1,19 +1,23 @@
 //! Slides that are driven, stopped, blocked and pushed.
 
-use super::{AxisDrive, AxisSpec, BodySpec, GantryBodySpec, GantryId, JointState, Physics, Shape, Solid};
+use super::testing::{body, level};
+use super::{AxisDrive, AxisSpec, GantryBodySpec, GantryId, JointState, Physics, Shape, Solid};
 use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
 use crate::units::Heading;
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::Vector3;
 use rapier3d::geometry::SharedShape;
 
 const STEP_S: f64 = 0.02;
 const EFFORT_N: [f64; 2] = [200.0, 100.0];
 
 fn box_at(x: f64, y: f64, z: f64, size: [f64; 3]) -> (Pose, Shape) {
-    let at = Pose::level(Vector3::new(x, y, z), Heading::from_deg(90.0));
-    let size_m = Vector3::from(size);
-    (at, Shape::Box { size_m })
+    (level(x, y, z), Shape::Box { size_m: Vector3::from(size) })
+}
+
+/// A block whose near face is 1 m up the first axis.
+fn block_the_way(physics: &mut Physics) {
+    physics.add_fixed(&level(5.0, 2.2, 0.2), SharedShape::cuboid(1.0, 0.2, 0.1));
 }
 
 /// 2 m along the base's x, 1 m along its y; the base's x points north.
@@ -114,9 +118,8 @@ fn limits_are_never_passed_whatever_is_asked() {
 #[test]
 fn a_wall_in_the_way_is_met_named_and_left_again() {
     let (mut physics, id) = new();
-    // A block whose near face is 1 m up the axis; the head's face is 0.03 m ahead of its middle.
-    let at = Pose::level(Vector3::new(5.0, 2.2, 0.2), Heading::from_deg(90.0));
-    physics.add_fixed(&at, SharedShape::cuboid(1.0, 0.2, 0.1));
+    // The head's face is 0.03 m ahead of its middle.
+    block_the_way(&mut physics);
     physics.drive(id, at_speed([0.15, 0.0]));
     let mut deepest: f64 = 0.0;
     let mut touched = false;
@@ -147,8 +150,7 @@ fn a_wall_in_the_way_is_met_named_and_left_again() {
 fn two_runs_are_the_same_to_the_last_bit() {
     let trace = || {
         let (mut physics, id) = new();
-        let at = Pose::level(Vector3::new(5.0, 2.2, 0.2), Heading::from_deg(90.0));
-        physics.add_fixed(&at, SharedShape::cuboid(1.0, 0.2, 0.1));
+        block_the_way(&mut physics);
         physics.drive(id, at_speed([0.15, 0.03]));
         (0..300)
             .flat_map(|_| run(&mut physics, id, 1))
@@ -168,17 +170,10 @@ fn a_speed_that_is_not_finite_is_named() {
 #[test]
 fn a_body_that_runs_into_the_head_is_named_and_stopped() {
     let (mut physics, id) = new();
-    let east = Heading::from_deg(90.0);
-    let mut truth = Truth::at_rest(Pose::level(Vector3::new(3.5, 1.5, 0.3), east));
+    let mut truth = Truth::at_rest(level(3.5, 1.5, 0.3));
     truth.v_WB_B.x = 0.4;
-    let ball = physics.add_body(BodySpec {
-        id: "ball".into(),
-        truth,
-        shapes: vec![(Pose::level(Vector3::zeros(), east), Shape::Sphere { radius_m: 0.1 })],
-        p_BG: Vector3::zeros(),
-        mass: Matrix6::from_diagonal(&Vector6::new(3.0, 3.0, 3.0, 0.01, 0.01, 0.01)),
-        without_momentum: false,
-    });
+    let sphere = Shape::Sphere { radius_m: 0.1 };
+    let ball = physics.add_body(body("ball", truth, sphere, [3.0, 3.0, 3.0, 0.01, 0.01, 0.01]));
     physics.drive(id, at_speed([0.0, 0.0]));
     let mut named = false;
     for i in 0..300 {

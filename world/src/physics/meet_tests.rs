@@ -1,5 +1,6 @@
 //! Bodies of every shape, thrown at random against solids of every shape.
 
+use super::testing::{body, level};
 use super::{BodySpec, Physics, Shape, Solver};
 use crate::area::Area;
 use crate::convert::pose;
@@ -7,11 +8,17 @@ use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
 use crate::terrain::Terrain;
 use crate::units::Heading;
-use nalgebra::{Matrix6, UnitQuaternion, Vector2, Vector3, Vector6};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rapier3d::geometry::SharedShape;
 use rapier3d::math::Vector;
 
 const STEP_S: f64 = 0.1;
+const MASS: [f64; 6] = [30.0, 60.0, 60.0, 0.5, 8.0, 8.0];
+const BED: Terrain = Terrain::Level { depth_m: 20.0 };
+
+fn area(axis_deg: f64) -> Area {
+    Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(axis_deg) }
+}
 
 /// Pieces of 0.2 to 1.6 m, one of them 2 mm thin.
 fn shapes() -> Vec<Shape> {
@@ -29,18 +36,12 @@ fn shapes() -> Vec<Shape> {
 fn thrown(rng: &mut Stream, shape: Shape, at: Vector3<f64>, v_W: Vector3<f64>) -> BodySpec {
     let turned = Vector3::from_fn(|_, _| 2.0 * rng.normal());
     let R_WB = UnitQuaternion::from_scaled_axis(turned);
-    BodySpec {
-        id: "thrown".into(),
-        truth: Truth {
-            pose: Pose { p_WB: at, R_WB },
-            v_WB_B: R_WB.inverse() * v_W,
-            w_WB_B: Vector3::from_fn(|_, _| 3.0 * rng.normal()),
-        },
-        shapes: vec![(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)), shape)],
-        p_BG: Vector3::zeros(),
-        mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
-        without_momentum: false,
-    }
+    let truth = Truth {
+        pose: Pose { p_WB: at, R_WB },
+        v_WB_B: R_WB.inverse() * v_W,
+        w_WB_B: Vector3::from_fn(|_, _| 3.0 * rng.normal()),
+    };
+    body("thrown", truth, shape, MASS)
 }
 
 /// Least and greatest coordinates of a thrown body.
@@ -76,7 +77,6 @@ fn walls() -> Vec<(Vector3<f64>, SharedShape)> {
 #[test]
 fn no_shape_passes_a_wall_however_it_is_thrown() {
     let mut rng = Stream::new(7, "meet", "walls");
-    let level = Heading::from_deg(90.0);
     for (w, (at, wall)) in walls().into_iter().enumerate() {
         for (k, shape) in shapes().into_iter().enumerate() {
             for n in 0..12 {
@@ -85,7 +85,7 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
                 let across = Vector3::new(0.0, 0.1 * rng.normal(), 0.1 * rng.normal());
                 let spec = thrown(&mut rng, shape.clone(), start, (Vector3::x() + across) * speed);
                 let mut physics = Physics::new(STEP_S);
-                physics.add_fixed(&Pose::level(at, level), wall.clone());
+                physics.add_fixed(&level(at.x, at.y, at.z), wall.clone());
                 let id = physics.add_body(spec.clone());
                 let mut touched = false;
                 for _ in 0..(3.0 / speed / STEP_S).ceil() as u64 + 5 {
@@ -112,7 +112,6 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
 
 #[test]
 fn no_shape_passes_the_bed() {
-    let area = Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(30.0) };
     let mut rng = Stream::new(8, "meet", "bed");
     for (k, shape) in shapes().into_iter().enumerate() {
         for n in 0..8 {
@@ -121,7 +120,7 @@ fn no_shape_passes_the_bed() {
             let v = Vector3::new(0.3 * rng.normal(), 0.3 * rng.normal(), -1.0) * speed;
             let spec = thrown(&mut rng, shape.clone(), start, v);
             let mut physics = Physics::new(STEP_S);
-            physics.add_terrain(&Terrain::Level { depth_m: 20.0 }, &area);
+            physics.add_terrain(&BED, &area(30.0));
             let id = physics.add_body(spec.clone());
             let mut touched = false;
             for _ in 0..(4.0 / speed / STEP_S) as u64 {
@@ -139,8 +138,7 @@ fn no_shape_passes_the_bed() {
 /// search: past bed and wall, in short steps and in long ones, and with a centre of mass that is not the origin.
 #[test]
 fn steps_without_a_search_are_those_with_one() {
-    let area = Area { centre: Vector2::zeros(), length_m: 100.0, width_m: 100.0, axis: Heading::from_deg(30.0) };
-    let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 8.0, 9.0);
+    let terrain = Terrain::sloping_over(&area(30.0), Heading::from_deg(250.0), 8.0, 9.0);
     let mut rng = Stream::new(10, "meet", "skipped");
     let (mut touched, mut free) = (0, 0);
     for shape in shapes() {
@@ -154,7 +152,7 @@ fn steps_without_a_search_are_those_with_one() {
             };
             let [mut skipping, mut always] = [Solver::WhenInReach, Solver::Always].map(|solver| {
                 let mut physics = Physics::new(step_s).with_solver(solver);
-                physics.add_terrain(&terrain, &area);
+                physics.add_terrain(&terrain, &area(30.0));
                 let at = Pose::level(Vector3::new(4.0, 0.0, -5.0), Heading::from_deg(20.0));
                 physics.add_fixed(&at, SharedShape::cuboid(1.0, 3.0, 2.0));
                 (physics.add_body(spec.clone()), physics)
@@ -205,24 +203,15 @@ fn bodies_among_each_other_keep_their_impulses_in_balance() {
 /// A level body whose axis or centre lies in the bed, in a block or in another body, where no direction is the nearest.
 #[test]
 fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
-    let area = Area { centre: Vector2::zeros(), length_m: 300.0, width_m: 100.0, axis: Heading::from_deg(90.0) };
     for (k, shape) in shapes().into_iter().enumerate() {
         for below_m in [0.0, -0.0, 1e-9, 0.05, 0.3, 2.0] {
             for turn in [0.0, 0.25, 0.5] {
                 let at = Vector3::new(0.0, 0.0, -20.0 - below_m);
                 let R_WB = UnitQuaternion::from_euler_angles(0.0, 0.0, turn * std::f64::consts::PI);
-                let rest = |p_WB| BodySpec {
-                    id: "within".into(),
-                    truth: Truth { pose: Pose { p_WB, R_WB }, v_WB_B: Vector3::zeros(), w_WB_B: Vector3::zeros() },
-                    shapes: vec![(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)), shape.clone())],
-                    p_BG: Vector3::zeros(),
-                    mass: Matrix6::from_diagonal(&Vector6::new(30.0, 60.0, 60.0, 0.5, 8.0, 8.0)),
-                    without_momentum: false,
-                };
+                let rest = |p_WB| body("within", Truth::at_rest(Pose { p_WB, R_WB }), shape.clone(), MASS);
                 let mut physics = Physics::new(STEP_S);
-                physics.add_terrain(&Terrain::Level { depth_m: 20.0 }, &area);
-                let level = Pose::level(Vector3::new(5.0, 0.0, -20.0), Heading::from_deg(90.0));
-                physics.add_fixed(&level, SharedShape::cuboid(1.0, 1.0, 1.0));
+                physics.add_terrain(&BED, &area(90.0));
+                physics.add_fixed(&level(5.0, 0.0, -20.0), SharedShape::cuboid(1.0, 1.0, 1.0));
                 // On the bed, in the block, and two in each other.
                 let starts = [at, at + Vector3::x() * 5.0, at - Vector3::x() * 5.0];
                 let ids = [starts[0], starts[1], starts[2], starts[2]].map(|start| physics.add_body(rest(start)));

@@ -18,6 +18,8 @@ mod shape;
 mod solid;
 #[cfg(test)]
 mod solid_tests;
+#[cfg(test)]
+mod testing;
 
 pub use body::{BodyId, BodySpec, ContactReport};
 pub use gantry_body::{AxisDrive, AxisSpec, GantryBodySpec, GantryContact, GantryId, JointState, Solid};

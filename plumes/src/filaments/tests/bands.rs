@@ -1,48 +1,32 @@
 //! Steps of different length: exact laws hold with all of them, and nothing depends on who asks, when, or on how many
 //! threads.
 
-use super::water::{Given, basin, moments, source};
-use crate::filaments::plume::Plume;
+use super::drift::counts_from_release;
+use super::water::{Given, basin, moments, off_duck, source};
+use crate::filaments::plume::{Plume, PlumeSettings};
 use crate::flow::grid::GridShape;
-use crate::flow::tests::water::{duck, duck_area, duck_bed};
-use crate::flow::water::Water;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector2;
 use world::area::Area;
-use world::digest::Digest;
 use world::fields::{Concentration, Flow};
 use world::terrain::Terrain;
+
+const BED: Terrain = Terrain::Level { depth_m: 40.0 };
 
 /// The longest steps of a mission, s.
 const LONGEST_S: [f64; 3] = [0.5, 5.0, 10.0];
 
-fn plume(rate_hz: f64, terrain: &Terrain) -> Plume {
-    within(&basin(), GridShape::default(), rate_hz, terrain)
+fn plume(rate_hz: f64) -> Plume {
+    within(&basin(), GridShape::default(), rate_hz)
 }
 
-fn within(area: &Area, grid: GridShape, rate_hz: f64, terrain: &Terrain) -> Plume {
-    let settings = crate::filaments::PlumeSettings { refresh_s: 10.0, grid };
-    let spec = source(20.0, rate_hz, 0.001, 0.1);
-    Plume::new(&[spec], area, terrain, 11, settings).expect("a legal source")
-}
-
-fn digest(plume: &Plume) -> String {
-    let mut digest = Digest::default();
-    plume.digest_into(&mut digest);
-    digest.hex()
-}
-
-/// The water off Duck, and a source that releases so many filaments a second.
-fn begun_off_duck(rate_hz: f64) -> (Water, Plume) {
-    let water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = crate::filaments::PlumeSettings { refresh_s: 10.0, grid: GridShape::fitting(&duck_area()) };
-    let spec = source(0.2, rate_hz, 0.001, 0.03);
-    let plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
-    (water, plume)
+fn within(area: &Area, grid: GridShape, rate_hz: f64) -> Plume {
+    let settings = PlumeSettings { refresh_s: 10.0, grid };
+    Plume::new(&[source(20.0, rate_hz, 0.001, 0.1)], area, &BED, 11, settings).expect("a legal source")
 }
 
 /// A plume off Duck, 200 s old, in small steps of the caller.
-fn off_duck(threads: usize, ask: bool) -> (String, f64) {
-    let (mut water, mut plume) = begun_off_duck(100.0);
+fn aged_off_duck(threads: usize, ask: bool) -> (String, f64) {
+    let (mut water, mut plume) = off_duck(100.0);
     plume.use_threads(crate::filaments::threads(threads));
     plume.pace(0.0, f64::INFINITY, 5.0);
     let mut felt = 0.0;
@@ -51,36 +35,33 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
         water.advance(t_s);
         plume.advance(&water, t_s);
         if ask && n % 7 == 0 {
-            let all: Vec<[f64; 5]> = plume.iter().collect();
-            let f = all[all.len() / 2];
-            felt += plume.concentration(&Vector3::new(f[0], f[1], f[2]));
+            let middle = plume.places().nth(plume.len() / 2);
+            felt += plume.concentration(&middle.unwrap());
         }
     }
-    (digest(&plume), felt)
+    (plume.digest(), felt)
 }
 
 #[test]
 fn neither_questions_nor_threads_change_anything() {
-    let (alone, _) = off_duck(1, false);
-    let (asked, felt) = off_duck(1, true);
+    let (alone, _) = aged_off_duck(1, false);
+    let (asked, felt) = aged_off_duck(1, true);
     assert_eq!(alone, asked);
-    assert!(felt > 0.0);
+    assert!(felt > 0.0 && alone != off_duck(100.0).1.digest());
     for threads in [2, 8] {
-        assert_eq!(off_duck(threads, false).0, alone, "{threads} threads");
-        assert_eq!(off_duck(threads, true).1.to_bits(), felt.to_bits());
+        assert_eq!(aged_off_duck(threads, false).0, alone, "{threads} threads");
+        assert_eq!(aged_off_duck(threads, true).1.to_bits(), felt.to_bits());
     }
 }
 
 #[test]
 fn while_it_rests_it_can_be_looked_at_in_any_order() {
-    let (mut water, mut plume) = begun_off_duck(100.0);
+    let (mut water, mut plume) = off_duck(100.0);
     plume.pace(0.0, f64::INFINITY, 5.0);
     let feel = |plume: &Plume, t_s: f64| {
         assert_eq!(plume.now_s().to_bits(), t_s.to_bits());
-        let all: Vec<[f64; 5]> = plume.iter().collect();
-        let near = all.iter().step_by(all.len() / 20);
-        let felt = near.map(|f| plume.concentration(&Vector3::new(f[0], f[1], f[2])).to_bits());
-        felt.collect::<Vec<u64>>()
+        let some = plume.places().step_by(plume.len() / 20);
+        some.map(|p| plume.concentration(&p).to_bits()).collect::<Vec<u64>>()
     };
     let (dt_s, mut rested) = (0.05, 0);
     let time = |n: u32| dt_s * f64::from(n);
@@ -108,14 +89,14 @@ fn while_it_rests_it_can_be_looked_at_in_any_order() {
 #[test]
 #[should_panic(expected = "the plume takes a step before 1 s: advance it")]
 fn a_plume_that_steps_is_not_only_looked_at() {
-    let mut plume = plume(1.0, &Terrain::Level { depth_m: 40.0 });
+    let mut plume = plume(1.0);
     plume.pace(0.0, f64::INFINITY, 0.5);
     plume.look_at(1.0);
 }
 
 #[test]
 fn the_columns_around_filaments_hold_the_flow_of_the_period() {
-    let (mut water, mut plume) = begun_off_duck(50.0);
+    let (mut water, mut plume) = off_duck(50.0);
     plume.pace(0.0, f64::INFINITY, 5.0);
     for n in 1..=60 {
         water.advance(5.0 * f64::from(n - 1));
@@ -141,28 +122,16 @@ fn the_columns_around_filaments_hold_the_flow_of_the_period() {
     assert!(evaluated >= seen.len() && evaluated < all / 4, "{} of {evaluated} of {all}", seen.len());
 }
 
-/// y²/(2K·age) has mean 1 with a relative standard error of √(2/n), at the end of a step of any length. In the middle
-/// of a step, the straight line lacks at most an eighth of the filament's own variance, γ·age.
+/// In the middle of a step, the straight line lacks at most an eighth of the filament's own variance, γ·age.
 #[test]
 fn spread_is_2kt_in_all_bands_at_once() {
     let water = Given(|_| 0.2, |_| (0.02, 0.0));
     for longest_s in LONGEST_S {
-        let mut p = plume(100.0, &Terrain::Level { depth_m: 40.0 });
+        let mut p = plume(100.0);
         p.pace(0.0, f64::INFINITY, longest_s);
         for (t_s, lacks) in [(400.0, 0.0), (402.5, 0.125 * 0.001 / 0.04)] {
             p.advance(&water, t_s);
-            let born = p.stores_mut()[0].born_s.clone();
-            let ratio = |(f, b): ([f64; 5], &f64)| f[1].powi(2) / (0.04 * (t_s - b));
-            let n = p.len() as f64;
-            let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
-            let slack = 5.0 * (2.0 / n).sqrt();
-            assert!(mean - 1.0 < slack && mean - 1.0 > -lacks - slack, "{longest_s} s, at {t_s} s: {mean}");
-            // Carried for exactly their age: within 6 sigma of the kicks.
-            for (f, b) in p.iter().zip(&born) {
-                let age = t_s - b;
-                let off = f[0] + 90.0 - 0.2 * age;
-                assert!(off.abs() < 6.0 * (0.04 * age).sqrt() + 1e-4);
-            }
+            counts_from_release(&p, 0.2, lacks);
         }
     }
 }
@@ -175,7 +144,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
     let short = Area { centre: Vector2::new(-55.0, 0.0), length_m: 90.0, ..basin() };
     for longest_s in LONGEST_S {
         let grid = GridShape { margin_m: 0.0, ..GridShape::default() };
-        let mut p = within(&short, grid, 100.0, &Terrain::Level { depth_m: 40.0 });
+        let mut p = within(&short, grid, 100.0);
         p.pace(0.0, f64::INFINITY, longest_s);
         let mut across = Vec::new();
         for k in 0..40 {
@@ -194,7 +163,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
 #[test]
 fn mass_is_conserved_between_steps() {
     let water = Given(|_| 1.0, |_| (0.02, 1e-3));
-    let mut p = plume(7.0, &Terrain::Level { depth_m: 40.0 });
+    let mut p = plume(7.0);
     p.pace(0.0, 300.0, 4.0);
     let mut before = 0;
     for n in 1..=3000 {

@@ -1,21 +1,18 @@
 //! The plume is the same wherever the datum lies: filaments are single precision, charts are in metres from an equator.
 
-use super::water::source;
-use crate::filaments::plume::{Plume, PlumeSettings};
+use super::water::{plume_in, source};
 use crate::flow::blockage::tests::{block, solids};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::eddies::tests_eddies::channel_spec;
-use crate::flow::grid::GridShape;
 use crate::flow::tests::kit::{layer, meander, two_layers, uniform, wave};
 use crate::flow::waves::tests::train;
 use crate::flow::waves::{TrainSpec, WavesSpec};
 use crate::flow::{BlockageSpec, WaterSpec};
-use crate::release::SourceSpec;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::{Concentration, Flow};
 use world::obstacles::Obstacles;
-use world::ranges::{Finite, NonNegative, Positive};
+use world::ranges::{NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -56,7 +53,7 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         margin_m: NonNegative::new(5.0),
         ..BlockageSpec::default()
     });
-    let mut spec = WaterSpec { currents: currents(case), blockage: blockage.clone(), ..WaterSpec::default() };
+    let mut spec = WaterSpec { currents: currents(case), blockage, ..WaterSpec::default() };
     if !flume {
         spec.mixing.horizontal_m2_s = NonNegative::new(0.005);
     }
@@ -64,28 +61,14 @@ fn cloud(case: Case, centre: Vector2<f64>) -> (u64, Vec<Vector3<f64>>, Vec<f64>)
         Case::Open | Case::Flume => Obstacles::default(),
         _ => solids(&[(block([3.0, 4.0, 5.0]), centre.x - 10.0, centre.y + 0.5, 20.0)], &bed),
     };
-    let mut water = spec.build_round(&area, &bed, &solids, 3).unwrap();
-    let grid = blockage.map_or(GridShape::fitting(&area), |b| b.grid_shape());
     let start_m = if flume { -0.9 } else { -17.0 };
-    let nozzle = SourceSpec {
-        east_m: Finite::new(centre.x + start_m),
-        north_m: Finite::new(centre.y),
-        ..source(if flume { 0.1 } else { 2.5 }, 5.0, 0.0005, 0.02)
-    };
-    let settings = PlumeSettings { grid, refresh_s: 2.0 };
-    let mut plume = Plume::new(&[nozzle], &area, &bed, 5, settings)
-        .unwrap()
-        .carried_by(water.small())
-        .with_obstacles(solids)
-        .unwrap()
-        .led_round(water.blocked())
-        .unwrap();
+    let nozzle = source(if flume { 0.1 } else { 2.5 }, 5.0, 0.0005, 0.02).at(centre.x + start_m, centre.y);
+    let (mut water, mut plume) = plume_in(&spec, nozzle, &area, &bed, &solids, 2.0);
     for n in 0..if flume { 150 } else { 600 } {
-        let t_s = 0.25 * f64::from(n);
-        water.advance(t_s);
-        plume.drift(&water, t_s, t_s + 0.25);
+        water.advance(0.25 * f64::from(n));
+        plume.drift_on(&water, 0.25, n..n + 1);
     }
-    let all: Vec<Vector3<f64>> = plume.iter().map(|f| Vector3::new(f[0], f[1], f[2])).collect();
+    let all: Vec<Vector3<f64>> = plume.places().collect();
     let felt = all.iter().step_by(20).map(|p| plume.concentration(&(p + Vector3::new(0.01, 0.02, 0.0))));
     let felt = felt.collect();
     let local = all.iter().map(|p| p - centre.push(0.0)).collect();

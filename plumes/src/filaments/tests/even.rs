@@ -4,17 +4,19 @@
 //! crosses that frame in one step. Counts are pooled over neighbouring cells and over several times, between which the
 //! water in a pool is exchanged. With n filaments in a pool they are Poisson: noise of 1/√n, 1 % for 10⁴.
 
-use super::water::source;
-use crate::filaments::plume::{Plume, PlumeSettings};
+use super::water::{plume_in, source};
+use crate::filaments::plume::Plume;
 use crate::flow::blockage::Cells;
 use crate::flow::blockage::tests::{area, block, eastward, pile, solids, spec};
 use crate::flow::tests::kit::{meander, rough};
 use crate::flow::{Water, WaterSpec};
 use nalgebra::Vector2;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 use world::area::Area;
 use world::fields::Flow;
 use world::obstacles::Obstacles;
-use world::ranges::{Finite, NonNegative};
+use world::ranges::NonNegative;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 use world::units::Heading;
@@ -38,88 +40,81 @@ impl Scene {
         density: f64,
         frame: usize,
     ) -> Self {
-        let water = spec.build_round(area, bed, solids, 5).unwrap();
-        let settings = PlumeSettings { grid: spec.blockage.as_ref().unwrap().grid_shape(), refresh_s: 5.0 };
-        let mut nozzle = source(0.5, 1e-6, 0.001, 0.1);
         let corner = area.world(Vector2::new(0.49 * area.length_m, 0.49 * area.width_m));
-        nozzle.east_m = Finite::new(corner.x);
-        nozzle.north_m = Finite::new(corner.y);
-        let plume = Plume::new(&[nozzle], area, bed, 3, settings)
-            .unwrap()
-            .with_obstacles(solids.clone())
-            .unwrap()
-            .led_round(water.blocked())
-            .unwrap();
+        let nozzle = source(0.5, 1e-6, 0.001, 0.1).at(corner.x, corner.y);
+        let (water, plume) = plume_in(spec, nozzle, area, bed, solids, 5.0);
         let mut scene = Self { water, plume, rng: Stream::new(4, "test", "even"), density, frame };
-        scene.pour(|_, _| true);
+        scene.pour(|_| true);
         scene
     }
 
-    pub(super) fn cells(&self) -> std::sync::Arc<Cells> {
+    pub(super) fn cells(&self) -> Arc<Cells> {
         self.water.blocked().unwrap().cells().clone()
     }
 
-    fn in_frame(&self, cells: &Cells, i: usize, j: usize) -> bool {
-        let f = self.frame;
-        i < f || j < f || i + f >= cells.n[0] || j + f >= cells.n[1]
+    fn in_frame(&self, [i, j, _]: [usize; 3]) -> bool {
+        let (f, n) = (self.frame, self.cells().n);
+        i < f || j < f || i + f >= n[0] || j + f >= n[1]
     }
 
-    /// Fills the open cells of columns with even dye.
-    fn pour(&mut self, of: impl Fn(usize, usize) -> bool) {
+    /// All cells of the water.
+    fn each(&self) -> impl Iterator<Item = [usize; 3]> + use<> {
+        let n = self.cells().n;
+        (0..n[0] * n[1] * n[2]).map(move |c| [c / (n[1] * n[2]), c / n[2] % n[1], c % n[2]])
+    }
+
+    /// Height of the bed under a place, in the plume's grid.
+    fn bed(&self, p: Vector2<f64>) -> f64 {
+        let [x, y, _] = self.plume.grid().local(&p.push(0.0));
+        f64::from(self.plume.cells.bed(x, y))
+    }
+
+    /// Number of filaments in a cell of even dye.
+    fn even(&self, [i, j, k]: [usize; 3]) -> f64 {
         let cells = self.cells();
-        for i in 0..cells.n[0] {
-            for j in (0..cells.n[1]).filter(|j| of(i, *j)) {
-                for k in 0..cells.n[2] {
-                    if cells.open[cells.cell([i, j, k])] {
-                        self.fill(&cells, [i, j, k]);
-                    }
-                }
+        let depth = -self.bed(cells.place(i as f64 + 0.5, j as f64 + 0.5));
+        self.density * cells.d[0] * cells.d[1] * depth * (cells.s[k + 1] - cells.s[k])
+    }
+
+    /// Fills open cells with even dye.
+    fn pour(&mut self, of: impl Fn([usize; 3]) -> bool) {
+        let cells = self.cells();
+        for at in self.each().filter(|at| cells.open[cells.cell(*at)] && of(*at)) {
+            let [i, j, k] = at;
+            let count = (self.even(at) + self.rng.uniform()) as usize;
+            for _ in 0..count {
+                let [a, b, c] = [0; 3].map(|_| self.rng.uniform());
+                let p = cells.place(i as f64 + a, j as f64 + b);
+                let bed = self.bed(p);
+                let z = bed * (1.0 - cells.s[k] - c * (cells.s[k + 1] - cells.s[k]));
+                let p = self.plume.grid().local(&p.push(z));
+                self.plume.stores_mut()[0].push(p, bed as f32, 0.0);
             }
         }
     }
 
-    fn fill(&mut self, cells: &Cells, [i, j, k]: [usize; 3]) {
-        let bed = |p: Vector2<f64>, plume: &Plume| {
-            let [x, y, _] = plume.grid().local(&p.push(0.0));
-            f64::from(plume.cells.bed(x, y))
-        };
-        let ds = cells.s[k + 1] - cells.s[k];
-        let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
-        let volume = cells.d[0] * cells.d[1] * ds * -bed(middle, &self.plume);
-        let count = (self.density * volume + self.rng.uniform()) as usize;
-        for _ in 0..count {
-            let [a, b, c] = [0; 3].map(|_| self.rng.uniform());
-            let p = cells.place(i as f64 + a, j as f64 + b);
-            let bed = bed(p, &self.plume);
-            let z = bed * (1.0 - cells.s[k] - c * ds);
-            let p = self.plume.grid().local(&p.push(z));
-            self.plume.stores_mut()[0].push(p, bed as f32, 0.0);
-        }
+    /// The cell of a filament, by its ends.
+    fn cell_of(&self, f: [f32; 3]) -> [usize; 3] {
+        let cells = self.cells();
+        let c = cells.in_cells(self.plume.grid().world(f).xy());
+        let s = f64::from((1.0 - f[2] / self.plume.cells.bed(f[0], f[1])).clamp(0.0, 1.0));
+        let of = |d: usize| (c[d].max(0.0) as usize).min(cells.n[d] - 1);
+        [of(0), of(1), cells.level(s)]
     }
 
     /// Fills the frame again and drifts.
-    fn step(&mut self, t: f64, dt: f64) {
-        let cells = self.cells();
-        let keep: Vec<[f32; 4]> = {
-            let s = &self.plume.stores_mut()[0];
-            (0..s.len()).map(|n| [s.x[n], s.y[n], s.z[n], s.bed[n]]).collect()
-        };
-        let grid = self.plume.grid().clone();
-        let store = &mut self.plume.stores_mut()[0];
-        store.truncate(0);
-        for [x, y, z, bed] in keep {
-            let c = cells.in_cells(grid.world([x, y, z]).xy());
-            let f = self.frame as f64;
-            let inside = (0..2).all(|d| c[d] >= f && c[d] < cells.n[d] as f64 - f);
-            if inside {
-                store.push([x, y, z], bed, 0.0);
-            }
+    fn step(&mut self, n: u32, dt: f64) {
+        let inside: Vec<[f32; 3]> = self.plume.all().filter(|f| !self.in_frame(self.cell_of(*f))).collect();
+        self.plume.stores_mut()[0].truncate(0);
+        for f in inside {
+            let bed = self.plume.cells.bed(f[0], f[1]);
+            self.plume.stores_mut()[0].push(f, bed, 0.0);
         }
-        let frame: Vec<bool> =
-            (0..cells.n[0] * cells.n[1]).map(|c| self.in_frame(&cells, c / cells.n[1], c % cells.n[1])).collect();
-        self.pour(|i, j| frame[i * cells.n[1] + j]);
-        self.water.advance(t + dt);
-        self.plume.drift(&self.water, t, t + dt);
+        let frame: Vec<bool> = self.each().map(|at| self.in_frame(at)).collect();
+        let cells = self.cells();
+        self.pour(|at| frame[cells.cell(at)]);
+        self.water.advance(dt * f64::from(n + 1));
+        self.plume.drift_on(&self.water, dt, n..n + 1);
     }
 
     /// Adds the filaments in each cell to `counts`.
@@ -127,47 +122,27 @@ impl Scene {
         let cells = self.cells();
         counts.resize(cells.open.len(), 0.0);
         for f in self.plume.all() {
-            let c = cells.in_cells(self.plume.grid().world(f).xy());
-            let bed = self.plume.cells.bed(f[0], f[1]);
-            let s = f64::from((1.0 - f[2] / bed).clamp(0.0, 1.0));
-            let of = |d: usize| (c[d].max(0.0) as usize).min(cells.n[d] - 1);
-            counts[cells.cell([of(0), of(1), cells.level(s)])] += 1.0;
+            counts[cells.cell(self.cell_of(f))] += 1.0;
         }
     }
 
-    /// Number of filaments over the number for even dye, in each pool of open cells outside the frame. No filament may
-    /// be in a closed cell.
-    fn ratios(&self, counts: &[f64], shots: f64, pool: impl Fn([usize; 3]) -> usize) -> Vec<[f64; 2]> {
+    /// Number of filaments, and that of even dye, in each pool of open cells outside the frame. No filament may be in a
+    /// closed cell.
+    fn pools(&self, counts: &[f64], shots: f64, pool: impl Fn([usize; 3]) -> usize) -> Vec<[f64; 2]> {
         let cells = self.cells();
-        let mut pools: Vec<[f64; 2]> = Vec::new();
-        for i in 0..cells.n[0] {
-            for j in 0..cells.n[1] {
-                let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
-                let grid = self.plume.grid();
-                let [x, y, z] = grid.local(&middle.push(0.0));
-                let depth = -f64::from(grid.sample(x, y, z).bed_z);
-                for k in 0..cells.n[2] {
-                    let at = cells.cell([i, j, k]);
-                    if !cells.open[at] {
-                        // On a shared face, rounding may assign a filament to either side.
-                        assert!(counts[at] <= 1e-4 * shots * self.plume.len() as f64 / 100.0 + 2.0);
-                        continue;
-                    }
-                    if self.in_frame(&cells, i, j) {
-                        continue;
-                    }
-                    let volume = cells.d[0] * cells.d[1] * depth * (cells.s[k + 1] - cells.s[k]);
-                    let n = pool([i, j, k]);
-                    if pools.len() <= n {
-                        pools.resize(n + 1, [0.0; 2]);
-                    }
-                    pools[n][0] += counts[at];
-                    pools[n][1] += volume * self.density * shots;
-                }
+        let mut pools = BTreeMap::<usize, [f64; 2]>::new();
+        for at in self.each() {
+            let got = counts[cells.cell(at)];
+            if !cells.open[cells.cell(at)] {
+                // On a shared face, rounding may assign a filament to either side.
+                assert!(got <= 1e-4 * shots * self.plume.len() as f64 / 100.0 + 2.0);
+            } else if !self.in_frame(at) {
+                let pool = pools.entry(pool(at)).or_default();
+                pool[0] += got;
+                pool[1] += self.even(at) * shots;
             }
         }
-        pools.retain(|p| p[1] > 0.0);
-        pools
+        pools.into_values().collect()
     }
 }
 
@@ -195,12 +170,12 @@ pub(super) fn stays_even(mut scene: Scene, dt: f64, shots: Shots, pool: impl Fn(
     let (mut counts, mut n) = (Vec::new(), 0);
     for shot in 0..shots.count {
         while n < shots.first + shot * shots.then {
-            scene.step(dt * f64::from(n), dt);
+            scene.step(n, dt);
             n += 1;
         }
         scene.count(&mut counts);
     }
-    let mut ratios = scene.ratios(&counts, f64::from(shots.count), pool);
+    let mut ratios = scene.pools(&counts, f64::from(shots.count), pool);
     let off = worst(&ratios);
     let uneven = |[got, even]: &[f64; 2]| (got / even - 1.0).abs();
     ratios.sort_by(|a, b| uneven(b).total_cmp(&uneven(a)));

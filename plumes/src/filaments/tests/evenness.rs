@@ -1,7 +1,7 @@
 //! The computed effect of a step on mixed water, compared with filaments that take the step.
 
-use super::mixed::{BINS, DEPTH, gap, interface, parabola};
-use super::water::{Given, basin, plume, pour, source};
+use super::mixed::{DEPTH, bins, gap, interface, parabola};
+use super::water::{Given, basin, no_plume, pour};
 use crate::filaments::drift::longest_step::{EVEN, SharpestMixing};
 use crate::flow::grid::GridShape;
 use world::math;
@@ -23,7 +23,7 @@ fn sharpest(k_z: impl Fn(f64) -> f64 + Send + Sync) -> SharpestMixing {
 /// Greatest deviation of a bin after `t_s` in steps of `dt_s`, from an even start.
 fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
     let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
-    let mut p = plume(source(1.0, 1e-9, 0.0, 0.1), &BED);
+    let mut p = no_plume(DEPTH);
     let mut r = Stream::new(4, "test", "evenness");
     // One filament in each of as many layers, so that only the steps are random.
     pour(&mut p, FILAMENTS, -DEPTH, |n| {
@@ -31,15 +31,9 @@ fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
         [0.0, 0.0, -DEPTH * part]
     });
     p.drift(&water, -1e-9, 0.0);
-    for i in 0..(t_s / dt_s).round() as usize {
-        p.drift(&water, i as f64 * dt_s, (i + 1) as f64 * dt_s);
-    }
-    let mut counts = [0.0; BINS];
-    for f in p.iter() {
-        let bin = (-f[2] / DEPTH * BINS as f64) as usize;
-        counts[bin.min(BINS - 1)] += BINS as f64 / FILAMENTS as f64;
-    }
-    counts.iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max)
+    p.drift_on(&water, dt_s, 0..(t_s / dt_s).round() as u32);
+    let depths: Vec<f64> = p.iter().map(|f| -f[2]).collect();
+    bins(&depths).iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max)
 }
 
 /// All mixing that a scenario can make: bed, interfaces, a gap, waves; from nearly exact to half wrong.

@@ -1,6 +1,6 @@
 //! Filaments in a channel: none is lost, mixed water stays mixed, and they spread as Taylor and Fischer state.
 
-use super::water::{moments, pour};
+use super::water::{moments, pour, source};
 use crate::filaments::plume::{Plume, PlumeSettings};
 use crate::flow::Water;
 use crate::flow::eddies::tests_eddies::{BED, flume, water};
@@ -24,19 +24,12 @@ pub(super) fn light(length_m: f64, seed: u64) -> Plume {
 }
 
 fn nozzle() -> SourceSpec {
-    SourceSpec {
-        id: "nozzle".into(),
-        east_m: Finite::new(0.0),
-        north_m: Finite::new(0.0),
-        height_m: Some(Finite::new(0.038)),
-        depth_m: None,
-        rate_g_s: Positive::new(0.032557),
-        release: ReleaseSpec {
-            eddy_size_m: Some(Positive::new(0.008)),
-            nozzle: Some(NozzleSpec { diameter_m: Positive::new(0.0042), speed_m_s: Positive::new(0.05) }),
-            ..ReleaseSpec::default()
-        },
-    }
+    let release = ReleaseSpec {
+        eddy_size_m: Some(Positive::new(0.008)),
+        nozzle: Some(NozzleSpec { diameter_m: Positive::new(0.0042), speed_m_s: Positive::new(0.05) }),
+        ..ReleaseSpec::default()
+    };
+    SourceSpec { rate_g_s: Positive::new(0.032557), release, ..source(0.038, 1.0, 0.0, 0.1).at(0.0, 0.0) }
 }
 
 fn of(source: SourceSpec, length_m: f64, seed: u64) -> Plume {
@@ -49,8 +42,7 @@ fn of(source: SourceSpec, length_m: f64, seed: u64) -> Plume {
 fn nobody_leaves_but_down_stream_and_mass_is_kept() {
     let (water, mut plume) = (water(2.5, 2), plume(2.5, 2));
     for n in 0..480 {
-        let t = 0.25 * f64::from(n);
-        plume.drift(&water, t, t + 0.25);
+        plume.drift_on(&water, 0.25, n..n + 1);
         assert!(plume.iter().all(|f| f[1].abs() <= 0.535_001 && (-0.2..=0.0).contains(&f[2])));
     }
     // d/4 = 1.05 mm at 5 cm/s: one filament every 21 ms.
@@ -77,10 +69,7 @@ fn mixed(water: &Water, seed: u64, dt_s: f64) -> Vec<[f64; 5]> {
     if let Some(labels) = &mut plume.stores_mut()[0].labels {
         labels.begin();
     }
-    for n in 0..(30.0 / dt_s) as u32 {
-        let t = dt_s * f64::from(n);
-        plume.drift(water, t, t + dt_s);
-    }
+    plume.drift_on(water, dt_s, 0..(30.0 / dt_s) as u32);
     // Only the poured filaments: they have no kernel of their own. Those of the source lie behind the middle part.
     plume.iter().filter(|f| (2.0..7.0).contains(&f[0])).collect()
 }
@@ -131,10 +120,7 @@ fn spread_is_that_of_open_channels() {
     });
     let mut variance = [0.0; 2];
     for (k, until) in [80, 160].into_iter().enumerate() {
-        for n in 80 * k..until {
-            let t = 0.25 * n as f64;
-            plume.drift(&water, t, t + 0.25);
-        }
+        plume.drift_on(&water, 0.25, until - 80..until);
         let went = plume.iter().zip(&start).map(|(f, y)| f[1] - y);
         variance[k] = went.map(|d| d * d).sum::<f64>() / n as f64;
     }

@@ -1,36 +1,20 @@
 //! The kernel at walls: even dye has one concentration everywhere in the water, and all of a filament's mass is there.
 
-use super::water::{basin, source};
+use super::water::{basin, plume_in, silent, source};
 use crate::filaments::plume::{Plume, PlumeSettings};
 use crate::flow::blockage::tests::{area, block, eastward, pile, solids, spec};
 use crate::flow::{GridShape, Water, WaterSpec};
 use nalgebra::{Vector2, Vector3};
 use world::fields::{Concentration, Flow, SideWalls};
 use world::obstacles::Obstacles;
-use world::ranges::Finite;
 use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: 4.0 };
 
 /// A plume without filaments; any filaments will be 0.6 m in size and neither grow nor move.
 fn plume(spec: &WaterSpec, solids: &Obstacles) -> (Water, Plume) {
-    let area = area(24.0, 24.0, 60.0);
-    let water = spec.build_round(&area, &BED, solids, 1).unwrap();
-    let grid = spec
-        .blockage
-        .as_ref()
-        .map_or(GridShape { cell_m: 2.0, margin_m: 0.0, ..GridShape::default() }, |b| b.grid_shape());
-    let settings = PlumeSettings { grid, refresh_s: 1e9 };
-    let mut nozzle = source(0.5, 1e-9, 0.0, 0.6);
-    let p = area.world(Vector2::new(-11.9, -11.9));
-    (nozzle.east_m, nozzle.north_m) = (Finite::new(p.x), Finite::new(p.y));
-    let plume = Plume::new(&[nozzle], &area, &BED, 3, settings)
-        .unwrap()
-        .with_obstacles(solids.clone())
-        .unwrap()
-        .led_round(water.blocked())
-        .unwrap();
-    (water, plume)
+    let corner = at(-11.9, -11.9, 0.0);
+    plume_in(spec, silent(0.6).at(corner.x, corner.y), &area(24.0, 24.0, 60.0), &BED, solids, 1e9)
 }
 
 /// In an area's own axes, m from its middle.
@@ -39,9 +23,28 @@ fn at(along: f64, across: f64, z: f64) -> Vector3<f64> {
 }
 
 fn put(plume: &mut Plume, p: &Vector3<f64>) {
-    let bed = -4.0;
     let place = plume.grid.local(p);
-    plume.stores_mut()[0].push(place, bed, 0.0);
+    plume.stores_mut()[0].push(place, -4.0, 0.0);
+}
+
+/// Even dye over so many lattice cells each way, in the places that `of` gives for coordinates from a corner: filaments
+/// on a lattice with a spacing of a quarter of a metre, 0.42 of their size, so that the sum over them is the integral
+/// to 1e-4 or better. Returns its concentration.
+fn even(plume: &mut Plume, n: [usize; 3], of: impl Fn([f64; 3]) -> Option<Vector3<f64>>) -> f64 {
+    let h = 0.25;
+    for c in 0..n[0] * n[1] * n[2] {
+        let cell = [c / (n[1] * n[2]), c / n[2] % n[1], c % n[2]];
+        if let Some(p) = of(cell.map(|v| (v as f64 + 0.5) * h)) {
+            put(plume, &p);
+        }
+    }
+    let f = plume.iter().next().expect("filaments");
+    f[4] / (h * h * h)
+}
+
+/// Even dye where it is free, over the whole area.
+fn even_where(plume: &mut Plume, free: impl Fn(&Vector3<f64>) -> bool) -> f64 {
+    even(plume, [96, 96, 16], |[a, b, c]| Some(at(a - 12.0, b - 12.0, -c)).filter(&free))
 }
 
 /// A block with a corner, one that hangs above a gap, and a wall of 2 cm; the blocks' faces coincide with faces of 1 m
@@ -84,25 +87,6 @@ fn blocked() -> WaterSpec {
     eastward(0.0, spec(1.0, 5, 0.0).evenly())
 }
 
-/// Even dye: filaments on a lattice with a spacing of a quarter of a metre, 0.42 of their size, so that the sum over
-/// them is the integral to 1e-4 or better.
-fn even(plume: &mut Plume, free: impl Fn(&Vector3<f64>) -> bool) -> f64 {
-    let h = 0.25;
-    for i in 0..96 {
-        for j in 0..96 {
-            for k in 0..16 {
-                let [a, b, c] = [i, j, k].map(|v| (f64::from(v) + 0.5) * h);
-                let p = at(a - 12.0, b - 12.0, -c);
-                if free(&p) {
-                    put(plume, &p);
-                }
-            }
-        }
-    }
-    let f = plume.iter().next().expect("filaments");
-    f[4] / (h * h * h)
-}
-
 /// Within 0.5 % at walls, corners and under the gap. The requirement is 5 % for filaments and kernel together.
 #[test]
 fn even_dye_reads_the_same_at_walls_and_corners() {
@@ -110,7 +94,7 @@ fn even_dye_reads_the_same_at_walls_and_corners() {
     for spec in [blocked(), WaterSpec::default()] {
         let (_, mut plume) = plume(&spec, &solids);
         let thin = spec.blockage.is_some();
-        let want = even(&mut plume, |p| solids.containing(p).is_none());
+        let want = even_where(&mut plume, |p| solids.containing(p).is_none());
         for [a, b, z] in PLACES {
             let got = plume.concentration(&at(a, b, z)) / want;
             assert!((got - 1.0).abs() < if thin { 0.005 } else { 0.02 }, "{a} {b} {z} blocked {thin}: {got}");
@@ -125,7 +109,7 @@ fn answers_between_walls_do_not_depend_on_how_often_was_asked() {
     let solids = corners(3.0);
     for spec in [blocked(), WaterSpec::default()] {
         let (_, mut plume) = plume(&spec, &solids);
-        even(&mut plume, |p| solids.containing(p).is_none());
+        even_where(&mut plume, |p| solids.containing(p).is_none());
         let fresh = |[a, b, z]: [f64; 3]| plume.clone().concentration(&at(a, b, z));
         let first = PLACES.map(fresh);
         assert!(first.iter().all(|c| *c > 0.0));
@@ -196,7 +180,7 @@ fn every_point_of_the_true_water_answers() {
         let c = cells.in_cells(p.xy()).map(|v| v as usize);
         cells.open[cells.cell([c[0], c[1], 1])]
     };
-    let want = even(&mut plume, open);
+    let want = even_where(&mut plume, open);
     let mut shut = 0;
     for k in 0..720 {
         let (s, c) = world::math::sin_cos(f64::from(k).to_radians() * 0.5);
@@ -226,20 +210,9 @@ impl Flow for Walled {
 fn side_walls_mirror_the_kernel() {
     for size in [0.6, 2.0] {
         let settings = PlumeSettings { grid: GridShape::default(), refresh_s: 1e9 };
-        let mut nozzle = source(0.5, 1e-9, 0.0, size);
-        nozzle.north_m = Finite::new(1.0);
-        let mut plume = Plume::new(&[nozzle], &basin(), &BED, 3, settings).unwrap();
+        let mut plume = Plume::new(&[silent(size).at(-90.0, 1.0)], &basin(), &BED, 3, settings).unwrap();
         plume.drift(&Walled, 0.0, 1e-3);
-        let h = 0.25;
-        for i in -48..48 {
-            for j in 0..16 {
-                for k in 0..16 {
-                    let [a, b, c] = [i, j, k].map(|v| (f64::from(v) + 0.5) * h);
-                    put(&mut plume, &Vector3::new(a, b - 1.0, -c));
-                }
-            }
-        }
-        let want = plume.iter().next().expect("one")[4] / (h * h * h);
+        let want = even(&mut plume, [96, 16, 16], |[a, b, c]| Some(Vector3::new(a - 12.0, b - 1.0, -c)));
         for north in [-0.99, -0.5, 1.0, 2.5, 2.99] {
             for z in [-0.01, -2.0, -3.99] {
                 let got = plume.concentration(&Vector3::new(0.0, north, z)) / want;
@@ -250,25 +223,20 @@ fn side_walls_mirror_the_kernel() {
 }
 
 #[test]
-fn a_source_where_no_water_comes_by_is_refused() {
-    let p = at(2.0, 2.0, 0.0);
-    let solids = solids(&[(pile(2.3, 4.0), p.x, p.y, 0.0)], &BED);
+fn a_source_in_an_obstacle_or_where_no_water_comes_by_is_refused() {
     let area = area(24.0, 24.0, 60.0);
+    let middle = at(2.0, 2.0, 0.0);
+    let solids = solids(&[(pile(2.3, 4.0), middle.x, middle.y, 0.0)], &BED);
     let spec = eastward(0.2, spec(4.0, 3, 0.0));
     let water = spec.build_round(&area, &BED, &solids, 1).unwrap();
-    let settings = PlumeSettings { grid: spec.blockage.as_ref().unwrap().grid_shape(), refresh_s: 5.0 };
-    let mut nozzle = source(0.5, 1.0, 0.001, 0.1);
-    let p = at(0.1, 0.1, 0.0);
-    (nozzle.east_m, nozzle.north_m) = (Finite::new(p.x), Finite::new(p.y));
-    let refused = Plume::new(&[nozzle], &area, &BED, 1, settings)
-        .unwrap()
-        .with_obstacles(solids)
-        .unwrap()
-        .led_round(water.blocked());
-    let said = refused.unwrap_err().to_string();
-    assert!(
-        said.starts_with("sources[0]: source \"s1\" lies in a cell of the blocked water that an obstacle closes")
-            && said.contains("take a smaller water.blockage.cell_m, or bring it to open water, say east"),
-        "{said}"
-    );
+    for (place, said) in [
+        (middle, "source \"s1\" stands inside obstacle \"o\""),
+        (at(0.1, 0.1, 0.0), "in a cell of the blocked water that an obstacle closes"),
+    ] {
+        let settings = PlumeSettings { grid: spec.grid_shape(&area, 4.0), refresh_s: 5.0 };
+        let nozzle = source(0.5, 1.0, 0.001, 0.1).at(place.x, place.y);
+        let plume = Plume::new(&[nozzle], &area, &BED, 1, settings).unwrap().with_obstacles(solids.clone());
+        let e = plume.and_then(|plume| plume.led_round(water.blocked())).unwrap_err().to_string();
+        assert!(e.starts_with("sources[0]: ") && e.contains(said), "{e}");
+    }
 }

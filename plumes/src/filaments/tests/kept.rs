@@ -1,25 +1,16 @@
 //! A kept plume answers as the one that was kept, and goes on as it, bit by bit.
 
 use super::flume;
-use super::water::{pour, source};
-use crate::filaments::plume::{Plume, PlumeSettings};
+use super::water::{off_duck, pour};
+use crate::filaments::plume::Plume;
 use crate::flow::eddies::{tests_eddies, tests_small};
-use crate::flow::grid::GridShape;
-use crate::flow::tests::water::{duck, duck_area, duck_bed};
 use crate::flow::water::Water;
 use nalgebra::Vector3;
 use std::fmt::Debug;
 use world::bits::{Reader, Writer};
 use world::fields::{Concentration, Flow};
 
-/// Water with meanders and layers off Duck, and clean water with a source.
-fn off_duck() -> (Water, Plume) {
-    let water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = PlumeSettings { refresh_s: 10.0, grid: GridShape::fitting(&duck_area()) };
-    let spec = source(0.2, 100.0, 0.001, 0.03);
-    let plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
-    (water, plume)
-}
+type Make = fn() -> (Water, Plume);
 
 /// Water with eddies between the walls of a flume, and a nozzle.
 fn in_flume() -> (Water, Plume) {
@@ -53,9 +44,8 @@ fn kept(plume: &Plume) -> Vec<u8> {
 
 /// Concentrations beside some filaments, by their bits.
 fn felt(plume: &Plume) -> Vec<u64> {
-    let beside = |f: [f64; 5]| Vector3::new(f[0] + 0.01, f[1], f[2]);
-    let some = plume.iter().step_by(50).map(beside);
-    some.map(|p| plume.concentration(&p).to_bits()).collect()
+    let some = plume.places().step_by(50);
+    some.map(|p| plume.concentration(&(p + Vector3::x() * 0.01)).to_bits()).collect()
 }
 
 /// All that decides how filaments go on.
@@ -69,11 +59,8 @@ fn whole(plume: &Plume) -> String {
 
 #[test]
 fn a_kept_plume_answers_and_goes_on_as_the_one_that_was_kept() {
-    let cases = [
-        (off_duck as fn() -> (Water, Plume), 173.0),
-        (in_flume as fn() -> (Water, Plume), 12.3),
-        (in_fine_flume as fn() -> (Water, Plume), 12.3),
-    ];
+    // Meanders and layers, eddies between walls, and small eddies with a buoyant release.
+    let cases: [(Make, f64); 3] = [(|| off_duck(100.0), 173.0), (in_flume, 12.3), (in_fine_flume, 12.3)];
     for (make, end_s) in cases {
         let mut first = make();
         develop(&mut first, end_s);
@@ -85,8 +72,7 @@ fn a_kept_plume_answers_and_goes_on_as_the_one_that_was_kept() {
         other.recall(&water_2, &mut from).unwrap();
         from.end().unwrap();
         assert_eq!(kept(&other), bytes);
-        let places = |p: &Plume| p.iter().collect::<Vec<_>>();
-        assert_eq!(places(&other), places(&plume));
+        assert!(other.iter().eq(plume.iter()));
         assert!(plume.len() > 100 && plume.now_s() == end_s);
         for p in [&mut plume, &mut other] {
             p.pace(end_s, f64::INFINITY, 5.0);
@@ -111,7 +97,7 @@ fn a_kept_plume_answers_and_goes_on_as_the_one_that_was_kept() {
 /// A plume that was paced again may be kept, too: nothing has moved yet.
 #[test]
 fn what_is_kept_does_not_depend_on_the_pace_that_follows() {
-    let mut first = off_duck();
+    let mut first = off_duck(100.0);
     develop(&mut first, 40.0);
     let (_, mut plume) = first;
     let bytes = kept(&plume);
@@ -124,7 +110,7 @@ fn what_is_kept_does_not_depend_on_the_pace_that_follows() {
 #[test]
 #[should_panic(expected = "at the end of its steps")]
 fn a_plume_is_not_kept_within_a_step() {
-    let (water, mut plume) = off_duck();
+    let (water, mut plume) = off_duck(100.0);
     plume.pace(0.0, f64::INFINITY, 5.0);
     plume.advance(&water, 0.1);
     kept(&plume);

@@ -2,7 +2,6 @@
 
 use super::water::{Given, plume, pour, source};
 use nalgebra::Vector3;
-use world::digest::Digest;
 use world::fields::Concentration;
 use world::terrain::Terrain;
 
@@ -74,31 +73,4 @@ fn released_is_here_or_has_left() {
         assert!((sum(5) / p.len() as f64 - 1.0).abs() < 1e-5, "{most}");
     }
     assert!(p.decimated(500).len() > 400);
-}
-
-#[test]
-fn a_copy_goes_on_like_the_original_asked_or_not() {
-    let mut a = plume(source(1.0, 20.0, 0.001, 0.03), &Terrain::Level { depth_m: 6.0 });
-    let water = Given(|_| 0.3, |_| (0.05, 0.002));
-    for k in 0..200 {
-        a.drift(&water, f64::from(k), f64::from(k + 1));
-    }
-    let mut b = a.clone();
-    let mut felt = 0.0;
-    for k in 200..400 {
-        a.drift(&water, f64::from(k), f64::from(k + 1));
-        b.drift(&water, f64::from(k), f64::from(k + 1));
-        felt += b.concentration(&Vector3::new(-60.0, 0.0, -5.0));
-    }
-    let digest = |p: &crate::filaments::Plume| {
-        let mut d = Digest::default();
-        p.digest_into(&mut d);
-        d.hex()
-    };
-    assert_eq!(digest(&a), digest(&b));
-    let q = Vector3::new(-60.0, 0.5, -4.5);
-    assert_eq!(a.concentration(&q).to_bits(), b.concentration(&q).to_bits());
-    assert!(felt > 0.0);
-    b.drift(&water, 400.0, 401.0);
-    assert_ne!(digest(&a), digest(&b));
 }

@@ -4,12 +4,11 @@
 use super::water::{basin, source};
 use crate::filaments::displaced::DisplacedConcentration;
 use crate::filaments::plume::{Plume, PlumeSettings};
+use crate::flow::Water;
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::grid::GridShape;
-use crate::flow::tests::kit::uniform;
+use crate::flow::tests::kit::{of, uniform};
 use crate::flow::waves::tests::{regular, train};
-use crate::flow::{Water, WaterSpec};
-use crate::release::SourceSpec;
 use nalgebra::Vector3;
 use world::fields::{Concentration, Flow};
 use world::ranges::NonNegative;
@@ -25,25 +24,17 @@ fn water(stokes: bool) -> Water {
     let mut waves = regular(vec![train(0.3, 4.0, 90.0)]);
     waves.stokes = stokes;
     waves.mixing = NonNegative::new(0.0);
-    let spec = WaterSpec { currents: vec![uniform(0.05, 90.0), CurrentSpec::new(waves)], ..WaterSpec::default() };
-    spec.build(&basin(), &BED, 1).unwrap()
+    of(vec![uniform(0.05, 90.0), CurrentSpec::new(waves)]).build(&basin(), &BED, 1).unwrap()
 }
 
 /// Filaments that neither grow nor spread, ten per second at equal intervals.
-fn thread() -> SourceSpec {
-    let mut spec = source(HEIGHT, 10.0, 0.0, 0.05);
-    spec.release.poisson = false;
-    spec
-}
-
 fn plume(water: &Water, until_s: f64) -> Plume {
-    let settings =
-        PlumeSettings { grid: GridShape { levels: 60, stretch: 0.0, ..GridShape::default() }, refresh_s: 10.0 };
-    let mut plume = Plume::new(&[thread()], &basin(), &BED, 1, settings).unwrap();
-    let steps = (until_s / 0.5) as u32;
-    for n in 0..steps {
-        plume.drift(water, f64::from(n) * 0.5, f64::from(n + 1) * 0.5);
-    }
+    let mut thread = source(HEIGHT, 10.0, 0.0, 0.05);
+    thread.release.poisson = false;
+    let grid = GridShape { levels: 60, stretch: 0.0, ..GridShape::default() };
+    let settings = PlumeSettings { grid, refresh_s: 10.0 };
+    let mut plume = Plume::new(&[thread], &basin(), &BED, 1, settings).unwrap();
+    plume.drift_on(water, 0.5, 0..(until_s / 0.5) as u32);
     plume
 }
 
@@ -67,15 +58,14 @@ fn particle(water: &Water, from_s: f64, to_s: f64) -> Vector3<f64> {
 fn worst(stokes: bool) -> f64 {
     let water = water(stokes);
     let plume = plume(&water, 200.0);
-    let store: Vec<_> = plume.iter().collect();
+    let all: Vec<_> = plume.places().collect();
     // The age of the n-th filament follows from its place in the row: the first interval begins at zero.
-    let born = |n: usize| 200.0 - (store.len() - n) as f64 * 0.1;
+    let born = |n: usize| 200.0 - (all.len() - n) as f64 * 0.1;
     let offset = plume.len() as f64 * 0.1 - 200.0;
     assert!(offset.abs() <= 0.1, "{offset}");
     let mut worst: f64 = 0.0;
-    for n in (0..store.len() - 1).step_by(133) {
-        let mean = Vector3::new(store[n][0], store[n][1], store[n][2]).map(f64::from);
-        let there = mean + water.displacement(&mean, 200.0).unwrap();
+    for n in (0..all.len() - 1).step_by(133) {
+        let there = all[n] + water.displacement(&all[n], 200.0).unwrap();
         // Released at most a tenth of a second apart, while the water moves at 16 cm/s at most.
         let off = [born(n), born(n) + 0.1].map(|from| (particle(&water, from, 200.0) - there).norm());
         worst = worst.max(off[0].min(off[1]));
@@ -96,8 +86,7 @@ fn mean_place_plus_orbit_is_where_particles_are() {
 fn a_probe_meets_the_dye_where_the_orbit_has_carried_it() {
     let water = water(true);
     let plume = plume(&water, 60.0);
-    let all: Vec<_> = plume.iter().collect();
-    let mean = Vector3::new(all[200][0], all[200][1], all[200][2]).map(f64::from);
+    let mean = plume.places().nth(200).unwrap();
     for t in [60.0, 61.0, 62.3] {
         let way = water.displacement(&mean, t).unwrap();
         assert!(way.norm() > 0.09);

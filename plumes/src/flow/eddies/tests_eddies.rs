@@ -2,10 +2,11 @@
 
 use super::stretch::{LENGTH, Shape, Stretch};
 use super::{Eddies, EddiesSpec};
+use crate::flow::Water;
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::Channel;
 use crate::flow::channel::open_channel::OpenChannelSpec;
-use crate::flow::{Water, WaterSpec};
+use crate::flow::tests::kit::of;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::Flow;
@@ -31,8 +32,7 @@ pub(crate) fn flume(length_m: f64) -> Area {
 pub(crate) const BED: Terrain = Terrain::Level { depth_m: 0.2 };
 
 pub(crate) fn water(length_m: f64, seed: u64) -> Water {
-    let spec = WaterSpec { currents: vec![CurrentSpec::new(channel_spec(0.05, 0.0))], ..WaterSpec::default() };
-    spec.build(&flume(length_m), &BED, seed).unwrap()
+    of(vec![CurrentSpec::new(channel_spec(0.05, 0.0))]).build(&flume(length_m), &BED, seed).unwrap()
 }
 
 fn parts(seed: u64) -> (Channel, Eddies) {
@@ -232,29 +232,4 @@ fn places_are_carried_with_the_velocity_there() {
     let went = Vector3::new(f64::from(x[0]), f64::from(y[0]), f64::from(z[0])) - p;
     // Half a step ahead the water is 0.1 mm further on, with gradients of 0.5 1/s: 3e-6 m; f32 at 0.3 m: 3e-8 m.
     assert!((went - v).norm() < 3e-6 && v.norm() > 2e-5, "{went} {v}");
-}
-
-/// What the spec refuses, each with field and range.
-#[test]
-fn what_cannot_be_is_refused() {
-    let said = |spec: OpenChannelSpec, area: Area, bed: Terrain| {
-        let spec = WaterSpec { currents: vec![CurrentSpec::new(spec)], ..WaterSpec::default() };
-        spec.build(&area, &bed, 1).unwrap_err().to_string()
-    };
-    let fine = channel_spec(0.05, 0.0);
-    let across = OpenChannelSpec { heading_deg: HeadingDeg::new(30.0), ..fine.clone() };
-    let text = said(across, flume(2.5), BED);
-    assert!(
-        text.contains("currents[0].heading_deg: an OpenChannel flows along the area's axis, 90 or 270 degrees, got 30"),
-        "{text}"
-    );
-    let text = said(channel_spec(0.005, 0.0), flume(2.5), BED);
-    assert!(text.contains("currents[0].mean_m_s: gives a Reynolds number of 1000, must be >= 0.01"), "{text}");
-    let text = said(channel_spec(0.05, 0.15), flume(2.5), BED);
-    assert!(text.contains("roughness_m: must be >= 0 and at most 0.1"), "{text}");
-    let text = said(fine.clone(), flume(2.5), Terrain::Level { depth_m: 0.6 });
-    assert!(text.contains("2 to 20 times as wide as deep"), "{text}");
-    let coarse = OpenChannelSpec { eddies: Some(EddiesSpec { cells_a_depth: 4, ..EddiesSpec::default() }), ..fine };
-    let text = said(coarse, flume(2.5), BED);
-    assert!(text.contains("eddies.cells_a_depth: must be from 8 to 32, got 4"), "{text}");
 }

@@ -72,14 +72,3 @@ impl PlaneCurrent for Uniform {
         still(self.0)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn water_goes_where_the_heading_points() {
-        let u = UniformSpec { speed_m_s: NonNegative::new(0.5), heading_deg: HeadingDeg::new(90.0) };
-        assert!((u.velocity() - Vector2::new(0.5, 0.0)).norm() < 1e-15);
-    }
-}

@@ -2,12 +2,18 @@
 
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 
+use crate::flow::WaterSpec;
 use crate::flow::bed::BedSpec;
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
 use crate::flow::plane_current::meander::MeanderSpec;
 use crate::flow::plane_current::tide::{ConstituentSpec, TideSpec};
 use crate::flow::plane_current::uniform::UniformSpec;
+
+/// Water of these currents and nothing else.
+pub(crate) fn of(currents: Vec<CurrentSpec>) -> WaterSpec {
+    WaterSpec { currents, ..WaterSpec::default() }
+}
 
 pub(crate) fn uniform(speed: f64, heading: f64) -> CurrentSpec {
     CurrentSpec::new(UniformSpec { speed_m_s: NonNegative::new(speed), heading_deg: HeadingDeg::new(heading) })
@@ -40,18 +46,26 @@ pub(crate) fn two_layers(layers: [LayerSpec; 2], depth: f64, thickness: f64, wav
 }
 
 pub(crate) fn meander(std: f64, omega: f64, cell: f64) -> CurrentSpec {
-    CurrentSpec::new(MeanderSpec {
+    CurrentSpec::new(meander_spec(std, omega, cell))
+}
+
+pub(crate) fn meander_spec(std: f64, omega: f64, cell: f64) -> MeanderSpec {
+    MeanderSpec {
         std_m_s: NonNegative::new(std),
         omega_rad_s: Positive::new(omega),
         damping: Positive::new(0.1),
         cell_m: Positive::new(cell),
         diffusivity_m2_s: None,
-    })
+    }
 }
 
 /// A tide of 0.3 m/s.
 pub(crate) fn tide(minor: f64, heading: f64) -> CurrentSpec {
-    CurrentSpec::new(TideSpec {
+    CurrentSpec::new(tide_spec(minor, heading))
+}
+
+pub(crate) fn tide_spec(minor: f64, heading: f64) -> TideSpec {
+    TideSpec {
         constituents: vec![ConstituentSpec {
             period_h: Positive::new(12.42),
             major_m_s: NonNegative::new(0.3),
@@ -59,7 +73,7 @@ pub(crate) fn tide(minor: f64, heading: f64) -> CurrentSpec {
             heading_deg: HeadingDeg::new(heading),
             phase_deg: Finite::new(40.0),
         }],
-    })
+    }
 }
 
 pub(crate) fn rough(roughness: f64, thickness: f64) -> Option<BedSpec> {

@@ -4,7 +4,7 @@ use nalgebra::{Vector2, Vector3};
 use world::fields::Flow;
 use world::terrain::Terrain;
 
-use super::kit::{layer, tide, two_layers, uniform, wave};
+use super::kit::{layer, of, tide, two_layers, uniform, wave};
 use super::water::{duck, duck_area, duck_bed, places};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::number::{Jet, Number};
@@ -102,9 +102,8 @@ fn layers_are_numbers_however_far_from_a_thin_interface() {
     for (depth_m, interface_m, thickness_m) in [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)] {
         let waves = vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))];
         let layers = two_layers([layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)], interface_m, thickness_m, waves);
-        let spec = WaterSpec { currents: vec![CurrentSpec::new(layers)], ..WaterSpec::default() };
         let bed = Terrain::Level { depth_m };
-        let water = spec.build(&duck_area(), &bed, 7).unwrap();
+        let water = of(vec![CurrentSpec::new(layers)]).build(&duck_area(), &bed, 7).unwrap();
         for k in 0..=1000 {
             let z = -depth_m * f64::from(k) / 1000.0;
             let s = water.sample(&Vector3::new(3.0, 4.0, z), 5.0);

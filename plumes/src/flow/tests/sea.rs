@@ -7,7 +7,7 @@ use world::math;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-use super::kit::{rough, tide};
+use super::kit::{of, rough, tide};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::waves::tests::{regular, train};
 use crate::flow::{Water, WaterSpec};
@@ -23,8 +23,7 @@ fn waves() -> CurrentSpec {
 }
 
 fn build(currents: Vec<CurrentSpec>) -> Water {
-    let spec = WaterSpec { currents, bed: rough(0.001, 8.0), ..WaterSpec::default() };
-    spec.build(&area(), &BED, 3).unwrap()
+    WaterSpec { bed: rough(0.001, 8.0), ..of(currents) }.build(&area(), &BED, 3).unwrap()
 }
 
 #[test]
@@ -67,11 +66,4 @@ fn hull_feels_orbits_with_gradient_and_rate_and_the_plume_does_not() {
     assert!(stirred > 1e-4 && (k.x - calm.mixing(&p, 500.0).k_z_m2_s - stirred).abs() < 1e-12);
     assert_eq!(rough.displacement(&p, 500.0), Some(waves.displacement(&p, 500.0)));
     assert_eq!((calm.displacement(&p, 500.0), calm.head(&p, 500.0)), (None, 0.0));
-}
-
-#[test]
-fn a_second_sea_is_refused() {
-    let spec = WaterSpec { currents: vec![waves(), waves()], ..WaterSpec::default() };
-    let said = spec.build(&area(), &BED, 3).unwrap_err().to_string();
-    assert!(said.starts_with("water.currents[1]: only one Waves can move the surface"), "{said}");
 }

@@ -23,7 +23,7 @@ pub(crate) fn duck_bed() -> Terrain {
     Terrain::sloping_over(&duck_area(), Heading::from_deg(250.0), 4.0, 8.0)
 }
 
-fn duck_layers() -> LayeredSpec {
+pub(crate) fn duck_layers() -> LayeredSpec {
     let waves = vec![wave(0.3, 420.0, 1900.0, 250.0, None), wave(0.15, 260.0, 1200.0, 310.0, Some(70.0))];
     two_layers([layer(0.22, 350.0, 1020.0), layer(0.12, 158.0, 1024.0)], 1.8, 0.8, waves)
 }
@@ -39,12 +39,6 @@ pub(crate) fn duck() -> WaterSpec {
 
 fn build(spec: &WaterSpec) -> Water {
     spec.build(&duck_area(), &duck_bed(), 7).unwrap()
-}
-
-fn said(currents: Vec<CurrentSpec>) -> String {
-    let spec = WaterSpec { currents, ..WaterSpec::default() };
-    let e = spec.build(&duck_area(), &duck_bed(), 7);
-    e.unwrap_err().to_string()
 }
 
 /// Places inside the area.
@@ -81,13 +75,21 @@ fn flow_is_tangent_to_the_bed_and_the_surface() {
     }
 }
 
+/// With friction the water stands at the bed, and lighter water lies above. No mixing is negative, and there is none at
+/// bed and surface.
 #[test]
-fn with_friction_water_at_the_bed_stands() {
+fn columns_stand_on_the_bed_with_the_lightest_on_top() {
     let w = build(&duck());
-    for p in places(50) {
+    for p in places(100) {
         let column = w.column(p, 0.0);
+        let u_star = column.friction_velocity();
         assert_eq!(column.velocity(column.bed_z()), Vector3::zeros());
-        assert!(column.friction_velocity() > 0.0);
+        let at = |n: u32| column.bed_z() * (f64::from(n) / 100.0);
+        let k = |n: u32| column.mixing(at(n), u_star).k_z_m2_s;
+        let rho = |n: u32| column.density(at(n));
+        assert!((0..100).all(|n| k(n) >= 0.0 && rho(n) <= rho(n + 1)));
+        assert_eq!((k(0), k(100)), (0.0, 0.0));
+        assert!(u_star > 0.0 && k(70) > 0.0 && rho(0) < 1020.1 && rho(100) > 1023.9);
     }
 }
 
@@ -111,17 +113,6 @@ fn interface_moves_and_water_goes_with_it() {
     let (low, high) = (0..400).map(here).fold((0.0_f64, -9.0_f64), |(l, h), z| (l.min(z), h.max(z)));
     // Sum of the amplitudes 0.45 m about −1.8 m.
     assert!(low >= -2.25 && high <= -1.35 && high - low > 0.6, "{low} {high}");
-}
-
-#[test]
-fn lighter_water_lies_above() {
-    let w = build(&duck());
-    for p in places(50) {
-        let column = w.column(p, 0.0);
-        let rho = |k: u32| column.density(column.bed_z() * f64::from(k) / 40.0);
-        assert!((0..40).all(|k| rho(k) <= rho(k + 1)));
-        assert!(rho(0) < 1020.1 && rho(40) > 1023.9);
-    }
 }
 
 #[test]
@@ -172,20 +163,6 @@ fn divergence_is_what_the_files_say() {
     assert!(worst < 1.5e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal, "{worst} {rms} {horizontal}");
 }
 
-#[test]
-fn mixing_is_never_negative_and_ends_at_the_bed() {
-    let w = build(&duck());
-    for p in places(100) {
-        let column = w.column(p, 0.0);
-        let u_star = column.friction_velocity();
-        let k = |part: f64| column.mixing(column.bed_z() * part, u_star).k_z_m2_s;
-        assert!((0..=100).all(|i| k(f64::from(i) / 100.0) >= 0.0));
-        assert_eq!(k(1.0), 0.0);
-        assert_eq!(k(0.0), 0.0);
-        assert!(k(0.7) > 0.0);
-    }
-}
-
 /// A smooth flume of 20 cm at 5 cm/s (Webster, Volyanskyy & Weissburg 2012): u_* = 2.8 mm/s with z0 = ν/(9u_*) = 0.04
 /// mm over the whole depth; then K_y = 0.15 u_*H = 8.4e-5 and the depth mean of K_z is κu_*H/6 = 3.7e-5 m²/s.
 #[test]
@@ -194,8 +171,7 @@ fn a_flume_has_its_friction_and_mixing() {
         currents: vec![uniform(0.0596, 90.0)],
         bed: rough(4e-5, 0.2),
         mixing: MixingSpec { transverse: NonNegative::new(0.15), ..MixingSpec::default() },
-        density_kg_m3: Positive::new(998.0),
-        blockage: None,
+        ..WaterSpec::default()
     };
     let bed = Terrain::Level { depth_m: 0.2 };
     let w = spec.build(&duck_area(), &bed, 1).unwrap();
@@ -232,39 +208,10 @@ fn stratification_damps_mixing_at_the_interface() {
 
 #[test]
 fn phases_come_from_the_seed_or_the_file() {
-    let area = duck_area();
     let at = |seed| {
-        let w = duck().build(&area, &duck_bed(), seed).unwrap();
+        let w = duck().build(&duck_area(), &duck_bed(), seed).unwrap();
         w.column(Vector2::zeros(), 0.0).interfaces()[0].z
     };
     assert_eq!(at(1), at(1));
     assert_ne!(at(1), at(2));
-}
-
-#[test]
-fn impossible_water_is_refused_by_field() {
-    let layered = |f: &dyn Fn(&mut LayeredSpec)| {
-        let mut l = duck_layers();
-        f(&mut l);
-        CurrentSpec::new(l)
-    };
-    assert_eq!(
-        said(vec![uniform(0.0, 0.0), layered(&|l| l.layers.clear())]),
-        "water.currents[1].layers: needs from 1 to 4 layers, got 0"
-    );
-    assert_eq!(
-        said(vec![layered(&|l| l.interfaces.clear())]),
-        "water.currents[0].interfaces: 2 layers need 1 interfaces, got 0"
-    );
-    let light_below = layered(&|l| l.layers[1].density_kg_m3 = Positive::new(1000.0));
-    assert!(said(vec![light_below]).starts_with("water.currents[0].layers[1].density_kg_m3: must be >= 1020"));
-    let crossed = layered(&|l| {
-        l.layers.push(l.layers[1].clone());
-        let mut second = l.interfaces[0].clone();
-        second.depth_m = Positive::new(1.0);
-        l.interfaces.push(second);
-    });
-    assert!(said(vec![crossed]).starts_with("water.currents[0].interfaces[1].depth_m: must be > 1.8"));
-    let twice = vec![layered(&|_| ()), layered(&|_| ())];
-    assert!(said(twice).starts_with("water.currents[1]: only one Layered"));
 }

@@ -170,15 +170,6 @@ mod tests {
         spec(components).draw(&mut Stream::new(3, "test", "sea"))
     }
 
-    #[test]
-    fn variance_is_that_of_the_significant_height() {
-        for n in [1, 7, 32, 200] {
-            let waves = drawn(n);
-            let m0: f64 = waves.iter().map(|w| 0.5 * w.amplitude_m.powi(2)).sum();
-            assert!((m0 / (0.25 / 16.0) - 1.0).abs() < 1e-12, "{n}");
-        }
-    }
-
     /// Mean period of a JONSWAP sea with γ = 3.3 is 0.834 of the peak's (Goda 2010, section 2.3), of a Pierson-Moskowitz one 0.772.
     #[test]
     fn mean_frequency_is_the_spectrums() {

@@ -252,20 +252,18 @@ mod tests {
 
     #[test]
     fn what_cannot_be_made_is_refused() {
+        use Solute::{Dye, Ethanol, Propanol, SodiumChloride};
         let of = |what, g_l| DissolvedSpec { what, g_l: Positive::new(g_l) };
-        let refused = |spec: CompositionSpec, density: f64| {
-            let (field, problem) = spec.litre(density).expect_err("impossible");
-            format!("{field}: {problem}")
-        };
-        let with = |solutes, neutral_with| CompositionSpec { solutes, neutral_with, ..Default::default() };
-        assert!(
-            refused(with(vec![of(Solute::Propanol, 500.0)], None), 998.2)
-                .starts_with("solutes[0].g_l: must be at most 280")
-        );
-        assert!(refused(with(vec![of(Solute::Dye, 1.0), of(Solute::Dye, 1.0)], None), 998.2).contains("given twice"));
-        assert!(refused(with(vec![], Some(Solute::SodiumChloride)), 998.2).contains("no amount of"));
-        assert!(refused(with(vec![], None), 1100.0).starts_with("around_c: "));
-        let full = with(vec![of(Solute::Ethanol, 600.0), of(Solute::Propanol, 280.0)], None);
-        assert!(refused(full, 998.2).contains("more than a litre"));
+        for (solutes, neutral_with, density, said) in [
+            (vec![of(Propanol, 500.0)], None, 998.2, "solutes[0].g_l: must be at most 280"),
+            (vec![of(Dye, 1.0), of(Dye, 1.0)], None, 998.2, "given twice"),
+            (vec![], Some(SodiumChloride), 998.2, "no amount of"),
+            (vec![], None, 1100.0, "around_c: "),
+            (vec![of(Ethanol, 600.0), of(Propanol, 280.0)], None, 998.2, "more than a litre"),
+        ] {
+            let spec = CompositionSpec { solutes, neutral_with, ..Default::default() };
+            let (field, problem) = spec.litre(density).expect_err(said);
+            assert!(format!("{field}: {problem}").contains(said), "{field}: {problem}");
+        }
     }
 }
