@@ -1,4 +1,5 @@
-//! What holds: one test binary. `tests/README.md` says what each folder is for; `common` and `waits` are what several of
+//! What holds: one test binary. `tests/README.md` says what each folder is for; `common` and `waits` are what several
+//! of
 //! them need.
 
 mod campaign;

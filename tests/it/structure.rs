@@ -1,4 +1,5 @@
-//! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure/robots.rs`.
+//! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in
+//! `structure/robots.rs`.
 
 mod files;
 mod packages;
@@ -6,14 +7,9 @@ mod promises;
 mod readme;
 mod robots;
 
-use crate::common::root;
+use crate::common::{read, root};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
-
-fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
 
 /// All Rust files below a folder of the workspace, as (path from the root, text).
 pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
@@ -26,7 +22,8 @@ pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
                 open.push(path);
             } else if path.extension().is_some_and(|e| e == "rs") {
                 let name = path.strip_prefix(root()).unwrap().display().to_string();
-                found.push((name, read(&path)));
+                let text = read(&name);
+                found.push((name, text));
             }
         }
     }
@@ -37,7 +34,7 @@ pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
 
 /// Names of the normal dependencies in a crate's manifest.
 fn dependencies(krate: &str) -> Vec<String> {
-    let text = read(&root().join(krate).join("Cargo.toml"));
+    let text = read(&format!("{krate}/Cargo.toml"));
     let mut inside = false;
     let mut names = Vec::new();
     for line in text.lines() {
@@ -201,7 +198,8 @@ fn only_systems_speak_ecs() {
     }
 }
 
-/// Whatever is opened any other way could be a pipe that is waited for, or a device or a link's target that is overwritten.
+/// Whatever is opened any other way could be a pipe that is waited for, or a device or a link's target that is
+/// overwritten.
 #[test]
 fn files_are_opened_in_one_room() {
     let ways = [

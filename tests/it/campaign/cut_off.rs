@@ -1,7 +1,7 @@
 //! Campaigns cut off: killed at any moment, or asked to stop.
 
-use super::{blocks, ends, folder, rows, scheduler_free};
-use crate::common;
+use super::{blocks, ends, folder, rows};
+use crate::common::{self, says};
 use crate::waits::{INT, Process, TERM, kill_again_and_again, pause, until};
 use std::fs;
 use std::path::Path;
@@ -10,22 +10,19 @@ use world::seeds::Stream;
 
 fn start(dir: &Path) -> Process {
     let args = ["campaign", "run", "c.ron", "--out", "out", "--block", "4", "--quiet", "--jobs", "2"];
-    let mut command = scheduler_free(common::command(dir, &args));
+    let mut command = common::command(dir, &args);
     Process::start(command.stdout(Stdio::null()).stderr(Stdio::null()))
 }
 
 /// How many blocks have their final name.
 fn count(out: &Path) -> usize {
-    let names = fs::read_dir(out).into_iter().flatten();
-    let names = names.map(|f| f.unwrap().file_name().into_string().unwrap());
-    let whole = |name: &String| name.starts_with("part-") && name.ends_with(".parquet");
-    names.filter(whole).count()
+    blocks(out).len()
 }
 
 #[test]
 fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
     const BLOCKS: usize = 40;
-    let folder = folder(BLOCKS as u64, "10", "2");
+    let folder = folder(BLOCKS as u64, 10.0, 2.0);
     let dir = folder.path();
     let out = dir.join("out");
     let mut draw = Stream::new(1, "kill", "after");
@@ -51,8 +48,7 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
     let start = || start(dir);
     let [kills, grew] = kill_again_and_again(start, || count(&out), || draw.uniform(), killed);
     assert!(kills >= 15 && grew >= 5, "{kills} kills, {grew} with blocks");
-    let args = ["run", "c.ron", "--out", "straight", "--block", "4", "--quiet"];
-    ends(dir, 0, &args);
+    ends(dir, 0, &["run", "c.ron", "--out", "straight", "--block", "4", "--quiet"]);
     assert_eq!(rows(&out), rows(&dir.join("straight")));
     assert_eq!(rows(&out).len(), 4 * BLOCKS);
 }
@@ -60,7 +56,7 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
 #[cfg(unix)]
 #[test]
 fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
-    let folder = folder(500, "30", "4");
+    let folder = folder(500, 30.0, 4.0);
     let dir = folder.path();
     let mut child = start(dir);
     assert!(child.handles(TERM));
@@ -74,8 +70,7 @@ fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
     assert!(done >= 8, "{done}");
     // A limit of wall time ends it the same way.
     let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s", "--jobs", "1"];
-    let (_, said) = ends(dir, 75, &args);
-    assert!(said.contains("the same command continues"), "{said}");
+    says(&ends(dir, 75, &args).1, &["the same command continues"]);
     assert!(rows(&dir.join("out")).len() >= done);
 }
 
@@ -83,7 +78,7 @@ fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
 #[test]
 fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() {
     const RUNS: usize = 160;
-    let folder = folder(RUNS as u64 / 4, "10", "2");
+    let folder = folder(RUNS as u64 / 4, 10.0, 2.0);
     let dir = folder.path();
     let block = RUNS.to_string();
     let args = ["campaign", "run", "c.ron", "--out", "out", "--block", &block, "--jobs", "2"];
@@ -91,7 +86,7 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
     let first = 0.05;
     let mut after = first;
     let said = until("it is asked to stop between its first run and its last", || {
-        let mut command = scheduler_free(common::command(dir, &args));
+        let mut command = common::command(dir, &args);
         let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
         let mut process = Process::start(command);
         if process.handles(INT) {
@@ -115,21 +110,16 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
     });
     let part = rows(&out);
     let n = part.len();
-    assert!(said.contains(" done and written, ") && said.contains("the same command continues"), "{said}");
     assert!(n > 0 && n < RUNS, "{n} of one block's {RUNS} rows");
-    assert!(said.contains(&format!("{} left;", RUNS - n)), "{n}: {said}");
-    let (said, _) = ends(dir, 75, &["status", "out"]);
-    assert!(said.contains(&format!("{n} of {RUNS} runs done, 0 of 1 block whole")), "{said}");
-    let (said, said_of_missing) = ends(dir, 0, &["merge", "out", "-o", "all.parquet"]);
-    assert!(said.starts_with(&format!("{n} row")), "{said}");
-    assert!(said_of_missing.contains(&format!("{} runs missing", RUNS - n)), "{said_of_missing}");
+    says(&said, &[&format!("{} left;", RUNS - n), "the same command continues"]);
+    says(&ends(dir, 75, &["status", "out"]).0, &[&format!("{n} of {RUNS} runs done, 0 of 1 block whole")]);
+    let (said, missing) = ends(dir, 0, &["merge", "out", "-o", "all.parquet"]);
+    says(&said, &[&format!("{n} row")]);
+    says(&missing, &[&format!("{} runs missing", RUNS - n)]);
     // What is done is not done again, and all is as if it had never been cut off, by whatever blocks.
-    let walls = |rows: &[studies::campaign::RunRow]| -> Vec<(u64, f64)> {
-        rows.iter().map(|r| (r.run, r.mission_wall_s)).collect()
-    };
-    let before = walls(&studies::campaign::read_rows(&out).unwrap());
+    let before = studies::campaign::read_rows(&out).unwrap();
     ends(dir, 0, &["run", "c.ron", "--out", "out", "--quiet"]);
-    let after = walls(&studies::campaign::read_rows(&out).unwrap());
+    let after = studies::campaign::read_rows(&out).unwrap();
     assert!(before.iter().all(|row| after.contains(row)));
     ends(dir, 0, &["run", "c.ron", "--out", "by_cost", "--quiet"]);
     assert_eq!(rows(&out), rows(&dir.join("by_cost")));

@@ -1,6 +1,7 @@
 //! Campaigns whose runs have a secret key beside their seeds.
 
 use super::{ends, folder, rows};
+use crate::common::says;
 use std::fs;
 
 const RUN: [&str; 7] = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
@@ -9,7 +10,7 @@ const KEY: [&str; 2] = ["--key", SECRET];
 
 #[test]
 fn runs_under_different_keys_never_share_a_folder() {
-    let folder = folder(1, "30", "1");
+    let folder = folder(1, 30.0, 1.0);
     let dir = folder.path();
     let keyed = |code: i32, args: &[&str]| ends(dir, code, &[args, &KEY].concat());
     keyed(0, &RUN);
@@ -18,12 +19,10 @@ fn runs_under_different_keys_never_share_a_folder() {
     let mark = world::seeds::Key::secret(SECRET).mark().unwrap();
     assert!(manifest.contains(&mark) && !manifest.contains(SECRET), "{manifest}");
     // Whoever goes on without it is told so, and loses nothing.
-    let (_, said) = ends(dir, 1, &RUN);
-    assert!(said.contains(&format!("mark of the key {mark} there, none here")), "{said}");
-    let (_, said) = ends(dir, 1, &["rerun", "out", "--run", "0", "--quiet"]);
-    assert!(said.contains(&format!("the mark {mark}: give it with --key")), "{said}");
-    let (said, _) = keyed(0, &["rerun", "out", "--run", "0", "--quiet"]);
-    assert!(said.contains("the same digest as its row"), "{said}");
+    let rerun = ["rerun", "out", "--run", "0", "--quiet"];
+    says(&ends(dir, 1, &RUN).1, &[&format!("{mark} there, none here")]);
+    says(&ends(dir, 1, &rerun).1, &[&mark, "--key"]);
+    says(&keyed(0, &rerun).0, &["the same digest"]);
     // Reading needs no key.
     ends(dir, 0, &["status", "out"]);
     fs::remove_dir_all(dir.join("out")).unwrap();

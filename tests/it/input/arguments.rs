@@ -1,9 +1,10 @@
 //! What the command line takes: its forms, their legal ranges, and help that teaches.
 
-use crate::common::rheotaxis;
+use crate::common::{rheotaxis, says};
 use clap::{CommandFactory, Parser};
-use command::{Args, CacheCommandArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed};
+use command::{Args, CacheCommandArgs, CampaignArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed};
 use rheotaxis::registry::{Group, Registry, sections};
+use rheotaxis::scenario::CATALOG;
 use robots::strategy::{ColourSpec, Edges, VerifierSpec};
 use robots::vehicles::SHIPPED;
 
@@ -27,68 +28,52 @@ fn the_help_of_every_command_says_more_than_the_list() {
     }
 }
 
+/// What a value reads as, by the argument that takes it.
+fn read(argument: &str, text: &str) -> Option<f64> {
+    match argument {
+        "--memory" => Args::try_parse_from(["rheotaxis", "check", "a.ron", "--memory", text]).ok().map(|a| a.memory),
+        "--speed" => match text.parse() {
+            Ok(Speed::Times(times)) => Some(times),
+            Ok(Speed::Max) => Some(f64::INFINITY),
+            Err(_) => None,
+        },
+        "--until-width" => match parsed(&["reproduce", "--until-width", text])? {
+            Command::Reproduce(args) => args.until_width,
+            other => panic!("{other:?}"),
+        },
+        "--max-wall" => match parsed(&["campaign", "run", "c.ron", "--out", "o", "--max-wall", text])? {
+            Command::Campaign(CampaignArgs { command: CampaignCommand::Run(args) }) => {
+                args.max_wall.map(|d| d.as_secs_f64())
+            }
+            other => panic!("{other:?}"),
+        },
+        other => panic!("{other}"),
+    }
+}
+
 #[test]
-fn sizes_of_memory_read_with_their_units() {
-    let bytes = |text: &str| {
-        let args = ["rheotaxis", "check", "a.ron", "--memory", text];
-        Args::try_parse_from(args).ok().map(|a| a.memory)
-    };
-    assert_eq!(bytes("4G"), Some(4e9));
-    assert_eq!(bytes("500m"), Some(5e8));
-    assert_eq!(bytes("1.5T"), Some(1.5e12));
-    assert_eq!(bytes("2000000"), Some(2e6));
-    for bad in ["", "G", "-4G", "nan", "infG", "4X", "10K", "0"] {
-        assert_eq!(bytes(bad), None, "{bad}");
+fn numbers_read_with_their_units_and_within_their_range() {
+    const MEMORY: [(&str, f64); 4] = [("4G", 4e9), ("500m", 5e8), ("1.5T", 1.5e12), ("2000000", 2e6)];
+    const SPEED: [(&str, f64); 3] = [("max", f64::INFINITY), ("realtime", 1.0), ("2.5x", 2.5)];
+    const WALL: [(&str, f64); 3] = [("55m", 3300.0), ("1h30m", 5400.0), ("1h2m3s", 3723.0)];
+    for (argument, good, bad) in [
+        ("--memory", &MEMORY[..], &["", "G", "-4G", "nan", "infG", "4X", "10K", "0"][..]),
+        ("--speed", &SPEED, &["0", "-1", "nan", "inf", "fast", ""]),
+        ("--until-width", &[("0.05", 0.05)], &["0", "0.5", "-0.1", "nan", "inf", "5%", ""]),
+        ("--max-wall", &WALL, &["", "5", "m", "30m1h", "0s", "-5s", "1.5h", "5 m"]),
+    ] {
+        for (text, value) in good {
+            assert_eq!(read(argument, text), Some(*value), "{argument} {text}");
+        }
+        for text in bad {
+            assert_eq!(read(argument, text), None, "{argument} {text}");
+        }
     }
     let usual = Args::try_parse_from(["rheotaxis", "check", "a.ron"]).unwrap();
     assert_eq!(usual.memory, rheotaxis::scenario::cost::MEMORY);
-}
-
-#[test]
-fn speeds_read_as_words_and_numbers() {
-    assert_eq!("max".parse(), Ok(Speed::Max));
-    assert_eq!("realtime".parse(), Ok(Speed::Times(1.0)));
-    assert_eq!("2.5x".parse(), Ok(Speed::Times(2.5)));
-    for bad in ["0", "-1", "nan", "inf", "fast", ""] {
-        assert!(bad.parse::<Speed>().is_err(), "{bad}");
-    }
-}
-
-#[test]
-fn so_many_numbers_and_no_others_are_read() {
     assert_eq!("1, -2.5,3e1".parse(), Ok(Numbers([1.0, -2.5, 30.0])));
     for wrong in ["", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1,,3"] {
-        let said = wrong.parse::<Numbers<3>>();
-        assert_eq!(said, Err("must be 3 numbers separated by commas".into()), "{wrong}");
-    }
-}
-
-#[test]
-fn widths_are_shares_below_a_half() {
-    let width = |text: &str| match parsed(&["reproduce", "--until-width", text]) {
-        Some(Command::Reproduce(args)) => args.until_width,
-        _ => None,
-    };
-    assert_eq!(width("0.05"), Some(0.05));
-    for bad in ["0", "0.5", "-0.1", "nan", "inf", "5%", ""] {
-        assert_eq!(width(bad), None, "{bad}");
-    }
-}
-
-#[test]
-fn wall_times_read_as_hours_minutes_and_seconds() {
-    let seconds = |text: &str| match parsed(&["campaign", "run", "c.ron", "--out", "o", "--max-wall", text]) {
-        Some(Command::Campaign(args)) => match args.command {
-            CampaignCommand::Run(args) => args.max_wall.map(|d| d.as_secs()),
-            _ => None,
-        },
-        _ => None,
-    };
-    assert_eq!(seconds("55m"), Some(3300));
-    assert_eq!(seconds("1h30m"), Some(5400));
-    assert_eq!(seconds("1h2m3s"), Some(3723));
-    for bad in ["", "5", "m", "30m1h", "0s", "-5s", "1.5h", "5 m"] {
-        assert_eq!(seconds(bad), None, "{bad}");
+        says(&wrong.parse::<Numbers<3>>().unwrap_err(), &["3 numbers"]);
     }
 }
 
@@ -103,9 +88,7 @@ fn the_cache_is_by_default_that_of_the_library_and_its_help_teaches() {
     let mut all = Args::command();
     let cache = all.find_subcommand_mut("cache").expect("a command");
     let help = cache.render_long_help().to_string().replace('\n', " ");
-    for word in ["same, bit by bit", "--no-cache", "--key", "clear"] {
-        assert!(help.contains(word), "{word} in {help}");
-    }
+    says(&help, &["same, bit by bit", "--no-cache", "--key", "clear"]);
     for wrong in ["-1", "nan", "soon"] {
         assert!(parsed(&["cache", "--cache-from", wrong]).is_none(), "{wrong}");
     }
@@ -163,14 +146,14 @@ fn the_version_tells_two_builds_apart() {
 }
 
 #[test]
-fn what_is_there_is_explained_and_what_is_not_names_the_nearest() {
-    assert_eq!(rheotaxis(&["explain"]).status.code(), Some(0));
-    let there = rheotaxis(&["explain", "robots[0].strategy.reacquire"]);
-    assert_eq!(there.status.code(), Some(0));
-    let missing = rheotaxis(&["explain", "robots.strategy.reaquire"]);
-    assert_eq!(missing.status.code(), Some(1));
-    let said = String::from_utf8(missing.stderr).unwrap();
-    assert!(said.contains("reacquire"), "{said}");
+fn the_list_shows_everything_with_its_source() {
+    let said = rheotaxis(&["list"]).with(0).out;
+    for entry in sections(&Registry::default()).into_iter().flat_map(|s| s.entries) {
+        says(&said, &[entry.name, entry.what, entry.source]);
+    }
+    for template in CATALOG {
+        says(&said, &[template.name]);
+    }
 }
 
 /// What `list vehicles` prints either has trials, or the error says which name to give instead.
@@ -186,16 +169,14 @@ fn every_name_that_list_vehicles_prints_is_known() {
     let mut free = Vec::new();
     for name in names {
         let end = rheotaxis(&["vehicle", "check", name, "--out", &out]);
-        let said = String::from_utf8(end.stderr).unwrap();
-        if end.status.success() {
+        if end.code == Some(0) {
             free.push(name);
         } else {
-            assert!(!said.contains("no such") && said.contains("help:"), "{said}");
+            assert!(!end.err.contains("no such") && end.err.contains("help:"), "{}", end.err);
         }
     }
     let listed = ["Remus100", "Kinematic"].into_iter();
     let all: Vec<&str> = listed.chain(SHIPPED.iter().map(|s| s.folder)).collect();
     assert_eq!(free, all);
-    let unknown = rheotaxis(&["vehicle", "check", "submarine"]);
-    assert!(String::from_utf8(unknown.stderr).unwrap().contains("no such folder"));
+    says(&rheotaxis(&["vehicle", "check", "submarine"]).with(1).err, &["no such folder"]);
 }

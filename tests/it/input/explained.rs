@@ -8,8 +8,8 @@ use studies::campaign;
 /// What `rheotaxis explain` prints, with whether it found something.
 fn explained(what: &str) -> (bool, String) {
     let end = rheotaxis(&["explain", what]);
-    let said = if end.status.success() { end.stdout } else { end.stderr };
-    (end.status.success(), String::from_utf8(said).unwrap())
+    let found = end.code == Some(0);
+    (found, if found { end.out } else { end.err })
 }
 
 /// Compares a file of `docs` with what is made now. `RHEOTAXIS_BLESS=1` writes it.
@@ -41,16 +41,6 @@ fn the_schema_of_scenarios_is_printed() {
     for field in ["area", "water", "sources", "robots", "gantries"] {
         assert!(schema["properties"][field].is_object(), "no {field}");
     }
-}
-
-#[test]
-fn every_field_and_variant_has_a_meaning() {
-    let (_, page) = explained("--markdown");
-    let rows = page.lines().filter(|line| line.starts_with("| `"));
-    for row in rows.clone() {
-        assert!(!row.ends_with("|  |"), "{row}");
-    }
-    assert!(rows.count() > 500);
 }
 
 #[test]

@@ -25,9 +25,7 @@ fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
     run.signal("-INT");
     assert_eq!(run.end().code(), Some(130));
 
-    let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
-    assert_eq!(summary["outcome"], "interrupted");
+    assert_eq!(common::summary(&out)["outcome"], "interrupted");
     assert!(out.join("map.png").exists() && out.join("report.html").exists());
 
     assert!(!out.join("run.mcap.tmp").exists());
@@ -53,11 +51,8 @@ fn interrupted_until_it_ends(run: &mut Process) -> Option<i32> {
 #[test]
 fn a_second_ctrl_c_ends_a_run_at_once() {
     let dir = tempfile::tempdir().unwrap();
-    let text = include_str!("../../../scenarios/catalog/harbour_3d.ron");
-    let cells = "blockage: (cell_m: 2, levels: 13, margin_m: 30)";
-    assert_eq!(text.matches(cells).count(), 1);
-    let fine = "blockage: (cell_m: 1, levels: 25, margin_m: 30)";
-    std::fs::write(dir.path().join("s.ron"), text.replace(cells, fine)).unwrap();
+    let fine = common::scenario("harbour_3d", &[("water.blockage", "(cell_m: 1, levels: 25, margin_m: 30)")]);
+    common::write(dir.path(), "s.ron", &fine);
     let args = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out"];
     let mut run = Process::start(common::command(dir.path(), &args).stderr(Stdio::null()));
     assert_eq!(interrupted_until_it_ends(&mut run), Some(130));
@@ -104,9 +99,7 @@ fn ctrl_c_ends_a_run_that_waits_for_its_pace() {
     for speed in ["1e-9", "5e-324"] {
         let dir = tempfile::tempdir().unwrap();
         let out = dir.path().join("out");
-        let text = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-        let text = common::with_fields(text, &[("spin_up_s", "5")]);
-        std::fs::write(dir.path().join("s.ron"), text).unwrap();
+        common::write(dir.path(), "s.ron", &common::short("uniform_channel", 5.0, 1800.0));
         let args = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out", "--speed"];
         let mut command = common::command(dir.path(), &args);
         let mut run = Process::start(command.arg(speed).stderr(Stdio::null()));

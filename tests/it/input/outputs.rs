@@ -6,17 +6,25 @@ mod beside;
 mod kept;
 mod shared;
 
-use crate::common::{self, command, with_fields};
+use crate::common::{self, Ended, says, scenario, short};
 use crate::waits::Process;
+use rheotaxis::scenario::Loaded;
 use std::fs;
 use std::os::unix::fs::{FileTypeExt, symlink};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
+use tempfile::TempDir;
 
 /// The scenario to learn from, cut to a few seconds.
-fn short() -> String {
-    let text = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-    with_fields(text, &[("limit_s", "3"), ("spin_up_s", "20")])
+fn cut() -> Loaded {
+    short("uniform_channel", 20.0, 3.0)
+}
+
+/// A folder with it as `s.ron`.
+fn folder() -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    common::write(dir.path(), "s.ron", &cut());
+    dir
 }
 
 fn mkfifo(path: &Path) {
@@ -26,11 +34,18 @@ fn mkfifo(path: &Path) {
 /// Ends: nobody writes to, or reads from, any pipe here.
 #[track_caller]
 fn ends(dir: &Path, args: &[&str]) -> (Option<i32>, String) {
-    let mut command = command(dir, args);
-    command.stdin(Stdio::null()).stdout(Stdio::null());
-    let said = fs::File::create(dir.join("said")).unwrap();
-    let status = Process::start(command.stderr(said)).end();
-    (status.code(), fs::read_to_string(dir.join("said")).unwrap())
+    let mut command = common::command(dir, args);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let ended = Ended::from(Process::start(&mut command).output());
+    (ended.code, ended.err)
+}
+
+/// Ends with an error that says all this.
+#[track_caller]
+fn fails(dir: &Path, args: &[&str], parts: &[&str]) {
+    let (code, said) = ends(dir, args);
+    assert_eq!(code, Some(1), "{args:?}: {said}");
+    says(&said, parts);
 }
 
 fn leftovers(dir: &Path) -> Vec<String> {
@@ -40,50 +55,54 @@ fn leftovers(dir: &Path) -> Vec<String> {
         .collect()
 }
 
+fn is_pipe(path: &Path) -> bool {
+    fs::symlink_metadata(path).unwrap().file_type().is_fifo()
+}
+
 const RUN: [&str; 6] = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out"];
 
 #[test]
-fn a_run_replaces_no_pipe_and_no_device_and_writes_all_the_rest() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("s.ron"), short()).unwrap();
+fn a_run_replaces_no_pipe_device_or_target_of_a_link_and_writes_all_the_rest() {
+    let dir = folder();
     let out = dir.path().join("out");
     fs::create_dir(&out).unwrap();
     // Opened before the run begins: it does not begin.
     for name in ["run-files.txt", "track.csv", "run.mcap"] {
         mkfifo(&out.join(name));
-        let (code, said) = ends(dir.path(), &RUN);
-        assert_eq!(code, Some(1), "{name}: {said}");
-        assert!(said.contains(&format!("out/{name}")), "{said}");
-        assert!(said.contains("a pipe"), "{said}");
-        assert!(fs::symlink_metadata(out.join(name)).unwrap().file_type().is_fifo());
-        assert!(!out.join("summary.json").exists());
+        fails(dir.path(), &RUN, &[&format!("out/{name}"), "a pipe"]);
+        assert!(is_pipe(&out.join(name)) && !out.join("summary.json").exists());
         fs::remove_file(out.join(name)).unwrap();
     }
     // Written at its end: the others are written all the same.
+    fs::remove_dir_all(&out).unwrap();
+    fs::create_dir(&out).unwrap();
     mkfifo(&out.join("summary.json"));
     symlink("/dev/null", out.join("report.html")).unwrap();
     fs::create_dir(out.join("map.png")).unwrap();
-    let (code, said) = ends(dir.path(), &RUN);
-    assert_eq!(code, Some(1), "{said}");
-    for (name, what) in
-        [("summary.json", "it is a pipe"), ("report.html", "it is a link to a device"), ("map.png", "it is a folder")]
-    {
-        assert!(said.contains(&format!("cannot write out/{name}: {what}")), "{said}");
+    let precious = dir.path().join("precious");
+    fs::write(&precious, "mine").unwrap();
+    let linked = ["track.csv", "run.mcap", "map.svg"];
+    for name in linked {
+        symlink(&precious, out.join(name)).unwrap();
+        symlink(&precious, out.join(format!("{name}.tmp"))).unwrap();
     }
-    assert!(fs::symlink_metadata(out.join("summary.json")).unwrap().file_type().is_fifo());
+    let parts =
+        ["out/summary.json: it is a pipe", "out/report.html: it is a link to a device", "out/map.png: it is a f"];
+    fails(dir.path(), &RUN, &parts);
+    assert!(is_pipe(&out.join("summary.json")));
     assert!(out.join("report.html").is_symlink() && out.join("map.png").is_dir());
     for name in ["track.csv", "run.mcap", "plume.csv", "map.svg", "series-auv0.png"] {
-        assert!(fs::metadata(out.join(name)).is_ok_and(|m| m.len() > 0), "{name}");
+        assert!(fs::symlink_metadata(out.join(name)).is_ok_and(|m| m.is_file() && m.len() > 0), "{name}");
     }
-    assert_eq!(leftovers(&out), Vec::<String>::new());
+    assert_eq!(fs::read_to_string(&precious).unwrap(), "mine");
+    assert_eq!(leftovers(&out).len(), linked.len(), "the links of others stay");
 }
 
 /// The last plume that is recorded is one step old at the start, and as old as the mission is at its end.
 #[test]
 fn the_table_of_the_plume_is_that_of_the_end() {
     let dir = tempfile::tempdir().unwrap();
-    let text = with_fields(&short(), &[("limit_s", "3.7")]);
-    let (_, summary) = common::mission(dir.path(), "end", &text);
+    let (_, summary) = common::mission(dir.path(), "end", &short("uniform_channel", 20.0, 3.7).text());
     let table = fs::read_to_string(dir.path().join("end/plume.csv")).unwrap();
     let mut lines = table.lines().map(|line| line.split(','));
     let header: Vec<&str> = lines.next().expect("a header").collect();
@@ -103,100 +122,56 @@ fn the_table_of_the_plume_is_that_of_the_end() {
 }
 
 #[test]
-fn no_link_has_its_target_overwritten() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("s.ron"), short()).unwrap();
-    let out = dir.path().join("out");
-    fs::create_dir(&out).unwrap();
-    let precious = dir.path().join("precious");
-    fs::write(&precious, "mine").unwrap();
-    let names = ["track.csv", "run.mcap", "summary.json", "map.svg"];
-    for name in names {
-        symlink(&precious, out.join(name)).unwrap();
-        symlink(&precious, out.join(format!("{name}.tmp"))).unwrap();
-    }
-    let (code, said) = ends(dir.path(), &RUN);
-    assert!(matches!(code, Some(0 | 3)), "{said}");
-    assert_eq!(fs::read_to_string(&precious).unwrap(), "mine");
-    for name in names {
-        assert!(!out.join(name).is_symlink(), "{name}");
-        assert!(out.join(format!("{name}.tmp")).is_symlink(), "{name}.tmp");
-    }
-}
-
-/// A limit on the length of files stands for a full disk: both end a write half way.
-fn with_little_room(dir: &Path, args: &str, kib: u32) -> Output {
-    let script = format!("ulimit -f {kib}; exec '{}' {args}", common::binary().display());
-    common::apart(Command::new("bash").args(["-c", &script])).current_dir(dir).output().unwrap()
-}
-
-#[test]
 fn a_full_disk_is_an_error_and_what_was_computed_before_is_there() {
     let dir = tempfile::tempdir().unwrap();
-    let text = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-    fs::write(dir.path().join("s.ron"), text).unwrap();
+    common::write(dir.path(), "s.ron", &scenario("uniform_channel", &[]));
+    let with_room = |kib: u32, out: &str| {
+        let args = format!("run s.ron --no-zenoh --quiet --out {out}");
+        Ended::of(&mut common::with_little_room(dir.path(), kib, &args)).with(1).err
+    };
     // Not even room for the scene: the run does not begin, and says why.
-    let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out no", 24);
-    let said = String::from_utf8(end.stderr).unwrap();
-    assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(said.contains("no/run.mcap") && said.contains("too large"), "{said}");
-    let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out out", 256);
-    let said = String::from_utf8(end.stderr).unwrap();
-    assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(said.contains("too large"), "{said}");
+    says(&with_room(24, "no"), &["no/run.mcap", "too large"]);
+    let said = with_room(256, "out");
+    says(&said, &["too large"]);
     let out = dir.path().join("out");
     // The table up to there, the summary that says so; the recording under the name the error gives.
     let table = fs::read_to_string(out.join("track.csv")).unwrap();
     assert!(table.lines().count() > 20, "{table}");
-    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
-    assert!(summary.contains("\"failed\""), "{summary}");
+    assert_eq!(common::summary(&out)["outcome"], "failed");
     let recordings = leftovers(&out);
     for name in &recordings {
         assert!(name.starts_with("run.mcap.") && said.contains(name.as_str()), "{said}");
     }
     assert!(recordings.len() <= 1);
     // The next run knows that file for its own.
-    let (code, said) = ends(dir.path(), &RUN);
-    assert_eq!(code, Some(0), "{said}");
+    assert_eq!(ends(dir.path(), &RUN).0, Some(0));
     assert_eq!(leftovers(&out), Vec::<String>::new());
 }
 
 #[test]
 fn a_picture_and_a_segmented_one_replace_only_files() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = folder();
     let at = |name: &str| dir.path().join(name);
-    fs::write(at("s.ron"), short()).unwrap();
     mkfifo(&at("pipe.png"));
-    let place = ["picture", "s.ron", "--at", "0,0,-3"];
-    let picture = |out: &str, truth: &str| {
-        let args = [&place[..], &["--out", out, "--truth", truth]].concat();
-        ends(dir.path(), &args)
+    let picture = |out: &str, truth: &str, part: &str| {
+        let args = ["picture", "s.ron", "--at", "0,0,-3", "--out", out, "--truth", truth];
+        fails(dir.path(), &args, &[part]);
     };
     for (out, truth, written) in [("pipe.png", "truth.png", "truth.png"), ("seen.png", "pipe.png", "seen.png")] {
-        let (code, said) = picture(out, truth);
-        assert_eq!(code, Some(1), "{said}");
-        assert!(said.contains("cannot write pipe.png: it is a pipe"), "{said}");
+        picture(out, truth, "pipe.png: it is a pipe");
         assert!(at(written).is_file());
     }
-    let (code, said) = picture("same.png", "same.png");
-    assert_eq!(code, Some(1));
-    assert!(said.contains("same.png") && !at("same.png").exists(), "{said}");
+    picture("same.png", "same.png", "same.png");
+    assert!(!at("same.png").exists());
 
     // In the place of the picture taken apart, and of what that leaves.
-    let (code, said) = ends(dir.path(), &["segment", "pipe.png", "--out", "parts"]);
-    assert_eq!(code, Some(1));
-    assert!(said.contains("pipe.png: it is a pipe, not a file"), "{said}");
+    fails(dir.path(), &["segment", "pipe.png", "--out", "parts"], &["pipe.png: it is a pipe"]);
     let parts = at("parts");
     fs::create_dir(&parts).unwrap();
-    for name in ["plume-mask.png", "segmentation.json", "sheet.png"] {
-        mkfifo(&parts.join(name));
-    }
-    let (code, said) = ends(dir.path(), &["segment", "seen.png", "--out", "parts"]);
-    assert_eq!(code, Some(1), "{said}");
-    for name in ["plume-mask.png", "segmentation.json", "sheet.png"] {
-        assert!(said.contains(&format!("parts/{name}")), "{said}");
-        assert!(fs::symlink_metadata(parts.join(name)).unwrap().file_type().is_fifo());
-    }
+    let pipes = ["plume-mask.png", "segmentation.json", "sheet.png"];
+    pipes.iter().for_each(|name| mkfifo(&parts.join(name)));
+    fails(dir.path(), &["segment", "seen.png", "--out", "parts"], &pipes);
+    assert!(pipes.iter().all(|name| is_pipe(&parts.join(name))));
     for name in ["plume.png", "left.png", "overlay.png", "clusters.png"] {
         assert!(parts.join(name).is_file(), "{name}");
     }
@@ -211,35 +186,33 @@ fn what_is_no_file_is_not_waited_for() {
     for name in ["pipe.ron", "pipe.obj", "pipe.asc", "pipe.urdf"] {
         symlink(at("pipe"), at(name)).unwrap();
     }
-    let reef = include_str!("../../../scenarios/catalog/reef_mesh.ron");
-    fs::write(at("reef.ron"), reef.replace("meshes/reef.obj", "pipe.obj")).unwrap();
-    let mound = include_str!("../../../scenarios/catalog/mound.ron");
-    fs::write(at("mound.ron"), mound.replace("meshes/mound.asc", "pipe.asc")).unwrap();
-    let hull = short().replace("Remus100()", "Remus100(urdf: \"pipe.urdf\")");
-    fs::write(at("hull.ron"), hull).unwrap();
+    for (name, path, file) in [
+        ("reef_mesh", "obstacles[0].shape.file", "pipe.obj"),
+        ("mound", "obstacles[0].shape.file", "pipe.asc"),
+        ("uniform_channel", "robots[0].vehicle.urdf", "pipe.urdf"),
+    ] {
+        common::write(dir.path(), &format!("{name}.ron"), &scenario(name, &[(path, &format!("\"{file}\""))]));
+    }
     for (args, named) in [
         (&["check", "pipe.ron"][..], "pipe.ron"),
         (&["check", "/dev/zero"], "/dev/zero"),
-        (&["check", "reef.ron"], "pipe.obj"),
+        (&["check", "reef_mesh.ron"], "pipe.obj"),
         (&["check", "mound.ron"], "pipe.asc"),
-        (&["check", "hull.ron"], "pipe.urdf"),
+        (&["check", "uniform_channel.ron"], "pipe.urdf"),
         (&["campaign", "plan", "pipe.ron"], "pipe.ron"),
         (&["campaign", "run", "pipe.ron", "--out", "c"], "pipe.ron"),
         (&["reproduce", "pipe.ron"], "pipe.ron"),
         (&["segment", "/dev/zero"], "/dev/zero"),
-        (&["run", "hull.ron", "--zenoh-config", "pipe"], "pipe"),
+        (&["run", "uniform_channel.ron", "--zenoh-config", "pipe"], "pipe"),
     ] {
-        let (code, said) = ends(dir.path(), args);
-        assert_eq!(code, Some(1), "{args:?}: {said}");
-        assert!(said.contains(named), "{args:?}: {said}");
+        fails(dir.path(), args, &[named]);
     }
 }
 
 #[test]
 fn a_campaign_replaces_only_files() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = folder();
     let at = |name: &str| dir.path().join(name);
-    fs::write(at("s.ron"), short()).unwrap();
     let campaign = "(version: 2, title: \"t\", base: \"s.ron\", seeds: 2, arms: [(name: \"a\")])";
     fs::write(at("c.ron"), campaign).unwrap();
     let (code, said) = ends(dir.path(), &["campaign", "run", "c.ron", "--out", "c", "--quiet"]);
@@ -251,18 +224,14 @@ fn a_campaign_replaces_only_files() {
         (&["-o", "all.parquet"][..], "all.parquet: it is a pipe"),
         (&["-o", "null.parquet"], "null.parquet: it is a link to a device"),
         (&["-o", "rows.parquet", "--csv"], "rows.csv: it is a pipe"),
-        (&["-o", "same.csv", "--csv"], "same.csv: the Parquet file and the CSV file"),
+        (&["-o", "same.csv", "--csv"], "same.csv: "),
     ] {
-        let args = [&["campaign", "merge", "c"][..], args].concat();
-        let (code, said) = ends(dir.path(), &args);
-        assert_eq!(code, Some(1), "{args:?}: {said}");
-        assert!(said.contains(&format!("cannot write {named}")), "{args:?}: {said}");
+        fails(dir.path(), &[&["campaign", "merge", "c"], args].concat(), &[named]);
         assert_eq!(leftovers(dir.path()), Vec::<String>::new(), "{args:?}");
     }
     assert!(!at("same.csv").exists());
     fs::create_dir(at("report")).unwrap();
     mkfifo(&at("report/arms.csv"));
-    let (code, said) = ends(dir.path(), &["campaign", "report", "c", "--out", "report"]);
-    assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("report/arms.csv") && at("report/report.html").is_file(), "{said}");
+    fails(dir.path(), &["campaign", "report", "c", "--out", "report"], &["report/arms.csv"]);
+    assert!(at("report/report.html").is_file());
 }

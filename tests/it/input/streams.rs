@@ -2,7 +2,7 @@
 //! is not printed.
 #![cfg(target_os = "linux")]
 
-use crate::common::{command, rheotaxis_in, with_fields};
+use crate::common::{Ended, command, rheotaxis_in, says, short, write};
 use std::fs::{self, File};
 use std::process::Stdio;
 
@@ -40,29 +40,28 @@ fn a_result_that_cannot_be_printed_is_an_error_and_a_closed_pipe_is_none() {
         command
     };
     for args in SAY {
-        let end = here(args).stdout(full()).output().unwrap();
-        let said = String::from_utf8(end.stderr).unwrap();
-        assert_eq!(end.status.code(), Some(1), "{args:?}: {said}");
-        assert!(said.contains("cannot write to standard output"), "{args:?}: {said}");
+        let end = Ended::of(here(args).stdout(full()));
+        assert_eq!(end.code, Some(1), "{args:?}: {}", end.err);
+        says(&end.err, &["standard output"]);
 
         // Nobody reads.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
-        let end = here(args).stdout(writer).output().unwrap();
-        let said = String::from_utf8(end.stderr).unwrap();
-        assert_eq!((end.status.code(), said.as_str()), (Some(0), ""), "{args:?}");
+        let end = Ended::of(here(args).stdout(writer));
+        assert_eq!((end.code, end.err.as_str()), (Some(0), ""), "{args:?}");
     }
 }
 
-fn short() -> String {
-    let text = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-    with_fields(text, &[("limit_s", "3"), ("spin_up_s", "20")])
+/// A folder with the scenario `s.ron`, which takes a few seconds.
+fn folder() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), "s.ron", &short("uniform_channel", 20.0, 3.0));
+    dir
 }
 
 #[test]
 fn a_run_that_can_print_nothing_keeps_its_results() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("s.ron"), short()).unwrap();
+    let dir = folder();
     let args = ["run", "s.ron", "--no-zenoh", "--out"];
     let run = |out: &str, stdout: Stdio, stderr: Stdio| {
         let mut command = command(dir.path(), &args);
@@ -83,16 +82,13 @@ fn a_run_that_can_print_nothing_keeps_its_results() {
 fn titles_and_names_command_no_terminal() {
     let dir = tempfile::tempdir().unwrap();
     let odd = "a\x1b]0;b\x07c\u{202e}d\u{9b}31m";
-    let text = short();
-    let (head, rest) = text.split_once("title: \"").unwrap();
-    let (_, rest) = rest.split_once('"').unwrap();
-    let text = format!("{head}title: \"{odd}\"{rest}");
+    let text = short("uniform_channel", 20.0, 3.0).edit(|s| s.title = odd.into()).text().into_owned();
     let name = format!("{odd}.ron");
     fs::write(dir.path().join(&name), &text).unwrap();
     fs::write(dir.path().join("wrong.ron"), text.replacen("title:", "titel:", 1)).unwrap();
     let look = |args: &[&str]| {
         let end = rheotaxis_in(dir.path(), args);
-        let said = [end.stdout, end.stderr].map(|s| String::from_utf8(s).unwrap()).concat();
+        let said = end.out + &end.err;
         let raw = said.chars().find(|c| *c != '\n' && (c.is_control() || *c == '\u{202e}'));
         assert_eq!(raw, None, "{args:?}: {said}");
         assert!(said.contains(r"\u{1b}"), "{args:?}: {said}");
@@ -105,15 +101,12 @@ fn titles_and_names_command_no_terminal() {
 
 #[test]
 fn an_empty_key_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("s.ron"), short()).unwrap();
+    let dir = folder();
     let run = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out"];
     let by_argument = rheotaxis_in(dir.path(), &[&run[..], &["--key", ""]].concat());
-    let by_environment = command(dir.path(), &run).env("RHEOTAXIS_KEY", "").output().unwrap();
+    let by_environment = Ended::of(command(dir.path(), &run).env("RHEOTAXIS_KEY", ""));
     for end in [by_argument, by_environment] {
-        let said = String::from_utf8(end.stderr).unwrap();
-        assert_eq!(end.status.code(), Some(2), "{said}");
-        assert!(said.contains("--key"), "{said}");
+        says(&end.with(2).err, &["--key"]);
     }
     assert!(!dir.path().join("out").exists());
 }

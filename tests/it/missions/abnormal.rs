@@ -1,32 +1,18 @@
 //! What goes wrong in a run is said: on the terminal, in the summary, on the page, in the frames.
 
-use crate::common;
-use rheotaxis::scenario::{load, template};
+use crate::common::{lasting, mission, says, scenario};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial};
-use std::path::Path;
+use serde_json::Value;
 
-/// The channel with these changes.
+/// The channel with other times and these values.
 #[track_caller]
-fn channel(changes: &[(&str, &str)]) -> String {
-    let text = template("uniform_channel").unwrap().text.to_string();
-    changes.iter().fold(text, |text, (from, to)| {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text.replace(from, to)
-    })
-}
-
-/// Runs it; standard error, summary and page.
-fn run(dir: &Path, text: &str) -> (String, serde_json::Value, String) {
-    std::fs::write(dir.join("odd.ron"), text).unwrap();
-    let end = common::rheotaxis_in(dir, &common::ODD);
-    let read = |name: &str| std::fs::read_to_string(dir.join("out").join(name)).unwrap();
-    let summary = serde_json::from_str(&read("summary.json")).unwrap();
-    let said = String::from_utf8_lossy(&end.stderr).into_owned();
-    (said, summary, read("report.html"))
+fn channel(spin_up_s: f64, limit_s: f64, values: &[(&str, &str)]) -> Loaded {
+    lasting(scenario("uniform_channel", values), spin_up_s, limit_s)
 }
 
 /// Events of a kind: when, and how long.
-fn events(summary: &serde_json::Value, what: &str) -> Vec<(f64, f64)> {
+fn events(summary: &Value, what: &str) -> Vec<(f64, f64)> {
     let all = summary["abnormal"].as_array().expect("a list").iter();
     all.filter(|e| e["what"] == what).map(|e| (e["t_s"].as_f64().unwrap(), e["lasted_s"].as_f64().unwrap())).collect()
 }
@@ -35,18 +21,18 @@ fn events(summary: &serde_json::Value, what: &str) -> Vec<(f64, f64)> {
 #[test]
 fn a_vehicle_that_hears_no_bed_is_told_of() {
     let dir = tempfile::tempdir().unwrap();
-    let text = channel(&[
-        ("dvl: ()", "dvl: (max_altitude_m: 1, min_altitude_m: 0.5)"),
-        ("altimeter: ()", "altimeter: (max_range_m: 1)"),
-        ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 40"),
-    ]);
-    let (said, summary, page) = run(dir.path(), &text);
+    let deaf = [
+        ("robots[0].sensors.dvl", "(max_altitude_m: 1, min_altitude_m: 0.5)"),
+        ("robots[0].sensors.altimeter", "(max_range_m: 1)"),
+    ];
+    let (ended, summary) = mission(dir.path(), "odd", &channel(300.0, 40.0, &deaf).text());
+    let page = std::fs::read_to_string(dir.path().join("odd/report.html")).unwrap();
     for (what, words) in [("no_bottom_lock", "no bottom lock"), ("no_altitude", "no altitude")] {
         let [(t_s, lasted_s)] = events(&summary, what)[..] else {
             panic!("{what}: {}", summary["abnormal"]);
         };
         assert!(t_s < 1.0 && lasted_s > 35.0, "{what} at {t_s} for {lasted_s}");
-        assert!(said.contains(&format!("! auv0: {words} at 0.0 s, 150.0 m E, -30.0 m N")), "{said}");
+        says(&ended.err, &[&format!("! auv0: {words} at 0.0 s, 150.0 m E, -30.0 m N")]);
         assert!(page.contains(words), "the page lacks {words}");
     }
     assert_eq!(events(&summary, "left_area"), []);
@@ -56,20 +42,18 @@ fn a_vehicle_that_hears_no_bed_is_told_of() {
 #[test]
 fn a_vehicle_that_leaves_its_area_is_told_of() {
     let dir = tempfile::tempdir().unwrap();
-    let strategy = "OpenLoop(table: [(t_s: 0, rpm: 1000)], end_s: 100)";
-    let text = channel(&[
-        ("Amp(speed_m_s: 1.5, vertical: Altitude(2))", strategy),
-        ("altitude_m: 2, heading_deg: 0", "depth_m: 5, heading_deg: 90"),
-        ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 100"),
-        ("success: Declared(within_m: 20),", ""),
-    ]);
-    let (said, summary, _) = run(dir.path(), &text);
+    let away = [
+        ("robots[0].strategy", "OpenLoop(table: [(t_s: 0, rpm: 1000)], end_s: 100)"),
+        ("robots[0].start", "(east_m: 150, north_m: -30, depth_m: 5, heading_deg: 90, speed_m_s: 1.5)"),
+        ("success", "Completed"),
+    ];
+    let (ended, summary) = mission(dir.path(), "odd", &channel(300.0, 100.0, &away).text());
     let [(t_s, lasted_s)] = events(&summary, "left_area")[..] else {
         panic!("{}", summary["abnormal"]);
     };
     // 50 m to the edge and 10 m beyond, at 1.5 to 1.9 m/s over ground.
     assert!((30.0..42.0).contains(&t_s) && (t_s + lasted_s - 100.0).abs() < 0.1, "{t_s} for {lasted_s}");
-    assert!(said.contains("! auv0: left the area at "), "{said}");
+    says(&ended.err, &["! auv0: left the area at "]);
 }
 
 /// A run in which nothing goes wrong says nothing; and the frames carry what goes wrong.
@@ -85,30 +69,24 @@ fn frames_carry_what_goes_wrong_and_nothing_else() {
             self.0 = frame.abnormal.iter().map(|a| a.what.label().to_string()).collect();
         }
     }
-    let dir = tempfile::tempdir().unwrap();
-    let short = ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 60");
-    let ends = |changes: &[(&str, &str)]| {
-        let file = dir.path().join("odd.ron");
-        std::fs::write(&file, channel(changes)).unwrap();
+    let ends = |loaded: Loaded| {
         let mut last = Last::default();
-        Trial::assemble(&load(&file).unwrap(), 1).unwrap().run(&mut last);
+        Trial::assemble(&loaded, 1).unwrap().run(&mut last);
         last.0
     };
-    assert_eq!(ends(&[short]), [""; 0]);
+    assert_eq!(ends(channel(300.0, 60.0, &[])), [""; 0]);
     // It dives into the bed at once, nose down.
     let dive = "OpenLoop(table: [(t_s: 0, rpm: 1000, stern_deg: 15)], end_s: 100)";
-    let dive = ends(&[short, ("Amp(speed_m_s: 1.5, vertical: Altitude(2))", dive)]);
+    let dive = ends(channel(300.0, 60.0, &[("robots[0].strategy", dive)]));
     assert!(dive.contains(&"touched the bed or an obstacle".to_string()), "{dive:?}");
     // Two that run into each other head on, far from the bed and from any obstacle.
-    let ahead = "OpenLoop(table: [(t_s: 0, rpm: 1500)], end_s: 100)";
     let facing = |id: &str, east_m: i32, heading_deg: i32| {
         format!(
-            "(id: \"{id}\", vehicle: Kinematic(moves: OverGround), estimator: DeadReckoning(), strategy: {ahead}, \
-             start: (east_m: {east_m}, north_m: 40, depth_m: 4, heading_deg: {heading_deg})),"
+            "(id: \"{id}\", vehicle: Kinematic(moves: OverGround), estimator: DeadReckoning(), \
+             strategy: OpenLoop(table: [(t_s: 0, rpm: 1500)], end_s: 100), \
+             start: (east_m: {east_m}, north_m: 40, depth_m: 4, heading_deg: {heading_deg}))"
         )
     };
-    let two = format!("robots: [{}{}", facing("a", 50, 90), facing("b", 60, 270));
-    let brief = ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 1, limit_s: 8");
-    let met = ends(&[brief, ("robots: [", &two)]);
-    assert_eq!(met, ["touched another vehicle"; 2]);
+    let two = format!("[{}, {}]", facing("a", 50, 90), facing("b", 60, 270));
+    assert_eq!(ends(channel(1.0, 8.0, &[("robots", &two)])), ["touched another vehicle"; 2]);
 }

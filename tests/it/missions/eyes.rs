@@ -2,7 +2,7 @@
 
 use eyes::camera::{ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, render};
 use eyes::vision::place::{PlacePictures, Stand, Useless};
-use image::{Rgb, RgbImage};
+use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::{Picture, Verdict};
 use robots::sense::{CameraSpec, looking, turned};
@@ -176,7 +176,8 @@ fn what_is_no_source_is_rejected_or_left_open() {
     assert_eq!(said.answer, Verdict::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
 }
 
-/// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no more
+/// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no
+/// more
 /// than once.
 #[test]
 fn evidence_adds_up_over_pictures_and_not_over_copies() {
@@ -218,23 +219,13 @@ fn pictures_of_nothing_leave_it_open() {
     let stand = Stand { position: Vector2::zeros(), altitude_m: 2.0, R_WB: UnitQuaternion::identity() };
     let mut place = place(2.0);
     assert_eq!(place.weigh().answer, Verdict::CannotTell);
-    let plain = |w, h, level: u8| shown(RgbImage::from_pixel(w, h, Rgb([level; 3])));
-    for (picture, why) in [
-        (plain(0, 0, 0), Useless::Empty),
-        (plain(3, 2, 90), Useless::Empty),
-        (plain(48, 36, 0), Useless::Dark),
-        (plain(48, 36, 255), Useless::Bright),
-        (plain(48, 36, 120), Useless::Flat),
-    ] {
-        assert_eq!(place.add(&picture, &stand), Err(why));
-    }
     // On the bed, or looking at the surface, it sees none of the ground.
     let (picture, _) = sea(8.0, None, 0.0).pictures(&[[0.0, 0.0, 2.0]], 1).remove(0);
     let low = Stand { altitude_m: 0.0, ..stand };
     assert_eq!(place.add(&picture, &low), Err(Useless::Empty));
     let up = Stand { R_WB: UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0), ..stand };
     assert_eq!(place.add(&picture, &up), Err(Useless::Empty));
-    assert_eq!(place.pictures(), [0, 7]);
+    assert_eq!(place.pictures(), [0, 2]);
     let said = place.weigh();
     assert_eq!((said.answer, said.log_factor), (Verdict::CannotTell, 0.0));
 }

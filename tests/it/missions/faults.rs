@@ -1,38 +1,21 @@
 //! Faults of robots: what they do to a mission, from when on, and what is said of them.
 
-use crate::common;
+use crate::common::{lasting, mission, read, says, scenario};
 use rheotaxis::frame::RobotFrame;
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use robots::handoff::Actuation;
-use world::registry::Registry;
 
-/// A scenario of the catalogue with these faults and changes.
-#[track_caller]
-fn with(name: &str, faults: &str, changes: &[(&str, &str)]) -> String {
-    let text = template(name).unwrap().text.to_string();
-    let estimator = "estimator: DeadReckoning(),";
-    let faulty = format!("{estimator}\n            faults: [{faults}],");
-    let changes = changes.iter().copied().chain([(estimator, faulty.as_str())]);
-    changes.fold(text, |text, (from, to)| {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text.replace(from, to)
-    })
-}
-
-fn loaded(text: &str) -> Loaded {
-    let registry = Registry::default();
-    let loaded = load_text(&registry, "faulty", text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
-    assert!(loaded.check().is_ok(), "{:?}", loaded.check());
-    loaded
-}
+const FAULTS: &str = "robots[0].faults";
 
 /// The channel with these faults, for so long.
+#[track_caller]
 fn channel(faults: &str, limit_s: f64) -> Loaded {
-    let time = format!("spin_up_s: 60, limit_s: {limit_s}");
-    let times = ("spin_up_s: 2000, limit_s: 1800", time.as_str());
-    loaded(&with("uniform_channel", faults, &[times]))
+    let faulty = scenario("uniform_channel", &[(FAULTS, &format!("[{faults}]"))]);
+    let loaded = lasting(faulty, 60.0, limit_s);
+    assert!(loaded.check().is_ok(), "{:?}", loaded.check());
+    loaded
 }
 
 /// All states of the one robot.
@@ -60,10 +43,9 @@ fn after(states: &[(f64, RobotFrame)], t_s: f64, so: impl Fn(&RobotFrame) -> boo
 
 #[test]
 fn a_fault_changes_nothing_before_its_time() {
-    let none = template("uniform_channel").unwrap().text;
-    let none = none.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 30");
-    let (well, healthy) = flown(&loaded(&none));
+    let (well, healthy) = flown(&lasting(scenario("uniform_channel", &[]), 60.0, 30.0));
     assert_eq!(flown(&channel("", 30.0)).0, well, "an empty list");
+    assert_eq!(flown(&channel("(at_s: 31, what: Compass(Stuck))", 30.0)).0, well, "after the end");
     for what in [
         "Fluorometer(Biased(1))",
         "Compass(Stuck)",
@@ -76,17 +58,12 @@ fn a_fault_changes_nothing_before_its_time() {
     ] {
         let (ended, faulty) = flown(&channel(&format!("(at_s: 20, what: {what})"), 30.0));
         // A frame at 20 s is taken at the end of a step that began before.
-        for ((t_s, well), (_, ill)) in healthy.iter().zip(&faulty) {
-            if *t_s <= 20.0 {
-                assert_eq!(well, ill, "{what} at {t_s}");
-            }
+        for ((t_s, well), (_, ill)) in healthy.iter().zip(&faulty).filter(|((t_s, _), _)| *t_s <= 20.0) {
+            assert_eq!(well, ill, "{what} at {t_s}");
         }
         // Within these ten seconds no fix was due.
         let same = what == "Fixes(Silent)";
         assert_eq!(ended.digest == well.digest, same, "{what}");
-        // Faults after the end and faults that have ended do what they should.
-        let late = flown(&channel(&format!("(at_s: 31, what: {what})"), 30.0));
-        assert_eq!(late.0, well, "{what}");
     }
 }
 
@@ -112,30 +89,11 @@ fn a_vehicle_with_a_stuck_rudder_goes_round_in_circles() {
     }
 }
 
-/// A rudder that sticks stays where it was, and lets go at the end of the fault.
-#[test]
-fn a_rudder_that_sticks_stays_and_comes_free() {
-    let (_, states) = flown(&channel("(at_s: 5, until_s: 8, what: Rudder(Stuck))", 12.0));
-    let rudder = |from: f64, to: f64| -> Vec<f64> {
-        let within = |(t, _): &&(f64, RobotFrame)| *t > from + 0.01 && *t < to + 0.01;
-        let angle = |(_, r): &(f64, RobotFrame)| match r.actuators {
-            Actuation::Fins(set) => set.rudder_rad,
-            _ => f64::NAN,
-        };
-        states.iter().filter(within).map(angle).collect()
-    };
-    let stuck = rudder(5.0, 8.0);
-    assert!(stuck.len() >= 29 && stuck.iter().all(|r| *r == stuck[0]));
-    for free in [rudder(3.0, 5.0), rudder(8.0, 12.0)] {
-        assert!(free.iter().any(|r| *r != free[0]));
-    }
-}
-
 #[test]
 fn a_vehicle_with_a_dead_propeller_drifts_with_the_water() {
-    let current = "water: (currents: [Uniform(speed_m_s: 0.3, heading_deg: 90)]),";
-    let text = with("remus_turning_circle", "(at_s: 20, what: Propeller(Dead))", &[("water: (),", current)]);
-    let (_, states) = flown(&loaded(&text));
+    let current = "(currents: [Uniform(speed_m_s: 0.3, heading_deg: 90)])";
+    let values = [("water", current), (FAULTS, "[(at_s: 20, what: Propeller(Dead))]")];
+    let (_, states) = flown(&scenario("remus_turning_circle", &values));
     assert!(states.iter().any(|(_, r)| r.truth.v_world().norm() > 1.5));
     let drifts = |r: &RobotFrame| {
         let v = r.truth.v_world();
@@ -157,11 +115,10 @@ fn fixes_that_lie_move_the_estimate() {
     let off = |lie: &str| {
         let faults = format!("(at_s: 100, what: Fixes(Lie(east_m: 30, north_m: -20{lie})))");
         let (_, states) = flown(&channel(&faults, 300.0));
-        let off = |t_s: f64| {
+        [95.0, 290.0].map(|t_s| {
             let (_, r) = states.iter().find(|(t, _)| *t >= t_s).unwrap();
             r.estimate.position - r.truth.pose.p_WB.xy()
-        };
-        [off(95.0), off(290.0)]
+        })
     };
     // Fixes are good to 1 m; between them the estimate drifts by some metres.
     let [before, jumped] = off("");
@@ -200,55 +157,41 @@ fn a_mission_survives_every_fault() {
     }
 }
 
+const TWO: &str = "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
+
 /// On the terminal, in the summary and on the page.
 #[test]
 fn faults_are_told() {
     let dir = tempfile::tempdir().unwrap();
-    let faults = "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
-    let short = ("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 8");
-    let text = with("uniform_channel", faults, &[short]);
-    std::fs::write(dir.path().join("odd.ron"), text).unwrap();
-    let end = common::rheotaxis_in(dir.path(), &common::ODD);
-    let read = |name: &str| std::fs::read_to_string(dir.path().join("out").join(name)).unwrap();
-    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    let (ended, summary) = mission(dir.path(), "odd", &channel(TWO, 8.0).text());
     let events = summary["abnormal"].as_array().unwrap();
-    let of = |n: usize, field: &str| events[n][field].clone();
-    for (n, words, t_s, lasted_s, over) in
-        [(0, "compass off by 5 degrees", 3.0, 2.0, true), (1, "propeller dead", 4.0, 3.98, false)]
-    {
-        assert_eq!(of(n, "robot"), "auv0");
-        assert_eq!(of(n, "what"), "fault");
-        assert_eq!(of(n, "fault"), words);
-        assert_eq!(of(n, "over"), over);
-        assert!((of(n, "t_s").as_f64().unwrap() - t_s).abs() < 1e-9);
-        assert!((of(n, "lasted_s").as_f64().unwrap() - lasted_s).abs() < 1e-9);
+    let told = [("compass off by 5 degrees", 3.0, 2.0, true), ("propeller dead", 4.0, 3.98, false)];
+    assert_eq!(events.len(), told.len(), "{events:?}");
+    for (event, (words, t_s, lasted_s, over)) in events.iter().zip(told) {
+        for (field, value) in [("robot", "auv0"), ("what", "fault"), ("fault", words)] {
+            assert_eq!(event[field], value);
+        }
+        assert_eq!(event["over"], over);
+        assert!((event["t_s"].as_f64().unwrap() - t_s).abs() < 1e-9);
+        assert!((event["lasted_s"].as_f64().unwrap() - lasted_s).abs() < 1e-9);
     }
-    assert_eq!(events.len(), 2, "{events:?}");
-    let told = String::from_utf8_lossy(&end.stderr).into_owned();
-    let told = told + &String::from_utf8_lossy(&end.stdout);
-    for said in [
-        "! auv0: fault: compass off by 5 degrees at 3.0 s, ",
-        ", for 2.0 s",
-        "! auv0: fault: propeller dead at 4.0 s, ",
-    ] {
-        assert!(told.contains(said), "{told}");
-    }
-    assert!(read("report.html").contains("fault: propeller dead"));
+    let [compass, propeller] =
+        ["! auv0: fault: compass off by 5 degrees at 3.0 s", "! auv0: fault: propeller dead at 4"];
+    says(&(ended.err + &ended.out), &[compass, ", for 2.0 s", propeller]);
+    let page = std::fs::read_to_string(dir.path().join("odd/report.html")).unwrap();
+    assert!(page.contains("fault: propeller dead"));
 }
 
 /// What is published says which faults hold now.
 #[test]
 fn faults_are_published_while_they_hold() {
-    let faults = "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
-    let mut trial = Trial::assemble(&channel(faults, 10.0), 3).unwrap();
-    let mut said = Vec::new();
-    for t_s in [2.5, 3.5, 4.5, 5.5] {
+    let mut trial = Trial::assemble(&channel(TWO, 10.0), 3).unwrap();
+    let said = [2.5, 3.5, 4.5, 5.5].map(|t_s| {
         trial.until(t_s);
         let all = rheotaxis::registry::messages(trial.frame().unwrap());
         let (_, doing) = all.iter().find(|(k, _)| k == "auv/auv0/behaviour").unwrap();
-        let wrong = doing["abnormal"].as_array().cloned().unwrap_or_default();
-        said.push(wrong.iter().map(|w| w.as_str().unwrap().to_string()).collect::<Vec<_>>());
-    }
+        doing["abnormal"].as_array().cloned().unwrap_or_default()
+    });
     let (compass, propeller) = ("fault: compass off by 5 degrees", "fault: propeller dead");
     assert_eq!(said, [vec![], vec![compass], vec![compass, propeller], vec![propeller]]);
 }
@@ -256,11 +199,10 @@ fn faults_are_published_while_they_hold() {
 /// The example of the documents is a scenario.
 #[test]
 fn the_example_in_docs_is_legal() {
-    let text = std::fs::read_to_string(common::root().join("docs/faults.md")).unwrap();
-    let example = text.split("```ron\n").nth(1).unwrap().split("```").next().unwrap();
+    let page = read("docs/faults.md");
+    let example = page.split("```ron\n").nth(1).unwrap().split("```").next().unwrap();
     let faults = example.trim().strip_prefix("faults: [").unwrap();
-    let faults = faults.strip_suffix("],").unwrap();
-    let loaded = channel(faults, 2000.0);
+    let loaded = channel(faults.strip_suffix("],").unwrap(), 2000.0);
     assert_eq!(loaded.check().unwrap().len(), 0);
     assert!(loaded.scenario.robots[0].faults.len() > 5);
 }

@@ -1,7 +1,8 @@
 //! Digests that stay the same from version to version, and on every machine, until a change of the physics or of an
 //! algorithm is meant. Then the new ones are written down, and the commit says why.
 //!
-//! Each run has its digest at the end and, early in the mission, one of each part of its state, so that a change says where
+//! Each run has its digest at the end and, early in the mission, one of each part of its state, so that a change says
+//! where
 //! it bites: in the ocean, the hull, the instruments and the estimate, the map, the decision, or a gantry.
 
 use rheotaxis::frame::Frame;

@@ -5,32 +5,27 @@
 
 #![cfg(target_os = "linux")]
 
-use crate::common;
+use crate::common::{command, scenario, summary, write};
 use crate::waits::{Process, pause};
-use serde_json::Value;
 use std::path::Path;
 
 /// A mission of two hours with a hundred thousand filaments stays below this, MB.
 const MOST_MB: f64 = 300.0;
 
-/// The Duck mission with so many filaments a second and other times, its declaration never fulfilled: it runs to the time limit with
-/// recording, live state, figures and report. Returns the peak of the resident memory, MB, and the filaments at the end.
+/// The Duck mission with so many filaments a second and other times, its declaration never fulfilled: it runs to the
+/// time limit with
+/// recording, live state, figures and report. Returns the peak of the resident memory, MB, and the filaments at the
+/// end.
 fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
-    let mut text = include_str!("../../../scenarios/catalog/duck_st.ron").to_string();
-    for (from, to) in [
-        ("release: (rate_hz: 5,", format!("release: (rate_hz: {rate_hz},")),
-        ("points: 3, within_m: 4", "points: 3, within_m: 0.0001".to_string()),
-        ("success:", "record: (frame_period_s: 0.1),\n    success:".to_string()),
-    ] {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text = text.replace(from, &to);
-    }
-    let text = common::with_fields(&text, times);
-    let file = dir.join("crowd.ron");
-    std::fs::write(&file, text).unwrap();
+    let endless = [
+        ("sources[0].release.rate_hz", rate_hz),
+        ("robots[0].strategy.declare.within_m", "0.0001"),
+        ("record.frame_period_s", "0.1"),
+    ];
+    write(dir, "crowd.ron", &scenario("duck_st", &[&endless[..], times].concat()));
     let out = dir.join("out");
     let args = ["run", "crowd.ron", "--quiet", "--zenoh-listen", "tcp/127.0.0.1:0", "--out", out.to_str().unwrap()];
-    let mut run = Process::start(&mut common::command(dir, &args));
+    let mut run = Process::start(&mut command(dir, &args));
     let status = format!("/proc/{}/status", run.0.id());
     let mut peak_kb = 0.0;
     let code = loop {
@@ -46,18 +41,22 @@ fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
         pause(0.005);
     };
     assert_eq!(code, Some(3), "the mission ends with its time limit");
-    let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&summary).unwrap();
-    let filaments = summary["run"]["filaments"].as_u64().unwrap();
+    let filaments = summary(&out)["run"]["filaments"].as_u64().unwrap();
     (peak_kb / 1024.0, filaments)
 }
 
-/// A hundred thousand filaments released in a short spin-up, and as many frames as half an hour has: what a recorder or log would pile up
+/// A hundred thousand filaments released in a short spin-up, and as many frames as half an hour has: what a recorder or
+/// log would pile up
 /// grows with these, and two hours of it would have to fit into what is left. (Measured: 61 MB with 180 000.)
 #[test]
 fn a_hundred_thousand_filaments_fit() {
     let dir = tempfile::tempdir().unwrap();
-    let times = [("spin_up_s", "500"), ("limit_s", "360"), ("step_s", "0.02"), ("frame_period_s", "0.02")];
+    let times = [
+        ("time.spin_up_s", "500"),
+        ("time.limit_s", "360"),
+        ("time.step_s", "0.02"),
+        ("record.frame_period_s", "0.02"),
+    ];
     let (peak_mb, filaments) = peak(dir.path(), "210", &times);
     assert!(filaments >= 100_000, "{filaments}");
     assert!(peak_mb > 10.0 && peak_mb < MOST_MB / 2.0, "{peak_mb} MB");

@@ -4,7 +4,7 @@ mod abnormal;
 mod determinism;
 mod eyes;
 mod faults;
-pub(super) mod flume;
+mod flume;
 mod golden;
 mod memory;
 mod ocean;

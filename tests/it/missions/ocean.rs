@@ -17,8 +17,7 @@ fn plume_of(ocean: &Ocean) -> String {
 #[test]
 fn nobodys_search_changes_the_ocean() {
     let loaded = load(Path::new("uniform_channel")).unwrap();
-    let mut away = loaded.clone();
-    away.scenario.robots.clear();
+    let away = loaded.clone().edit(|s| s.robots.clear());
     let [with, without] = [&loaded, &away].map(|loaded| {
         let mut trial = Trial::assemble(loaded, 3).unwrap();
         assert!(trial.until(30.0));

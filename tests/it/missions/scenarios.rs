@@ -1,36 +1,42 @@
 //! Scenarios as users write them: those that come with the program, and any number of everything.
 
-use crate::common;
-use rheotaxis::scenario::{CATALOG, load, load_text, set_value};
+use crate::common::{lasting, mission, scenario};
+use rheotaxis::scenario::{Id, Loaded};
 use serde_json::Value;
 use std::path::Path;
-use world::registry::Registry;
+use world::ranges::Finite;
 
 /// The quick channel with two sources, a block and a pile, and as many robots as asked for.
-fn crowded(robots: usize) -> String {
-    let text = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-    let text = common::with_fields(text, &[("spin_up_s", "60"), ("limit_s", "30")]);
-    let block = "obstacles: [
+fn crowded(robots: usize) -> Loaded {
+    let solids = "[
         (id: \"block\", shape: Box(size_m: (4, 20, 3)), east_m: -120, north_m: 5),
         (id: \"pile\", shape: Cylinder(radius_m: 1, height_m: 10), east_m: -130, north_m: -8),
-    ],
-    sources: [
-        (id: \"s0\", east_m: -140, north_m: 20, depth_m: 5, rate_g_s: 0.01, release: (rate_hz: 2)),";
-    let text = text.replacen("sources: [", block, 1);
-    let begin = text.find("    robots: [").unwrap();
-    let end = begin + text[begin..].find("\n    ],\n").unwrap();
-    let one = &text[begin + "    robots: [".len()..end];
-    let many: String = (0..robots)
-        .map(|k| {
-            one.replace("auv0", &format!("auv{k}")).replace("north_m: -30", &format!("north_m: {}", 12 * k as i32 - 30))
-        })
-        .collect();
-    format!("{}    robots: [{many}{}", &text[..begin], &text[end..])
+    ]";
+    let loaded = lasting(scenario("uniform_channel", &[("obstacles", solids)]), 60.0, 30.0);
+    loaded.edit(|s| {
+        let mut second = s.sources[0].clone();
+        second.id = "s0".to_string();
+        (second.east_m, second.north_m) = (Finite::new(-140.0), Finite::new(20.0));
+        s.sources.push(second);
+        let one = s.robots.remove(0);
+        let robot = |k: usize| {
+            let mut robot = one.clone();
+            robot.id = id(&format!("auv{k}"));
+            robot.start.north_m = Finite::new(12.0 * k as f64 - 30.0);
+            robot
+        };
+        s.robots = (0..robots).map(robot).collect();
+    })
 }
 
+fn id(text: &str) -> Id {
+    Id::try_from(text.to_string()).unwrap()
+}
+
+/// Runs it into a folder of its name, and looks at its summary.
 fn run(dir: &Path, robots: usize) -> Value {
-    let (code, summary) = common::mission(dir, &robots.to_string(), &crowded(robots));
-    assert_eq!(code, 3, "{summary}");
+    let (ended, summary) = mission(dir, &robots.to_string(), &crowded(robots).text());
+    ended.with(3);
     summary
 }
 
@@ -48,32 +54,14 @@ fn any_number_of_robots_sources_and_obstacles() {
         }
         assert!(dir.path().join(robots.to_string()).join("map.png").exists());
     }
-}
-
-/// A robot's numbers do not change because another one is there.
-#[test]
-fn a_second_robot_shifts_nobody_s_numbers() {
-    let dir = tempfile::tempdir().unwrap();
-    run(dir.path(), 1);
-    run(dir.path(), 3);
-    let track = |k: &str| std::fs::read_to_string(dir.path().join(k).join("track.csv")).unwrap();
-    let of_first = |text: String| -> Vec<String> {
-        let rows = text.lines().filter(|l| l.contains(",auv0,"));
+    // A robot's numbers do not change because another one is there.
+    let of_first = |robots: &str| -> Vec<String> {
+        let track = std::fs::read_to_string(dir.path().join(robots).join("track.csv")).unwrap();
+        let rows = track.lines().filter(|l| l.contains(",auv0,"));
         rows.map(str::to_string).collect()
     };
-    let alone = of_first(track("1"));
-    assert!(alone.len() > 250);
-    assert_eq!(alone, of_first(track("3")));
-}
-
-#[test]
-fn those_that_come_with_the_program_are_fine() {
-    for template in CATALOG {
-        let loaded = load(Path::new(template.name)).unwrap();
-        let warnings = loaded.check().unwrap();
-        assert!(warnings.is_empty(), "{}: {warnings:?}", template.name);
-        assert!(!loaded.scenario.citation.is_empty(), "{} has no citation", template.name);
-    }
+    assert!(of_first("1").len() > 250);
+    assert_eq!(of_first("1"), of_first("3"));
 }
 
 /// Where two documents differ.
@@ -94,8 +82,8 @@ fn unlike(a: &Value, b: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-fn scenario(name: &str) -> Value {
-    serde_json::to_value(load(Path::new(name)).unwrap().scenario).unwrap()
+fn value(loaded: &Loaded) -> Value {
+    serde_json::to_value(&loaded.scenario).unwrap()
 }
 
 /// The mission for a searcher outside is the same mission, and so is that of another tracker.
@@ -107,12 +95,12 @@ fn scenarios_that_say_they_are_another_differ_only_in_who_searches() {
         ("flume_crab_paper", "flume_crab", ".gantries[0].tracker"),
     ] {
         let mut found = Vec::new();
-        unlike(&scenario(name), &scenario(of), "", &mut found);
+        unlike(&value(&scenario(name, &[])), &value(&scenario(of, &[])), "", &mut found);
         found.retain(|path| !path.starts_with(who));
         assert_eq!(found, [".title"], "{name} beside {of}");
     }
-    let fallback = &scenario("duck_external")["robots"][0]["strategy"]["External"]["on_late"];
-    assert_eq!(fallback["Fallback"], scenario("duck_st")["robots"][0]["strategy"]);
+    let strategy = |name: &str| value(&scenario(name, &[]))["robots"][0]["strategy"].clone();
+    assert_eq!(strategy("duck_external")["External"]["on_late"]["Fallback"], strategy("duck_st"));
 }
 
 /// `flume_crab` runs what `rheotaxis reproduce crab` measures as `adaptive`, beside the paper's tracker.
@@ -127,15 +115,14 @@ fn the_crab_of_the_catalogue_is_the_one_that_is_measured() {
         arms.iter().find(|a| a["name"] == name).expect("the arm")["set"].clone()
     };
     assert_eq!(arm("paper"), Value::Null);
-    let mut text = include_str!("../../../scenarios/catalog/flume_crab_paper.ron").to_string();
-    for change in arm("adaptive").as_array().expect("it changes something") {
-        let part = |k: usize| change[k].as_str().expect("a text");
-        text = set_value(&text, part(0), part(1)).expect("a field");
-    }
-    let measured = load_text(&Registry::default(), "measured", &text).unwrap().scenario;
-    let measured = serde_json::to_value(measured).unwrap();
+    let changes = arm("adaptive");
+    let changes = changes.as_array().expect("it changes something").iter();
+    let part = |change: &'_ Value, k: usize| change[k].as_str().expect("a text").to_owned();
+    let changes: Vec<(String, String)> = changes.map(|change| (part(change, 0), part(change, 1))).collect();
+    let changes: Vec<(&str, &str)> = changes.iter().map(|(path, to)| (path.as_str(), to.as_str())).collect();
+    let measured = value(&scenario("flume_crab_paper", &changes));
     let tracker = |scenario: &Value| scenario["gantries"][0]["tracker"].clone();
-    assert_eq!(tracker(&measured), tracker(&scenario("flume_crab")));
+    assert_eq!(tracker(&measured), tracker(&value(&scenario("flume_crab", &[]))));
 }
 
 /// Their heads say that they meet neither bed nor surface.
@@ -143,8 +130,8 @@ fn the_crab_of_the_catalogue_is_the_one_that_is_measured() {
 fn manoeuvring_trials_touch_nothing() {
     let dir = tempfile::tempdir().unwrap();
     for name in ["remus_turning_circle", "remus_zigzag", "remus_dive"] {
-        let text = rheotaxis::scenario::template(name).unwrap().text;
-        let (code, summary) = common::mission(dir.path(), name, text);
-        assert_eq!((code, &summary["abnormal"]), (0, &serde_json::json!([])), "{name}");
+        let (ended, summary) = mission(dir.path(), name, &scenario(name, &[]).text());
+        ended.with(0);
+        assert_eq!(summary["abnormal"], serde_json::json!([]), "{name}");
     }
 }

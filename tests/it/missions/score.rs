@@ -1,19 +1,12 @@
 //! What a run is judged by hangs on nothing that is written down, and on no order but the file's.
 
+use crate::common::short;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use std::path::Path;
-use world::ranges::{Finite, NonNegative, Positive};
-
-/// A search in a channel, cut short.
-fn channel(limit_s: f64) -> Loaded {
-    let mut loaded = load(Path::new("uniform_channel")).unwrap();
-    loaded.scenario.time.spin_up_s = NonNegative::new(60.0);
-    loaded.scenario.time.limit_s = Positive::new(limit_s);
-    loaded
-}
+use world::ranges::{Finite, Positive};
 
 /// How it ended, and the least distance from a source, m.
 fn run(loaded: &Loaded) -> (RunEnd, f64) {
@@ -25,7 +18,7 @@ fn run(loaded: &Loaded) -> (RunEnd, f64) {
 
 #[test]
 fn reaching_a_source_does_not_hang_on_how_often_frames_are_taken() {
-    let mut loaded = channel(120.0);
+    let mut loaded = short("uniform_channel", 60.0, 120.0);
     // From 20 m south of the source it goes north, whatever it is after.
     let start = &mut loaded.scenario.robots[0].start;
     (start.east_m, start.north_m) = (Finite::new(-150.0), Finite::new(-20.0));
@@ -66,7 +59,7 @@ impl Observer for Order {
 /// A robot with a map is stored apart from those without: stored first or last, never in the middle.
 #[test]
 fn robots_come_in_the_order_of_the_file_however_they_are_stored() {
-    let mut loaded = channel(2.0);
+    let mut loaded = short("uniform_channel", 60.0, 2.0);
     let map = load(Path::new("wp_laminar")).unwrap().scenario.robots[0].map.clone();
     assert!(map.is_some());
     let one = loaded.scenario.robots[0].clone();

@@ -1,18 +1,16 @@
 //! The autopilot with the real vehicle under physics; the estimate is made from the truth.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use super::kit::{STEP_S, remus, water};
+use nalgebra::{Vector2, Vector3};
 use robots::actuate::{Autopilot, AutopilotSpec};
 use robots::handoff::{Actuation, Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
-use robots::vehicles::{InMemory, Vehicle, VehicleSpec};
+use robots::vehicles::{ParameterSet, Vehicle};
 use world::area::Area;
-use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics};
 use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
-
-const STEP_S: f64 = 0.02;
 
 struct Run {
     physics: Physics,
@@ -28,7 +26,7 @@ impl Run {
     fn new(heading_deg: f64, depth_m: f64, current: Vector3<f64>) -> Self {
         let area = Area { centre: Vector2::zeros(), length_m: 1094.0, width_m: 367.0, axis: Heading::from_deg(340.0) };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
+        let vehicle = remus(ParameterSet::Remus100);
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
         let pose = Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(heading_deg));
@@ -66,12 +64,7 @@ impl Run {
 
     /// Estimates, one a step, while the heading asked for turns steadily.
     fn turn(&mut self, seconds: f64, from_deg: f64, rate_deg_s: f64, vertical: Vertical) -> Vec<Estimate> {
-        let water = WaterSample {
-            velocity: self.current,
-            gradient: Matrix3::zeros(),
-            rate: Vector3::zeros(),
-            density_kg_m3: 1026.0,
-        };
+        let water = water(self.current);
         let mut seen = Vec::new();
         for step in 0..(seconds / STEP_S) as u64 {
             let heading_deg = from_deg + rate_deg_s * step as f64 * STEP_S;

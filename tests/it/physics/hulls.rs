@@ -10,8 +10,6 @@ mod inspect;
 mod kit;
 mod page;
 mod physics;
-mod published;
 mod refused;
 mod thrust;
 mod trajectories;
-mod unstable;

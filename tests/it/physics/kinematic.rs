@@ -3,11 +3,10 @@
 mod paths;
 mod refused;
 
-use crate::common;
+use crate::common::{lasting, mission, scenario, set};
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{RunEnd, Trial, Unwatched};
 use robots::handoff::Readings;
 use robots::sense::Sensors;
@@ -17,19 +16,12 @@ use world::catalogue::Entry;
 const WATER: &str = "Kinematic()";
 const GROUND: &str = "Kinematic(moves: OverGround, turn: Radius(radius_m: 11.5))";
 
-/// A scenario of the catalogue with another vehicle and a few other texts.
-fn with(name: &str, vehicle: &str, changes: &[(&str, &str)]) -> Loaded {
-    let text = template(name).expect("in the catalogue").text;
-    text_with(text, vehicle, changes)
-}
+const VEHICLE: &str = "robots[0].vehicle";
 
-fn text_with(text: &str, vehicle: &str, changes: &[(&str, &str)]) -> Loaded {
-    let mut text = text.replace("Remus100()", vehicle);
-    for (from, to) in changes {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text = text.replace(from, to);
-    }
-    load_text(&Registry::default(), "kinematic", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()))
+/// A scenario of the catalogue with another vehicle.
+#[track_caller]
+fn with(name: &str, vehicle: &str) -> Loaded {
+    scenario(name, &[(VEHICLE, vehicle)])
 }
 
 fn run(loaded: &Loaded, seed: u64) -> RunEnd {
@@ -39,9 +31,9 @@ fn run(loaded: &Loaded, seed: u64) -> RunEnd {
 #[test]
 fn the_behaviour_based_planners_find_the_source() {
     for vehicle in [WATER, GROUND] {
-        let channel = run(&with("uniform_channel", vehicle, &[]), 1);
+        let channel = run(&with("uniform_channel", vehicle), 1);
         assert_eq!(channel.outcome, RunOutcome::Found, "Amp, {vehicle}");
-        let zones = run(&with("t13_siz", vehicle, &[]), 1);
+        let zones = run(&with("t13_siz", vehicle), 1);
         assert_eq!(zones.outcome, RunOutcome::Found, "Subsumption, {vehicle}");
     }
 }
@@ -49,14 +41,14 @@ fn the_behaviour_based_planners_find_the_source() {
 #[test]
 fn a_map_with_its_planner_declares() {
     for vehicle in [WATER, GROUND] {
-        let ended = run(&with("wp_laminar", vehicle, &[]), 1);
+        let ended = run(&with("wp_laminar", vehicle), 1);
         assert_eq!(ended.declarations["auv0"].len(), 1, "{vehicle}");
     }
 }
 
 #[test]
 fn subregions_are_searched_one_after_the_other() {
-    let ended = run(&text_with(crate::missions::subregions::MISSION, WATER, &[]), 1);
+    let ended = run(&set(crate::missions::subregions::three(), &[(VEHICLE, WATER)]), 1);
     assert_eq!(ended.outcome, RunOutcome::Found);
     assert_eq!(ended.declarations["auv0"].len(), 2);
 }
@@ -64,7 +56,7 @@ fn subregions_are_searched_one_after_the_other() {
 /// Ten degrees of the rudder's fifteen: two thirds of 10 degrees/s.
 #[test]
 fn a_table_drives_it_too() {
-    let loaded = with("remus_turning_circle", WATER, &[]);
+    let loaded = with("remus_turning_circle", WATER);
     let mut trial = Trial::assemble(&loaded, 1).expect("a run");
     assert!(trial.until(100.0));
     let turning = |trial: &Trial| {
@@ -81,7 +73,7 @@ fn a_table_drives_it_too() {
 #[test]
 fn its_first_readings_are_those_of_a_remus() {
     let first = |vehicle: &str| {
-        let loaded = with("uniform_channel", vehicle, &[("spin_up_s: 2000", "spin_up_s: 50")]);
+        let loaded = lasting(with("uniform_channel", vehicle), 50.0, 1800.0);
         let mut trial = Trial::assemble(&loaded, 3).expect("a run");
         assert!(trial.step());
         let world = &mut trial.simulation.world;
@@ -97,8 +89,7 @@ fn its_first_readings_are_those_of_a_remus() {
 /// Alone, in lanes beside a REMUS, and with the plume on two threads: the same bits.
 #[test]
 fn its_digest_does_not_depend_on_lanes_and_threads() {
-    let cut = [("spin_up_s: 2000", "spin_up_s: 100"), ("limit_s: 1800", "limit_s: 60")];
-    let all = [WATER, "Remus100()", GROUND].map(|v| with("uniform_channel", v, &cut));
+    let all = [WATER, "Remus100()", GROUND].map(|v| lasting(with("uniform_channel", v), 100.0, 60.0));
     let alone = all.each_ref().map(|loaded| run(loaded, 5).digest);
     assert!(alone[0] != alone[1] && alone[0] != alone[2]);
     for threads in [1, 2] {
@@ -115,12 +106,9 @@ fn its_digest_does_not_depend_on_lanes_and_threads() {
 /// Through the whole command: track, map and recording, with its own set-points.
 #[test]
 fn it_is_recorded_as_every_vehicle() {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("Remus100()", GROUND);
-    let text = common::with_fields(&text, &[("spin_up_s", "100"), ("limit_s", "30")]);
     let dir = tempfile::tempdir().expect("a folder");
-    let (code, summary) = common::mission(dir.path(), "point", &text);
-    assert_eq!(code, 3, "{summary}");
+    let (ended, summary) = mission(dir.path(), "point", &lasting(with("uniform_channel", GROUND), 100.0, 30.0).text());
+    ended.with(3);
     let way = summary["robots"][0]["travelled_m"].as_f64().expect("a way");
     assert!((40.0..50.0).contains(&way), "{way} m in 30 s at 1.5 m/s");
     let out = dir.path().join("point");
@@ -128,16 +116,6 @@ fn it_is_recorded_as_every_vehicle() {
     let recorded = std::fs::read(out.join("run.mcap")).expect("a recording");
     let holds = |topic: &str| recorded.windows(topic.len()).any(|w| w == topic.as_bytes());
     assert!(holds("/auv0/actuators/turn_rad_s") && !holds("/auv0/actuators/rudder_rad"));
-}
-
-#[test]
-fn the_list_shows_it_with_its_source() {
-    let said = common::rheotaxis(&["list", "vehicles"]);
-    let said = String::from_utf8(said.stdout).expect("text");
-    let words: Vec<&str> = said.split_whitespace().collect();
-    let said = words.join(" ");
-    assert!(said.contains("Kinematic"), "{said}");
-    assert!(said.contains("Dubins 1957"), "{said}");
 }
 
 /// A kinematic vehicle carries every instrument where the REMUS carries it.

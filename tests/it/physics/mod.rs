@@ -3,10 +3,10 @@
 mod autopilot;
 mod hulls;
 mod kinematic;
+mod kit;
 mod rapier_alone;
 mod sea;
 mod vehicle;
 mod vehicle_contacts;
 mod vehicle_effects;
-mod vehicle_mass;
 mod vehicle_published;

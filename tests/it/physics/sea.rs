@@ -1,22 +1,22 @@
-//! A vehicle close under the waves: it holds its depth, its Doppler log dead-reckons, and the flow it believes is the tide's, not the waves'.
+//! A vehicle close under the waves: it holds its depth, its Doppler log dead-reckons, and the flow it believes is the
+//! tide's, not the waves'.
 
 use crate::common;
 use nalgebra::Vector2;
 use rheotaxis::assemble::Simulation;
-use rheotaxis::scenario::{Scenario, parse};
+use rheotaxis::scenario::Scenario;
 use robots::handoff::Estimate;
 use std::path::Path;
 use world::frames::Truth;
 
 /// Five minutes in Dalian Bay without the plume; in front of it the waves as they are there, or none.
 fn scenario(waves: bool) -> Scenario {
-    let text = include_str!("../../../scenarios/catalog/dalian_bay.ron");
-    let mut text = common::with_fields(text, &[("spin_up_s", "1")]);
-    if !waves {
-        let line = text.lines().find(|l| l.contains("Waves(spectrum")).unwrap();
-        text = text.replacen(&line.to_string(), "", 1);
-    }
-    parse("sea", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()))
+    let loaded = common::scenario("dalian_bay", &[("time.spin_up_s", "1")]).edit(|s| {
+        if !waves {
+            s.water.currents.retain(|current| current.name() != "Waves");
+        }
+    });
+    loaded.scenario
 }
 
 struct Held {
@@ -61,7 +61,8 @@ fn a_vehicle_close_under_waves_holds_its_depth_and_knows_the_tide() {
     assert!(rough.depth.0 > 1.2 * calm.depth.0);
     // The surface is six standard deviations of the depth away.
     assert!(rough.depth.0.sqrt() < 1.5 / 6.0 && rough.depth.1 < 0.75);
-    // Instrument noise leaves half a centimetre a second, a degree of compass bias two and a half of 1.5 m/s while it turns; waves of 7 cm/s rms
+    // Instrument noise leaves half a centimetre a second, a degree of compass bias two and a half of 1.5 m/s while it
+    // turns; waves of 7 cm/s rms
     // through ten seconds of low-pass add a centimetre. Unfiltered they would be 7. (Measured: 1.0 cm/s calm, 1.2
     // under waves.)
     assert!(rough.flow.sqrt() < 0.04, "{}", rough.flow.sqrt());

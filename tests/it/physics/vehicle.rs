@@ -2,26 +2,16 @@
 //!
 //! Reference data: `tests/reference/remus100/README.md`.
 
+use super::kit::{STEP_S, command, remus, water};
 use super::rapier_alone::RapierAlone;
 use crate::common::root;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::{Actuation, ActuatorCommand};
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{ParameterSet, Vehicle};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics, Solver};
 use world::units::Heading;
-
-const STEP_S: f64 = 0.02;
-
-fn vehicle(parameters: ParameterSet) -> Vehicle {
-    let spec = VehicleSpec::Remus100(RemusSpec { parameters, ..RemusSpec::default() });
-    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
-}
-
-fn water(velocity: Vector3<f64>) -> WaterSample {
-    WaterSample { velocity, gradient: Matrix3::zeros(), rate: Vector3::zeros(), density_kg_m3: 1026.0 }
-}
 
 /// Deep enough that the surface is out of reach, heading north, as the reference's origin.
 fn start() -> Truth {
@@ -57,7 +47,7 @@ impl Alone {
     }
 
     fn in_steps_of(step_s: f64, parameters: ParameterSet, mover: Mover, start: Truth, water: WaterSample) -> Self {
-        let vehicle = vehicle(parameters);
+        let vehicle = remus(parameters);
         let body = vehicle.body_spec("auv", start);
         let moved = match mover {
             Mover::Ours(solver) => {
@@ -93,10 +83,6 @@ impl Alone {
         }
         self.steps += 1;
     }
-}
-
-fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
-    ActuatorCommand { rudder_rad: rudder_deg.to_radians(), stern_rad: stern_deg.to_radians(), rpm }
 }
 
 /// Worst (position, m; attitude, deg) along a reference file.
@@ -182,7 +168,8 @@ fn roll_release() {
     assert!(m < 0.02 && deg < of_rapier, "{m} m, {deg} deg");
 }
 
-/// What `duck_st` says of its steps: after four minutes of turns to both sides, in water that shears, a hull in steps of
+/// What `duck_st` says of its steps: after four minutes of turns to both sides, in water that shears, a hull in steps
+/// of
 /// 0.05 s is less than a millimetre from one in steps of 1 ms.
 #[test]
 fn steps_of_a_twentieth_of_a_second_are_exact_enough_for_a_mission() {

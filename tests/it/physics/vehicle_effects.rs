@@ -1,19 +1,14 @@
 //! Single effects of the REMUS under physics: one cause, one known answer.
 
-use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
+use super::kit::{STEP_S, command, energy, mass, remus, water};
+use nalgebra::{UnitQuaternion, Vector3};
 use robots::handoff::{Actuation, ActuatorCommand};
-use robots::vehicles::{Coefficients, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
-use std::path::Path;
-use world::area::Area;
+use robots::vehicles::{ParameterSet, Vehicle};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
-use world::physics::{BodyId, Physics, Solver};
-use world::ranges::{Finite, HeadingDeg, Positive};
-use world::terrain::Terrain;
+use world::physics::{BodyId, Physics};
 use world::units::Heading;
 
-const STEP_S: f64 = 0.02;
 const BOTH: [ParameterSet; 2] = [ParameterSet::Reference, ParameterSet::Remus100];
 
 struct Auv {
@@ -25,24 +20,9 @@ struct Auv {
 
 impl Auv {
     fn new(parameters: ParameterSet, start: Truth) -> Self {
-        Self::under(Physics::new(STEP_S), parameters, start)
-    }
-
-    fn under(mut physics: Physics, parameters: ParameterSet, start: Truth) -> Self {
-        let spec = VehicleSpec::Remus100(RemusSpec { parameters, ..RemusSpec::default() });
-        let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
+        let (mut physics, vehicle) = (Physics::new(STEP_S), remus(parameters));
         let id = physics.add_body(vehicle.body_spec("auv", start));
-        let water = WaterSample {
-            velocity: Vector3::zeros(),
-            gradient: Matrix3::zeros(),
-            rate: Vector3::zeros(),
-            density_kg_m3: 1026.0,
-        };
-        Self { physics, id, vehicle, water }
-    }
-
-    fn coefficients(&self) -> &Coefficients {
-        self.vehicle.coefficients().expect("terms of its own")
+        Self { physics, id, vehicle, water: water(Vector3::zeros()) }
     }
 
     fn truth(&self) -> Truth {
@@ -64,22 +44,13 @@ impl Auv {
         self.truth()
     }
 
-    /// Kinetic energy with the water's, and that of the low centre of gravity, J.
     fn energy(&self) -> f64 {
-        let (t, c) = (self.truth(), self.coefficients());
-        let (v, w) = (t.v_WB_B, t.w_WB_B);
-        let nu = Vector6::new(v.x, -v.y, -v.z, w.x, -w.y, -w.z);
-        let upright = (t.pose.R_WB * Vector3::z()).z;
-        0.5 * nu.dot(&((c.rigid_mass() + c.added_mass()) * nu)) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
+        energy(&self.vehicle, &self.truth())
     }
 }
 
 fn at(depth_m: f64) -> Truth {
     Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, -depth_m), Heading::from_deg(90.0)))
-}
-
-fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
-    ActuatorCommand { rudder_rad: rudder_deg.to_radians(), stern_rad: stern_deg.to_radians(), rpm }
 }
 
 const DEAD: ActuatorCommand = ActuatorCommand { rudder_rad: 0.0, stern_rad: 0.0, rpm: 0.0 };
@@ -93,8 +64,7 @@ fn known_thrust_gives_known_acceleration() {
         for _ in 0..2000 {
             auv.vehicle.step_in(&at(50.0), &auv.water, &Actuation::Fins(command(0.0, 0.0, 600.0)), STEP_S);
         }
-        let c = auv.coefficients();
-        let m = c.rigid_mass() + c.added_mass();
+        let m = mass(&auv.vehicle);
         let thrust = 0.9 * 1026.0 * 0.14f64.powi(4) * 0.4566 * 100.0;
         let det = m[(0, 0)] * m[(4, 4)] - m[(0, 4)] * m[(0, 4)];
         let expected = thrust * m[(4, 4)] / det;
@@ -133,8 +103,8 @@ fn accelerating_water_takes_a_neutral_hull_along() {
     for n in 0..200 {
         auv.water.velocity = auv.water.rate * (n as f64 * STEP_S);
         let t = auv.step(&DEAD);
-        let water = auv.water.rate * ((n + 1) as f64 * STEP_S);
-        assert!((t.v_world() - water).norm() < 1e-9);
+        let moved = auv.water.rate * ((n + 1) as f64 * STEP_S);
+        assert!((t.v_world() - moved).norm() < 1e-9);
     }
 }
 
@@ -152,7 +122,7 @@ fn accelerating_water_tilts_the_hull_as_a_pendulum() {
 }
 
 #[test]
-fn energy_only_falls_without_thrust() {
+fn energy_only_falls_without_thrust_and_roll_and_pitch_die_away() {
     for set in BOTH {
         let mut start = at(50.0);
         start.pose.R_WB *= UnitQuaternion::from_euler_angles(0.5, -0.4, 0.0);
@@ -168,16 +138,7 @@ fn energy_only_falls_without_thrust() {
             before = now;
         }
         assert!(before < 0.02 * first, "{set:?}: {before} J of {first} J left");
-    }
-}
-
-#[test]
-fn roll_and_pitch_die_away() {
-    for set in BOTH {
-        let mut start = at(50.0);
-        start.pose.R_WB *= UnitQuaternion::from_euler_angles(0.5, 0.3, 0.0);
-        let end = Auv::new(set, start).run(30.0, &DEAD);
-        let (roll, pitch) = end.pose.roll_pitch();
+        let (roll, pitch) = auv.truth().pose.roll_pitch();
         assert!(roll.abs() < 1e-3 && pitch.abs() < 1e-3, "{roll} {pitch}");
     }
 }
@@ -212,97 +173,6 @@ fn steady_motion_of_both_sets() {
     assert!(rate.abs() < 1e-6, "does not run straight: {rate} deg/s");
 }
 
-/// The bed of a level sea, 10 m deep, wide enough for a minute's run.
-fn over_bed(solver: Solver) -> Physics {
-    let area =
-        Area { centre: nalgebra::Vector2::zeros(), length_m: 400.0, width_m: 400.0, axis: Heading::from_deg(0.0) };
-    let mut physics = Physics::new(STEP_S).with_solver(solver);
-    physics.add_terrain(&Terrain::Level { depth_m: 10.0 }, &area);
-    physics
-}
-
-#[test]
-fn the_bed_stops_a_dive_without_giving_energy() {
-    let mut auv = Auv::under(over_bed(Solver::default()), ParameterSet::Remus100, at(6.0));
-    let mut touched = false;
-    let (mut fastest_free, mut deepest): (f64, f64) = (0.0, 0.0);
-    for _ in 0..3000 {
-        let t = auv.step(&command(0.0, 6.0, 1200.0));
-        let contact = auv.physics.contacts(auv.id);
-        // The capsule's ends are 0.705 m from its middle, 0.095 m round.
-        for end in [0.705, -0.705] {
-            let low = t.pose.point(Vector3::new(end, 0.0, 0.0)).z - 0.095;
-            deepest = deepest.max(-10.0 - low);
-        }
-        if contact.touching {
-            touched = true;
-            assert!(contact.impulse_N_s.z > 0.0, "the bed pushes up");
-        }
-        if !touched {
-            fastest_free = fastest_free.max(t.v_WB_B.norm());
-        }
-        assert!(t.v_WB_B.norm() < 1.02 * fastest_free.max(1.0));
-    }
-    assert!(touched);
-    assert!(deepest < 0.01, "{deepest} m into the bed");
-}
-
-/// Under way against a standing wall: stopped, held there, given no energy.
-#[test]
-fn a_wall_stops_a_run_without_giving_energy() {
-    let mut physics = Physics::new(STEP_S);
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "wall".into(),
-        shape: ShapeSpec::Box(BoxShape { size_m: (Positive::new(2.0), Positive::new(40.0), Positive::new(20.0)) }),
-        east_m: Finite::new(20.0),
-        north_m: Finite::new(0.0),
-        base: Base::OnBed,
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    let sea = Terrain::Level { depth_m: 20.0 };
-    let wall = Obstacle::build(&spec, &sea, Path::new(".")).expect("a wall");
-    let face = wall.bounds().0.x;
-    physics.add_obstacle(&wall);
-    let mut auv = Auv::under(physics, ParameterSet::Remus100, at(10.0));
-    let (mut touched, mut fastest, mut furthest) = (false, 0.0, f64::NEG_INFINITY);
-    for _ in 0..3000 {
-        let t = auv.step(&command(0.0, 0.0, 1200.0));
-        let nose = t.pose.point(Vector3::new(0.705, 0.0, 0.0)).x + 0.095;
-        furthest = furthest.max(nose - face);
-        let speed = t.v_WB_B.norm();
-        if touched {
-            assert!(speed <= fastest, "{speed} m/s after the wall, {fastest} m/s before");
-        } else {
-            fastest = f64::max(fastest, speed);
-        }
-        touched |= auv.physics.contacts(auv.id).touching;
-    }
-    assert!(touched && fastest > 1.5, "{fastest} m/s");
-    assert!(furthest < 0.01, "{furthest} m into the wall");
-}
-
-#[test]
-fn asking_the_solver_changes_no_bit() {
-    let run = |solver| {
-        let mut auv = Auv::under(over_bed(solver), ParameterSet::Remus100, at(7.0));
-        auv.water.velocity = Vector3::new(0.1, 0.2, 0.0);
-        // Down to 0.2 m over the bed, touching nothing, then along it and up again.
-        let mut lowest = f64::INFINITY;
-        for n in 0..4000 {
-            let depth_error = if n < 2000 { 9.75 + auv.truth().pose.p_WB.z } else { 6.0 + auv.truth().pose.p_WB.z };
-            let t = auv.step(&command(4.0, (3.0 * depth_error).clamp(-3.0, 3.0), 900.0));
-            lowest = f64::min(lowest, t.pose.p_WB.z);
-            assert!(!auv.physics.contacts(auv.id).touching);
-        }
-        (auv.truth(), lowest)
-    };
-    let (skipping, lowest) = run(Solver::WhenInReach);
-    assert!(lowest < -9.0, "came within the solver's reach: {lowest}");
-    assert_eq!(skipping, run(Solver::Always).0);
-    assert_eq!(skipping, run(Solver::WhenInReach).0, "a repeat differs");
-}
-
 #[test]
 fn does_not_fly() {
     let mut auv = Auv::new(ParameterSet::Remus100, at(3.0));
@@ -314,26 +184,4 @@ fn does_not_fly() {
     // Left alone it comes to lie in the surface.
     let rest = auv.run(60.0, &DEAD);
     assert!(rest.pose.p_WB.z < 0.0 && rest.v_WB_B.norm() < 0.1);
-}
-
-/// Why the added mass stands on the left: as a force of the step before it diverges at any step.
-#[test]
-fn explicit_lag_diverges() {
-    let auv = Auv::new(ParameterSet::Remus100, at(50.0));
-    let c = auv.coefficients();
-    let (rigid, added) = (c.rigid_mass(), c.added_mass());
-    let push = Vector6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0);
-    let inverse = rigid.try_inverse().expect("masses are positive");
-    for step_s in [0.02, 0.005] {
-        let (mut velocity, mut lagged) = (Vector6::zeros(), Vector6::zeros());
-        let mut steps = 0;
-        while velocity.norm() < 1e3 && steps < 1000 {
-            lagged = inverse * (push - added * lagged);
-            velocity += lagged * step_s;
-            steps += 1;
-        }
-        assert!(steps < 280, "{step_s} s: still bounded after {steps} steps");
-    }
-    let solved = (rigid + added).try_inverse().expect("positive") * push;
-    assert!(solved.norm() < 0.1, "bounded when solved for: {solved}");
 }

@@ -1,16 +1,14 @@
 //! The reference set against an integration of the published equations written here a second time, from their text:
 //! NED, FRD, Euler angles. Above all: what it does at rest in a current.
 
+use super::kit::{STEP_S, remus, water};
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::{Actuation, ActuatorCommand};
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::ParameterSet;
 use std::f64::consts::PI;
-use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::math;
 use world::units::Heading;
-
-const STEP_S: f64 = 0.02;
 
 /// (x y z φ θ ψ), (u v w p q r), (rudder, stern plane, rpm).
 #[derive(Clone, Copy)]
@@ -181,26 +179,21 @@ impl Published {
     }
 }
 
-/// Greatest distance (m) over `seconds` between our reference set and the published equations, started at rest with a heading,
+/// Greatest distance (m) over `seconds` between our reference set and the published equations, started at rest with a
+/// heading,
 /// roll and pitch (degrees, NED) in a current towards `beta_deg`.
 fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, seconds: f64) -> f64 {
     let published = Published::new(v_c, beta_deg.to_radians());
     let [phi, theta, psi] = attitude_deg.map(f64::to_radians);
     let mut theirs =
         State { eta: Vector6::new(0.0, 0.0, 100.0, phi, theta, psi), nu: Vector6::zeros(), act: Vector3::zeros() };
-    let spec = RemusSpec { parameters: ParameterSet::Reference, ..RemusSpec::default() };
-    let mut vehicle = Vehicle::load(&VehicleSpec::Remus100(spec), &InMemory::default()).expect("built in");
+    let mut vehicle = remus(ParameterSet::Reference);
     let mut ours = Truth::at_rest(Pose {
         p_WB: Vector3::new(0.0, 0.0, -100.0),
         R_WB: UnitQuaternion::from_euler_angles(phi, -theta, Heading::from_rad(psi).yaw()),
     });
     let to = Heading::from_deg(beta_deg).unit() * v_c;
-    let water = WaterSample {
-        velocity: Vector3::new(to.x, to.y, 0.0),
-        gradient: Matrix3::zeros(),
-        rate: Vector3::zeros(),
-        density_kg_m3: 1026.0,
-    };
+    let water = water(Vector3::new(to.x, to.y, 0.0));
     let command = Actuation::Fins(ActuatorCommand { rudder_rad: asked[0], stern_rad: asked[1], rpm: asked[2] });
     let mut worst: f64 = 0.0;
     for _ in 0..(seconds / STEP_S).round() as u64 {
@@ -213,7 +206,8 @@ fn apart(v_c: f64, beta_deg: f64, attitude_deg: [f64; 3], asked: Vector3<f64>, s
     worst
 }
 
-/// A following current of 0.5 m/s towards 30 degrees: the water meets the hull from astern, α = π with the sign of zero.
+/// A following current of 0.5 m/s towards 30 degrees: the water meets the hull from astern, α = π with the sign of
+/// zero.
 #[test]
 fn at_rest_in_a_following_current_the_sign_of_zero_is_the_published_one() {
     let ahead = Vector3::new(0.0, 0.0, 1525.0);
@@ -221,7 +215,8 @@ fn at_rest_in_a_following_current_the_sign_of_zero_is_the_published_one() {
     assert!(worst < 2e-6, "{worst} m");
 }
 
-/// Every direction of the current but those exactly abeam, where the published first step hangs on a rounding error in surge.
+/// Every direction of the current but those exactly abeam, where the published first step hangs on a rounding error in
+/// surge.
 #[test]
 fn at_rest_in_any_current_the_path_is_the_published_one() {
     let turning = Vector3::new(5f64.to_radians(), 2f64.to_radians(), 1000.0);

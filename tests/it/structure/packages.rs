@@ -1,21 +1,7 @@
 //! A published package holds all that its code is built from, and says what it is.
 
-use crate::common::root;
-use crate::structure::sources;
-use std::fs;
-
-/// The crates, as folders of the workspace.
-const CRATES: [&str; 9] = [
-    "world",
-    "plumes",
-    "robots",
-    "robots/eyes",
-    "scenarios/simulation",
-    "scenarios/output",
-    "scenarios/studies",
-    "scenarios/command",
-    "scenarios/python",
-];
+use crate::common::{read, root};
+use crate::structure::{CRATES, sources};
 
 /// The categories of crates.io that fit: it refuses unknown ones.
 const CATEGORIES: [&str; 4] = ["command-line-utilities", "science", "science::robotics", "simulation"];
@@ -36,7 +22,7 @@ fn plain(path: &str) -> String {
 #[test]
 fn what_a_package_includes_is_in_it() {
     let mut seen = 0;
-    for package in CRATES {
+    for (_, package, _) in CRATES {
         for (file, text) in sources(&format!("{package}/src")) {
             let folder = file.rsplit_once('/').expect("a folder").0;
             if file.contains("test") {
@@ -58,11 +44,6 @@ fn what_a_package_includes_is_in_it() {
     assert!(seen > 8, "{seen} files are included");
 }
 
-/// A file of the workspace.
-fn text(file: &str) -> String {
-    fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
-}
-
 /// What a table of a manifest says of a field, as it stands there; lists are on one line.
 fn field<'a>(manifest: &'a str, table: &str, name: &str) -> Option<&'a str> {
     let begin = format!("[{table}]");
@@ -78,10 +59,10 @@ fn listed(list: &str) -> Vec<&str> {
 
 #[test]
 fn each_manifest_says_what_a_package_index_asks_for() {
-    let workspace = text("Cargo.toml");
-    for package in CRATES {
+    let workspace = read("Cargo.toml");
+    for (_, package, _) in CRATES {
         let file = format!("{package}/Cargo.toml");
-        let manifest = text(&file);
+        let manifest = read(&file);
         let said = |name: &str| {
             let inherited = field(&manifest, "package", &format!("{name}.workspace"));
             let found = match inherited {
@@ -108,14 +89,14 @@ fn each_manifest_says_what_a_package_index_asks_for() {
 #[test]
 fn the_wheel_says_what_a_package_index_asks_for() {
     let file = "scenarios/python/pyproject.toml";
-    let manifest = text(file);
+    let manifest = read(file);
     let said = |name: &str| {
         let found = field(&manifest, "project", name);
         found.unwrap_or_else(|| panic!("{file} has no {name}"))
     };
     assert_eq!(said("name"), "\"rheotaxis-sim\"");
     assert_eq!(said("requires-python"), "\">=3.10\"");
-    let workspace = text("Cargo.toml");
+    let workspace = read("Cargo.toml");
     for same in ["description", "license", "keywords"] {
         let shared = field(&workspace, "workspace.package", same);
         assert_eq!(Some(said(same)), shared, "{file}: {same}");
@@ -125,9 +106,9 @@ fn the_wheel_says_what_a_package_index_asks_for() {
 
 #[test]
 fn the_citation_names_this_version() {
-    let workspace = text("Cargo.toml");
+    let workspace = read("Cargo.toml");
     let version = field(&workspace, "workspace.package", "version").expect("a version");
-    let citation = text("CITATION.cff");
+    let citation = read("CITATION.cff");
     let cited = citation.lines().find_map(|line| line.strip_prefix("version: "));
     assert_eq!(cited, Some(version.trim_matches('"')), "CITATION.cff");
 }

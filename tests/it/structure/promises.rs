@@ -4,7 +4,7 @@
 mod commands;
 mod spans;
 
-use crate::common::{apart, binary, root};
+use crate::common::{Ended, apart, binary, read, root};
 use commands::{COMMANDS, Told};
 use rheotaxis::scenario::CATALOG;
 use std::collections::BTreeSet;
@@ -20,8 +20,7 @@ fn pages() -> Vec<(String, String)> {
     let beside = ["README.md", "CONTRIBUTING.md", "tests/README.md"].map(String::from);
     let mut names: Vec<String> = docs.chain(beside).collect();
     names.sort();
-    let text = |name: &String| fs::read_to_string(root().join(name)).expect("a page");
-    names.iter().map(|name| (name.clone(), text(name))).collect()
+    names.into_iter().map(|name| (name.clone(), read(&name))).collect()
 }
 
 /// The fenced blocks of a page that are for a shell: those without a language, and `sh`.
@@ -69,13 +68,12 @@ fn each_command_of_the_docs_stands_in_the_table_and_each_row_in_the_docs() {
         missing.is_empty() && gone.is_empty(),
         "tests/it/structure/promises/commands.rs\nhas no row for {missing:#?}\nand rows for what no page says: {gone:#?}"
     );
-    let ci = fs::read_to_string(root().join(".ci/run")).expect("it is in the workspace");
+    let ci = read(".ci/run");
     for (command, told) in COMMANDS {
         match told {
             Told::Ci(line) => assert!(ci.contains(line), "{command}: .ci/run has no {line}"),
             Told::In(file, part) => {
-                let text = fs::read_to_string(root().join(file)).expect("a file of the workspace");
-                assert!(text.contains(part), "{command}: {file} has no {part}");
+                assert!(read(file).contains(part), "{command}: {file} has no {part}");
             }
             Told::No(why) => assert!(!why.is_empty(), "{command}: say why"),
             Told::Ends { .. } => {}
@@ -96,9 +94,8 @@ fn ends(dir: &Path, command: &str) -> (Option<i32>, String) {
             false => process.arg(word),
         };
     }
-    let end = apart(process.current_dir(dir)).output().expect("rheotaxis starts");
-    let said = [end.stdout, end.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
-    (end.status.code(), said.concat())
+    let end = Ended::of(apart(process.current_dir(dir)));
+    (end.code, end.out + &end.err)
 }
 
 /// The rows of the table that run, in its order, in one folder.
@@ -134,14 +131,14 @@ fn readme_has_the_share_of(table: &str) {
     let line = table.lines().find(|l| l.starts_with("declared a source"));
     let share = line.and_then(|l| l.split_whitespace().find(|w| w.contains('/')));
     let share = share.expect("a count of the runs");
-    let readme = fs::read_to_string(root().join("README.md")).expect("the page");
+    let readme = read("README.md");
     let row = readme.lines().find(|l| l.starts_with("| `duck_st` |"));
     assert!(row.is_some_and(|row| row.contains(share)), "README has not {share}: {row:?}");
 }
 
 /// Whether the first column of the table in docs/outputs.md has a file: `series-<robot>.svg`, `.png` stands for both.
 fn outputs_name(name: &str) -> bool {
-    let page = fs::read_to_string(root().join("docs/outputs.md")).expect("the page");
+    let page = read("docs/outputs.md");
     let rows = page.lines().skip_while(|l| !l.starts_with("| file | holds |"));
     let cells = rows.take_while(|l| l.starts_with('|')).filter_map(|l| l.split('|').nth(1));
     let mut all = Vec::new();
@@ -159,7 +156,7 @@ fn outputs_name(name: &str) -> bool {
 
 #[test]
 fn docs_name_every_scenario_and_only_those() {
-    let page = fs::read_to_string(root().join("docs/scenarios.md")).expect("the page");
+    let page = read("docs/scenarios.md");
     for template in CATALOG {
         let named = format!("`{}`", template.name);
         assert!(page.contains(&named), "docs/scenarios.md does not name {named}");
@@ -176,7 +173,7 @@ fn docs_name_every_scenario_and_only_those() {
 /// Each picture of the docs stands in the gallery, with the commands that make it.
 #[test]
 fn each_picture_of_the_docs_has_its_commands_in_the_gallery() {
-    let page = fs::read_to_string(root().join("docs/gallery.md")).expect("the page");
+    let page = read("docs/gallery.md");
     let figures = fs::read_dir(root().join("docs/figures")).expect("the folder of pictures");
     let figures: BTreeSet<String> =
         figures.map(|f| f.expect("a file").file_name().into_string().expect("UTF-8")).collect();

@@ -1,12 +1,6 @@
 //! The example of how to add an algorithm is the one that `tools/check_add_an_algorithm.sh` builds and runs.
 
-use crate::common::root;
-use std::fs;
-
-fn read(name: &str) -> String {
-    let path = root().join(name);
-    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
+use crate::common::read;
 
 /// The code blocks of a page, of one language.
 fn blocks<'a>(section: &'a str, language: &str) -> Vec<&'a str> {

@@ -91,7 +91,8 @@ fn code_outside_tests(file: &str, text: &str) -> String {
     code.lines().filter(|l| !l.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect()
 }
 
-/// A searcher that opened the scenario file would know where the source is, and one that kept something between two runs would
+/// A searcher that opened the scenario file would know where the source is, and one that kept something between two
+/// runs would
 /// know it in the second. Files reach the vehicles through `Files`.
 #[test]
 fn searchers_read_no_files_and_keep_nothing_between_runs() {

@@ -2,11 +2,11 @@
 
 mod recording;
 
-use crate::common::{mission, root, with_fields};
+use crate::common::{mission, read, scenario};
 use recording::Recording;
+use rheotaxis::scenario::Loaded;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::fs;
 
 /// What a layout names.
 #[derive(Debug, Default)]
@@ -74,13 +74,16 @@ fn named(layout: &Value) -> Named {
     all
 }
 
-/// Runs a scenario of the catalogue, changed, and looks up what the layout names.
-fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
-    let read = |path: &str| fs::read_to_string(root().join(path)).expect("it is in the workspace");
+/// The recording of a run.
+fn recorded(loaded: &Loaded) -> Recording {
     let dir = tempfile::tempdir().expect("a folder");
-    let scenario = with_fields(&read(&format!("scenarios/catalog/{scenario}.ron")), fields);
-    mission(dir.path(), "s", &scenario);
-    let recording = Recording::read(&dir.path().join("s/run.mcap"));
+    mission(dir.path(), "s", &loaded.text());
+    Recording::read(&dir.path().join("s/run.mcap"))
+}
+
+/// Runs a scenario of the catalogue, changed, and looks up what the layout names.
+fn holds(layout: &str, name: &str, values: &[(&str, &str)]) {
+    let recording = recorded(&scenario(name, values));
     let layout: Value = serde_json::from_str(&read(&format!("docs/layouts/{layout}"))).expect("JSON");
     let named = named(&layout);
     assert!(named.topics.len() > 4 && named.paths.len() > 4, "{named:?}");
@@ -110,12 +113,7 @@ fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
 /// Echoes of the ranging are recorded as they are heard.
 #[test]
 fn a_recording_holds_the_pings_of_the_ranging() {
-    let path = root().join("scenarios/catalog/bluerov_harbour.ron");
-    let text = fs::read_to_string(path).expect("it is in the workspace");
-    let fields = [("limit_s", "100")];
-    let dir = tempfile::tempdir().expect("a folder");
-    mission(dir.path(), "s", &with_fields(&text, &fields));
-    let recording = Recording::read(&dir.path().join("s/run.mcap"));
+    let recording = recorded(&scenario("bluerov_harbour", &[("time.limit_s", "100")]));
     // Two pings a second.
     let pings = recording.messages("/rov0/ranging");
     assert!((190..=200).contains(&pings), "{pings}");
@@ -139,6 +137,6 @@ fn the_layout_of_a_map_names_what_its_recording_holds() {
 #[test]
 fn the_layout_of_a_survey_names_what_its_recording_holds() {
     // What the pictures show does not matter here.
-    let small = [("width", "160"), ("height", "120")];
+    let small = [("robots[0].sensors.camera.width", "160"), ("robots[0].sensors.camera.height", "120")];
     holds("survey.json", "eyes_over_source", &small);
 }

@@ -12,19 +12,18 @@ mod ros2;
 mod schemas;
 mod setup;
 
+use crate::common::free_endpoint;
 use crate::waits::until;
 use image::Rgb;
 use kit::{
-    broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume, scene_document, sent,
+    Samples, broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume, scene_document,
     start, water,
 };
 use output::live::{Live, LiveOptions, Payload, topics};
 use readings::{picture, ping};
-use rheotaxis::scenario;
-use rheotaxis::trial::{Event, Observer, Trial};
-use serde_json::{Value, json};
+use rheotaxis::trial::Event;
+use serde_json::json;
 use std::collections::BTreeMap;
-use std::net::TcpListener;
 use std::sync::Arc;
 use world::registry::Registry;
 use zenoh::bytes::Encoding;
@@ -47,6 +46,15 @@ fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
     assert_eq!((clock["step"].as_u64(), &clock["ended"]), (Some(last_step), &json!(true)));
 }
 
+/// Adds what comes until the clock says that the run has ended, by key below the run's.
+fn hear_the_end(samples: &Samples, base: &str, seen: &mut BTreeMap<String, Sample>) {
+    while !seen.get("clock").is_some_and(|clock| json(clock)["ended"] == true) {
+        let sample = next(samples);
+        let key = sample.key_expr().as_str()[base.len()..].to_owned();
+        seen.insert(key, sample);
+    }
+}
+
 /// A topic's key for the vehicle or the gantry of the run.
 fn key_of(key: &str) -> String {
     key.replace("auv/<id>", "auv/auv0")
@@ -57,8 +65,7 @@ fn key_of(key: &str) -> String {
 
 #[test]
 fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
-    let port = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
-    let endpoint = format!("tcp/127.0.0.1:{port}");
+    let endpoint = free_endpoint();
     let config = format!(
         r#"{{ mode: "peer", listen: {{ endpoints: [] }}, scouting: {{ multicast: {{ enabled: false }} }},
              connect: {{ endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
@@ -76,11 +83,7 @@ fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
     let mut seen = kept(&session, "before_1");
     live.see(&Event::Frame(Arc::new(frame(4))));
     live.finish("d1");
-    while !(seen.contains_key("clock") && json(&seen["clock"])["ended"] == true) {
-        let sample = next(&samples);
-        let key = sample.key_expr().as_str()["rheotaxis/before_1/".len()..].to_owned();
-        seen.insert(key, sample);
-    }
+    hear_the_end(&samples, "rheotaxis/before_1/", &mut seen);
     assert_whole(&seen, 4);
     assert_eq!(next(&alive).kind(), SampleKind::Delete);
     session.close().wait().unwrap();
@@ -102,11 +105,7 @@ fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
 
     live.see(&Event::Frame(Arc::new(frame(2))));
     live.finish("d1");
-    while json(&seen["clock"])["ended"] != true {
-        let sample = next(&samples);
-        let key = sample.key_expr().as_str()["rheotaxis/during_1/".len()..].to_owned();
-        seen.insert(key, sample);
-    }
+    hear_the_end(&samples, "rheotaxis/during_1/", &mut seen);
     assert_whole(&seen, 2);
     session.close().wait().unwrap();
 }
@@ -148,24 +147,6 @@ fn zenoh_s_own_advanced_subscriber_finds_the_cached_meta() {
     assert_eq!(seen["rheotaxis/advanced_1/meta/scenario"]["seed"], 7);
     drop(samples);
     drop(live);
-    session.close().wait().unwrap();
-}
-
-#[test]
-fn a_run_that_breaks_off_never_says_that_it_ended() {
-    let live = start("broken_1");
-    let session = client(live.endpoint());
-    let samples = listen(&session, "broken_1");
-    let alive = session.liveliness().declare_subscriber("rheotaxis/broken_1/@live/sim").history(true).wait().unwrap();
-    assert_eq!(next(&alive).kind(), SampleKind::Put);
-    live.see(&Event::Frame(Arc::new(frame(1))));
-    sent(&live);
-    drop(live);
-    assert_eq!(next(&alive).kind(), SampleKind::Delete);
-    let clocks: Vec<Value> =
-        samples.drain().filter(|s| s.key_expr().as_str().ends_with("/clock")).map(|s| json(&s)).collect();
-    assert!(!clocks.is_empty());
-    assert!(clocks.iter().all(|c| c["ended"] == false), "{clocks:?}");
     session.close().wait().unwrap();
 }
 
@@ -222,39 +203,5 @@ fn every_message_keeps_its_published_schema() {
     assert!(near(red, 200) && near(green, 30) && near(blue, 20));
     let echoes = seen["auv/auv0/sidescan"].payload().to_bytes();
     assert_eq!(f32::from_le_bytes(echoes[4..8].try_into().unwrap()), 2.0);
-    session.close().wait().unwrap();
-}
-
-/// Hands on what it sees.
-struct Publishing(Live);
-impl Observer for Publishing {
-    fn see(&mut self, event: &Event) {
-        self.0.see(event);
-    }
-}
-
-#[test]
-fn a_gantry_in_its_flume_keeps_the_schemas() {
-    let dir = tempfile::tempdir().unwrap();
-    let loaded = scenario::load(&crate::missions::flume::short_flume(dir.path())).unwrap();
-    let mut watch = Publishing(start("flume_1"));
-    let ended = Trial::assemble(&loaded, 1).unwrap().run(&mut watch);
-    let Publishing(live) = watch;
-    live.end(&ended.digest);
-    let session = client(live.endpoint());
-    let seen = kept_at_the_end(&session, "flume_1");
-    for topic in ["joints", "probes", "spikes", "gantry_behaviour"] {
-        let schema = json(&seen[&format!("meta/schema/{topic}")]);
-        let key = format!("gantry/crab0/{}", topic.trim_start_matches("gantry_"));
-        let mut wrong = Vec::new();
-        broken(&schema, &json(&seen[&key]), &key, &mut wrong);
-        assert!(wrong.is_empty(), "{wrong:#?}");
-    }
-    let doing = json(&seen["gantry/crab0/behaviour"]);
-    assert_eq!(doing["behaviour"], "sweep");
-    let joints = json(&seen["gantry/crab0/joints"]);
-    let head = joints["head_m"][0].as_f64().unwrap();
-    assert!((head - 1.14).abs() < 0.01, "it starts 114 cm down-stream: {head}");
-    assert_eq!(json(&seen["gantry/crab0/probes"])["volts"].as_array().unwrap().len(), 3);
     session.close().wait().unwrap();
 }

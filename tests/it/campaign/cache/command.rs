@@ -1,55 +1,45 @@
 //! The cache of the command: on by default, shown and cleared, and never in the way.
 
 use super::kit::files;
-use crate::common;
-use serde_json::Value;
+use crate::common::{self, Ended, says};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 /// A folder with a short mission, `s.ron`, that ends without success.
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    let text = include_str!("../../../../scenarios/catalog/uniform_channel.ron");
-    let short = common::with_fields(text, &[("spin_up_s", "60"), ("limit_s", "5")]);
-    fs::write(dir.path().join("s.ron"), short).unwrap();
+    common::write(dir.path(), "s.ron", &common::short("uniform_channel", 60.0, 5.0));
     dir
 }
 
-/// Turns the cache of a command on, in `<dir>/kept`, for whatever is made, however quickly.
-fn cached<'a>(command: &'a mut Command, dir: &Path) -> &'a mut Command {
-    command.env_remove("RHEOTAXIS_NO_CACHE").env("RHEOTAXIS_CACHE", dir.join("kept")).env("RHEOTAXIS_CACHE_FROM", "0")
+/// Runs a command with the cache on, in `<dir>/kept`, for whatever is made, however quickly.
+fn cached(command: &mut Command, dir: &Path) -> Ended {
+    command.env_remove("RHEOTAXIS_NO_CACHE");
+    Ended::of(command.env("RHEOTAXIS_CACHE", dir.join("kept")).env("RHEOTAXIS_CACHE_FROM", "0"))
 }
 
-fn rheotaxis(dir: &Path, args: &[&str]) -> Output {
-    let mut command = common::command(dir, args);
-    cached(&mut command, dir).output().expect("rheotaxis starts")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-#[track_caller]
-fn summary(dir: &Path, out: &str) -> Value {
-    let path = dir.join(out).join("summary.json");
-    serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
+fn rheotaxis(dir: &Path, args: &[&str]) -> Ended {
+    cached(&mut common::command(dir, args), dir)
 }
 
 const TAKEN: &str = "spin-up taken from the cache";
 
-/// Runs the mission; its digest, and whether its spin-up was taken from the cache.
+/// Digest of a run, and whether its spin-up was taken from the cache.
+fn made(folder: &Path) -> (String, bool) {
+    let taken = common::summary(folder)["run"]["spin_up_kept"].as_bool().unwrap();
+    (common::digest(folder), taken)
+}
+
+/// Runs the mission.
 #[track_caller]
 fn run(dir: &Path, out: &str, more: &[&str]) -> (String, bool) {
     let args = ["run", "s.ron", "--no-zenoh", "--no-record", "--out", out];
-    let end = rheotaxis(dir, &[&args, more].concat());
-    let said = text(&end.stderr);
-    assert_eq!(end.status.code(), Some(3), "{said}");
-    let summary = summary(dir, out);
-    let taken = summary["run"]["spin_up_kept"].as_bool().unwrap();
-    assert_eq!(said.contains(TAKEN), taken, "{said}");
-    assert_eq!(text(&end.stdout).contains(", taken from the cache"), taken);
-    (summary["digest"].as_str().unwrap().to_string(), taken)
+    let end = rheotaxis(dir, &[&args, more].concat()).with(3);
+    let made = made(&dir.join(out));
+    assert_eq!(end.err.contains(TAKEN), made.1, "{}", end.err);
+    assert_eq!(end.out.contains(", taken from the cache"), made.1);
+    made
 }
 
 #[test]
@@ -62,28 +52,22 @@ fn the_second_run_of_a_seed_takes_the_first_ones_spin_up() {
     assert_eq!(run(dir, "second", &[]), (alone.clone(), true));
     assert_eq!(run(dir, "anew", &["--no-cache"]), (alone.clone(), false));
     assert!(!run(dir, "other", &["--seed", "2"]).1);
-    let at = ["picture", "s.ron", "--at=-3,0,-2"];
-    assert!(rheotaxis(dir, &at).status.success());
+    rheotaxis(dir, &["picture", "s.ron", "--at=-3,0,-2"]).with(0);
     assert_eq!(files(&dir.join("kept")).len(), 2, "a picture takes it too");
-    let faster = fs::read_to_string(dir.join("s.ron")).unwrap();
-    let faster = common::with_fields(&faster, &[("limit_s", "6")]);
-    fs::write(dir.join("s.ron"), faster).unwrap();
+    common::write(dir, "s.ron", &common::short("uniform_channel", 60.0, 6.0));
     let (other, taken) = run(dir, "longer", &[]);
     assert!(taken && other != alone);
     let secret = ["--key", "9 plovers, 3 whelks"];
     assert!(!run(dir, "keyed", &secret).1 && !run(dir, "keyed", &secret).1);
     assert_eq!(files(&dir.join("kept")).len(), 2);
 
-    let told = |args: &[&str]| text(&rheotaxis(dir, args).stdout);
-    let shown = told(&["cache"]);
+    let told = |args: &[&str]| rheotaxis(dir, args).out;
     let place = dir.join("kept");
-    assert!(shown.starts_with(place.to_str().unwrap()), "{shown}");
-    assert!(shown.contains("2 spin-ups, ") && shown.contains("2.0 GB"), "{shown}");
+    says(&told(&["cache"]), &[place.to_str().unwrap(), "2 spin-ups, ", "2.0 GB"]);
     fs::write(place.join("notes.txt"), "mine").unwrap();
-    let cleared = told(&["cache", "clear"]);
-    assert!(cleared.starts_with("removed 2 spin-ups"), "{cleared}");
+    says(&told(&["cache", "clear"]), &["removed 2 spin-ups"]);
     assert_eq!(files(&place), [place.join("notes.txt")]);
-    assert!(told(&["cache"]).contains("0 spin-ups, 0 MB"));
+    says(&told(&["cache"]), &["0 spin-ups, 0 MB"]);
     assert_eq!(run(dir, "after", &[]), (other, false));
 }
 
@@ -91,28 +75,30 @@ fn the_second_run_of_a_seed_takes_the_first_ones_spin_up() {
 fn scenarios_of_one_command_that_share_a_plume_take_it_together() {
     let folder = folder();
     let dir = folder.path();
-    let s = fs::read_to_string(dir.join("s.ron")).unwrap();
-    fs::write(dir.join("t.ron"), common::with_fields(&s, &[("limit_s", "4")])).unwrap();
+    common::write(dir, "t.ron", &common::short("uniform_channel", 60.0, 4.0));
     let both = |out: &str, more: &[&str]| {
         let args = ["run", "s.ron", "t.ron", "--no-zenoh", "--no-record", "--out", out];
-        let end = rheotaxis(dir, &[&args, more].concat());
-        let said = text(&end.stderr);
-        assert_eq!(end.status.code(), Some(3), "{said}");
-        ["s", "t"].map(|name| {
-            let summary = summary(&dir.join(out), name);
-            let taken = summary["run"]["spin_up_kept"].as_bool().unwrap();
-            // Each says so when it begins its mission.
-            assert_eq!(said.matches(TAKEN).count(), if taken { 2 } else { 0 }, "{said}");
-            (summary["digest"].as_str().unwrap().to_string(), taken)
-        })
+        let said = rheotaxis(dir, &[&args, more].concat()).with(3).err;
+        let made = ["s", "t"].map(|name| made(&dir.join(out).join(name)));
+        // Each says so when it begins its mission.
+        let taken = made.iter().filter(|(_, taken)| *taken).count();
+        assert_eq!(said.matches(TAKEN).count(), taken, "{said}");
+        (made, said)
     };
     let taken = |of: [(String, bool); 2]| of.map(|(digest, _)| (digest, true));
-    let alone = both("alone", &["--no-cache"]);
+    let (alone, _) = both("alone", &["--no-cache"]);
     assert!(!dir.join("kept").exists() && alone[0] != alone[1]);
-    assert_eq!(both("first", &[]), alone);
+    assert_eq!(both("first", &[]).0, alone);
     assert_eq!(files(&dir.join("kept")).len(), 1);
-    assert_eq!(both("second", &[]), taken(alone.clone()));
-    assert_eq!(run(dir, "s", &[]), taken(alone)[0]);
+    assert_eq!(both("second", &[]).0, taken(alone.clone()));
+    assert_eq!(run(dir, "s", &[]), taken(alone.clone())[0]);
+    // A folder that cannot be used is told once, and the runs go on.
+    fs::remove_dir_all(dir.join("kept")).unwrap();
+    fs::write(dir.join("kept"), "a file").unwrap();
+    let (made, said) = both("without", &[]);
+    assert_eq!(made, alone);
+    assert_eq!(said.matches("spin-ups are not kept").count(), 1, "{said}");
+    says(&rheotaxis(dir, &["cache"]).with(1).err, &["kept"]);
 }
 
 #[test]
@@ -122,97 +108,33 @@ fn another_build_of_the_program_makes_its_own() {
     let (digest, _) = run(dir, "first", &[]);
     // The same code, but not the same file: as a build would be that differs in one byte.
     let other = dir.join("rheotaxis");
-    let mut bytes = fs::read(common::binary()).unwrap();
-    bytes.push(0);
-    fs::write(&other, bytes).unwrap();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        fs::set_permissions(&other, fs::Permissions::from_mode(0o755)).unwrap();
-    }
+    fs::copy(common::binary(), &other).unwrap();
+    let mut file = fs::File::options().append(true).open(&other).unwrap();
+    std::io::Write::write_all(&mut file, &[0]).unwrap();
+    drop(file);
     let by_other = |out: &str| {
         let mut command = Command::new(&other);
-        command.args(["run", "s.ron", "--no-zenoh", "--no-record", "--out", out]);
-        let end = cached(common::apart(command.current_dir(dir)), dir).output();
-        let end = end.expect("it starts");
-        assert_eq!(end.status.code(), Some(3), "{}", text(&end.stderr));
-        let summary = summary(dir, out);
-        assert_eq!(summary["digest"], digest.as_str());
-        summary["run"]["spin_up_kept"].as_bool().unwrap()
+        command.args(["run", "s.ron", "--no-zenoh", "--no-record", "--out", out]).current_dir(dir);
+        cached(common::apart(&mut command), dir).with(3);
+        made(&dir.join(out))
     };
-    assert!(!by_other("other"), "it does not trust the other program");
-    assert!(by_other("again"));
+    assert_eq!(by_other("other"), (digest.clone(), false), "it does not trust the other program");
+    assert_eq!(by_other("again"), (digest, true));
     assert!(run(dir, "second", &[]).1);
     assert_eq!(files(&dir.join("kept")).len(), 2);
 }
 
-#[test]
-fn processes_at_once_leave_one_whole_file() {
-    let folder = folder();
-    let dir = folder.path();
-    let children: Vec<_> = (0..3)
-        .map(|n| {
-            let out = n.to_string();
-            let args = ["run", "s.ron", "--no-zenoh", "--no-record", "--out", &out];
-            let mut command = common::command(dir, &args);
-            command.stderr(std::process::Stdio::piped());
-            command.stdout(std::process::Stdio::null());
-            cached(&mut command, dir).spawn().expect("it starts")
-        })
-        .collect();
-    let ends: Vec<_> = (children.into_iter()).map(|c| c.wait_with_output().unwrap()).collect();
-    for (n, end) in ends.iter().enumerate() {
-        let said = text(&end.stderr);
-        assert_eq!(end.status.code(), Some(3), "{said}");
-        assert!(!said.contains("damaged") && !said.contains("not kept"), "{said}");
-        assert_eq!(summary(dir, &n.to_string())["digest"], summary(dir, "0")["digest"]);
-    }
-    assert_eq!(files(&dir.join("kept")).len(), 1);
-    let (digest, taken) = run(dir, "after", &[]);
-    assert!(taken && summary(dir, "0")["digest"] == digest.as_str());
-}
-
-#[test]
-fn a_cache_that_cannot_be_used_is_told_once_and_the_runs_go_on() {
-    let folder = folder();
-    let dir = folder.path();
-    let (alone, _) = run(dir, "alone", &["--no-cache"]);
-    fs::write(dir.join("kept"), "a file").unwrap();
-    fs::copy(dir.join("s.ron"), dir.join("t.ron")).unwrap();
-    let args = ["run", "s.ron", "t.ron", "--no-zenoh", "--out", "out"];
-    let end = rheotaxis(dir, &args);
-    let said = text(&end.stderr);
-    assert_eq!(end.status.code(), Some(3), "{said}");
-    assert_eq!(said.matches("spin-ups are not kept").count(), 1, "{said}");
-    for name in ["out/s", "out/t"] {
-        assert_eq!(summary(dir, name)["digest"], alone.as_str());
-    }
-    let shown = rheotaxis(dir, &["cache"]);
-    assert_eq!(shown.status.code(), Some(1));
-    assert!(text(&shown.stderr).contains("kept"));
-}
-
-/// A limit on the length of files stands for a full disk.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_keeps_nothing_and_stops_nothing() {
     let folder = folder();
     let dir = folder.path();
-    let many = fs::read_to_string(dir.join("s.ron")).unwrap();
-    let many = common::with_fields(&many, &[("spin_up_s", "600"), ("limit_s", "1")]);
-    fs::write(dir.join("s.ron"), many).unwrap();
+    common::write(dir, "s.ron", &common::short("uniform_channel", 600.0, 1.0));
     let (alone, _) = run(dir, "alone", &["--no-cache"]);
-    let script = format!(
-        "trap '' XFSZ; ulimit -f 64; exec '{}' run s.ron --no-zenoh --no-record --out out",
-        common::binary().display()
-    );
-    let mut bash = Command::new("bash");
-    bash.args(["-c", &script]).current_dir(dir);
-    let end = cached(common::apart(&mut bash), dir).output().unwrap();
-    let said = text(&end.stderr);
-    assert!(said.contains("spin-ups are not kept"), "{said}");
-    assert!(said.contains("too large"), "{said}");
-    assert_eq!(summary(dir, "out")["digest"], alone.as_str(), "{said}");
+    let args = "run s.ron --no-zenoh --no-record --out out";
+    let said = cached(&mut common::with_little_room(dir, 64, args), dir).err;
+    says(&said, &["spin-ups are not kept", "too large"]);
+    assert_eq!(common::digest(&dir.join("out")), alone, "{said}");
     assert_eq!(files(&dir.join("kept")).len(), 0, "nothing half done");
 }
 
@@ -242,37 +164,29 @@ fn campaigns_and_reproduced_rows_share_it_with_runs() {
     let dir = folder.path();
     fs::write(dir.join("c.ron"), CAMPAIGN).unwrap();
     fs::write(dir.join("row.ron"), ROW).unwrap();
-    let done = |args: &[&str]| {
-        let mut command = common::command(dir, args);
-        let command = cached(&mut command, dir);
-        for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"] {
-            command.env_remove(name);
-        }
-        let end = command.output().unwrap();
-        assert_eq!(end.status.code(), Some(0), "{}", text(&end.stderr));
-    };
-    let campaign = |out: &'static str, more: &[&str]| {
+    let kept = || files(&dir.join("kept")).len();
+    let campaign = |out: &str, more: &[&str]| {
         let args = ["campaign", "run", "c.ron", "--out", out, "--quiet", "--jobs", "2"];
-        done(&[&args, more].concat());
-        let digest = |r: studies::campaign::RunRow| (r.run, r.digest);
-        let mut rows: Vec<_> = studies::campaign::read_rows(&dir.join(out)).unwrap().into_iter().map(digest).collect();
+        rheotaxis(dir, &[&args, more].concat()).with(0);
+        let rows = studies::campaign::read_rows(&dir.join(out)).unwrap();
+        let mut rows: Vec<_> = rows.into_iter().map(|r| (r.run, r.digest)).collect();
         rows.sort();
         rows
     };
     let alone = campaign("alone", &["--no-cache"]);
     assert!(!dir.join("kept").exists());
-    assert_eq!(campaign("first", &[]), alone);
     // The arms of a seed share one.
-    assert_eq!(files(&dir.join("kept")).len(), 2);
-    assert_eq!(campaign("second", &[]), alone);
-    assert_eq!(files(&dir.join("kept")).len(), 2);
+    for out in ["first", "second"] {
+        assert_eq!(campaign(out, &[]), alone);
+        assert_eq!(kept(), 2);
+    }
     let (digest, taken) = run(dir, "run", &["--seed", "2"]);
     assert!(taken && alone.iter().any(|(_, d)| *d == digest));
-    done(&["reproduce", "row.ron", "--seeds", "3", "--quiet", "--out", "rows"]);
-    assert_eq!(files(&dir.join("kept")).len(), 3);
+    rheotaxis(dir, &["reproduce", "row.ron", "--seeds", "3", "--quiet", "--out", "rows"]).with(0);
+    assert_eq!(kept(), 3);
     assert!(run(dir, "third", &["--seed", "3"]).1);
     // A rerun is a check of a row, and makes everything anew.
     fs::remove_dir_all(dir.join("kept")).unwrap();
-    done(&["campaign", "rerun", "first", "--run", "1", "--quiet"]);
+    rheotaxis(dir, &["campaign", "rerun", "first", "--run", "1", "--quiet"]).with(0);
     assert!(!dir.join("kept").exists());
 }

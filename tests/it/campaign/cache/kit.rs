@@ -1,26 +1,25 @@
 //! What the tests of the cache need.
 
+use crate::common;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::scenario::{Loaded, load};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, Unwatched};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use world::digest::Digest;
-use world::ranges::{NonNegative, Positive};
+use world::ranges::Positive;
 use world::seeds::Seed;
 
 /// A scenario that comes with the program, cut short.
 pub(super) fn short(name: &str, spin_up_s: f64, limit_s: f64) -> Loaded {
-    let mut loaded = load(Path::new(name)).unwrap();
-    loaded.scenario.time.spin_up_s = NonNegative::new(spin_up_s);
-    loaded.scenario.time.limit_s = Positive::new(limit_s);
-    if let Some(blockage) = &mut loaded.scenario.water.blockage {
-        // Coarse cells are solved fast; a short time between two solutions gives several of them.
-        blockage.cell_m = Positive::new(2.0 * blockage.cell_m.get());
-        blockage.period_s = Positive::new(10.0);
-    }
-    loaded
+    common::short(name, spin_up_s, limit_s).edit(|scenario| {
+        if let Some(blockage) = &mut scenario.water.blockage {
+            // Coarse cells are solved fast; a short time between two solutions gives several of them.
+            blockage.cell_m = Positive::new(2.0 * blockage.cell_m.get());
+            blockage.period_s = Positive::new(10.0);
+        }
+    })
 }
 
 /// A cache that keeps whatever is made, however quickly.
@@ -44,8 +43,5 @@ pub(super) fn plume(trial: &Trial) -> String {
 
 /// The files of a folder.
 pub(super) fn files(dir: &Path) -> Vec<PathBuf> {
-    let Ok(listed) = fs::read_dir(dir) else {
-        return Vec::new();
-    };
-    listed.map(|e| e.unwrap().path()).collect()
+    fs::read_dir(dir).into_iter().flatten().map(|e| e.unwrap().path()).collect()
 }

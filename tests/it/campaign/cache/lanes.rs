@@ -7,7 +7,7 @@ use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, RunEnd, Trial};
 use std::cell::RefCell;
 use std::rc::Rc;
-use world::ranges::{HeadingDeg, Positive};
+use world::ranges::HeadingDeg;
 use world::seeds::{Key, Seed};
 
 /// What an observer was told of the spin-up.
@@ -20,6 +20,7 @@ struct Told {
 /// An observer that notes what it is told, and may stop its run in the spin-up or panic at its end.
 #[derive(Clone, Default)]
 struct Listener {
+    number: usize,
     told: Rc<RefCell<Told>>,
     stops: bool,
     stopped: bool,
@@ -48,10 +49,7 @@ impl Observer for Listener {
 /// Two searchers in a channel; the second has the shorter mission.
 fn searchers() -> [Loaded; 2] {
     [(10.0, 6.0), (200.0, 5.0)].map(|(heading_deg, limit_s)| {
-        let mut loaded = short("uniform_channel", 60.0, 5.0);
-        loaded.scenario.time.limit_s = Positive::new(limit_s);
-        loaded.scenario.robots[0].start.heading_deg = HeadingDeg::try_from(heading_deg).unwrap();
-        loaded
+        short("uniform_channel", 60.0, limit_s).edit(|s| s.robots[0].start.heading_deg = HeadingDeg::new(heading_deg))
     })
 }
 
@@ -65,26 +63,15 @@ fn together(
     let mut lanes = Lanes::default();
     let mut ends = [const { None }; 2];
     for (n, loaded) in searchers.iter().enumerate() {
-        let listener = Named(n, listeners[n].clone());
+        let listener = Listener { number: n, ..listeners[n].clone() };
         let added = lanes.add(loaded, seed, || Ok::<_, LaneError>(listener));
         added.unwrap();
     }
     let developed = lanes.spin_up_with(kept);
-    lanes.run(|Named(n, _), run| {
-        ends[n] = Some(run.map(Trial::ended).map_err(|e| e.to_string()));
+    lanes.run(|listener, run| {
+        ends[listener.number] = Some(run.map(Trial::ended).map_err(|e| e.to_string()));
     });
     (developed, ends.map(Option::unwrap))
-}
-
-struct Named(usize, Listener);
-
-impl Observer for Named {
-    fn see(&mut self, event: &Event) {
-        self.1.see(event);
-    }
-    fn goes_on(&mut self) -> bool {
-        self.1.goes_on()
-    }
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! Every campaign and every row of figures that comes with the program, cut short: its rows are those of runs alone.
 
-use super::{alone, cut};
-use crate::common::with_fields;
+use crate::common::{lasting, timeless};
 use rheotaxis::lanes::group_by_ocean;
-use rheotaxis::scenario::{Loaded, cost, load_text};
-use rheotaxis::trial::Trial;
+use rheotaxis::scenario::{Loaded, cost};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use studies::campaign::{CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run};
@@ -12,37 +10,28 @@ use studies::reproduce::{Plan, RowResult, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
 
-fn timeless(row: RunRow) -> RunRow {
-    RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..row }
-}
-
 /// How many of these runs go in lanes together, group by group.
 fn groups(runs: &[(&Loaded, Seed)]) -> Vec<usize> {
     let groups = group_by_ocean(runs, cost::MEMORY);
     groups.iter().map(Vec::len).collect()
 }
 
-/// The row of the run alone; that of the first arm is the run of its scenario, by whatever makes rows.
+/// The row is that of the run alone.
 #[track_caller]
-fn row_alone(loaded: &Loaded, name: &RunName, first: bool) -> RunRow {
-    let row = timeless(one_run(loaded, name));
-    if first {
-        let mut trial = Trial::assemble(loaded, name.seed).unwrap();
-        let ended = trial.run(&mut rheotaxis::trial::Unwatched);
-        assert_eq!(row.digest, ended.digest, "{}: {}", loaded.name, name.arm);
-    }
-    row
+fn is_of_the_run_alone(row: RunRow, loaded: &Loaded, seed: Seed) {
+    assert!(row.error.is_none(), "{row:?}");
+    let (arm, condition) = (row.arm.clone(), row.condition.clone());
+    let name = RunName { run: row.run, arm, condition, seed_index: row.seed_index, seed };
+    assert_eq!(timeless(row), timeless(one_run(loaded, &name)), "{}", loaded.name);
 }
 
 /// One seed under each condition, with a short spin-up and mission.
 fn cut_campaign(name: &str) -> Campaign {
     let whole = load(&Registry::default(), Path::new(name)).unwrap();
-    let base = with_fields(&whole.base.text(), &[("spin_up_s", "15"), ("limit_s", "8")]);
-    let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
     let seeds = format!("seeds: {},", whole.spec.seeds.count());
     assert_eq!(whole.text.matches(&seeds).count(), 1, "{name}");
     let text = whole.text.replace(&seeds, "seeds: Literal(first: 4, count: 1),");
-    Campaign::new(&whole.shown, &whole.name, &text, base).unwrap()
+    Campaign::new(&whole.shown, &whole.name, &text, lasting(whole.base, 15.0, 8.0)).unwrap()
 }
 
 #[test]
@@ -58,26 +47,20 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
         assert_eq!(rows.len() as u64, campaign.n_runs());
         let arms = campaign.spec.arms.len();
         for of_seed in rows.chunks(arms) {
-            let condition = campaign.place(of_seed[0].run).condition;
-            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.loaded(condition, arm).unwrap()).collect();
-            let seed = campaign.place(of_seed[0].run).seed;
-            let runs: Vec<_> = loaded.iter().map(|l| (l, seed)).collect();
+            let place = campaign.place(of_seed[0].run);
+            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.loaded(place.condition, arm).unwrap()).collect();
+            let runs: Vec<_> = loaded.iter().map(|l| (l, place.seed)).collect();
             // The arms of all these campaigns differ in the searcher alone, but for one that compares steps.
             let want = match template.name {
                 "kinematic_steps" => vec![1; arms],
                 _ => vec![arms],
             };
             assert_eq!(groups(&runs), want, "{}", template.name);
-            for (arm, (row, loaded)) in of_seed.iter().zip(&loaded).enumerate() {
-                let name = RunName {
-                    run: row.run,
-                    arm: row.arm.clone(),
-                    condition: row.condition.clone(),
-                    seed_index: row.seed_index,
-                    seed,
-                };
-                assert!(row.error.is_none(), "{row:?}");
-                assert_eq!(timeless(row.clone()), row_alone(loaded, &name, arm == 0));
+            // One spins up for all, even if they do not go in lanes together.
+            let spun = of_seed.iter().filter(|row| row.spin_up_wall_s > 0.0).count();
+            assert_eq!(spun, 1, "{}", template.name);
+            for (row, loaded) in of_seed.iter().zip(&loaded) {
+                is_of_the_run_alone(row.clone(), loaded, place.seed);
             }
         }
     }
@@ -92,7 +75,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
     for mut reference in rows.into_iter().filter(|r| r.row.draw.is_empty()) {
         for (k, (_, loaded)) in reference.arms.iter_mut().enumerate() {
             // Each arm ends at another time.
-            cut(loaded, 10.0, 3.0 + 0.5 * k as f64);
+            *loaded = lasting(loaded.clone(), 10.0, 3.0 + 0.5 * k as f64);
         }
         let runs: Vec<_> = (reference.arms.iter()).map(|(_, loaded)| (loaded, Seed::from(5))).collect();
         let groups = groups(&runs);
@@ -101,34 +84,15 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
             continue;
         }
         let plan = Plan { n: 1, first_seed: 5, key: Key::public(), until_half_width: None, jobs: 1 };
-        let id = reference.row.id.clone();
         let stop = AtomicBool::new(false);
         let row = RowResult::begin(&reference);
         let done = reproduce(&reference, row, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         assert_eq!(done.runs.len(), reference.arms.len());
-        shared.push(format!("{id} {groups:?}"));
-        for (k, (row, (arm, loaded))) in done.runs.iter().zip(&reference.arms).enumerate() {
-            let name = RunName {
-                run: row.run,
-                arm: arm.clone(),
-                condition: String::new(),
-                seed_index: 0,
-                seed: Seed::from(5),
-            };
-            assert!(row.error.is_none(), "{row:?}");
-            assert_eq!(timeless(row.clone()), row_alone(loaded, &name, k == 0), "{id}");
+        shared.push(format!("{} {groups:?}", reference.row.id));
+        for (row, (arm, loaded)) in done.runs.into_iter().zip(&reference.arms) {
+            assert_eq!(row.arm, *arm);
+            is_of_the_run_alone(row, loaded, Seed::from(5));
         }
     }
     assert!(shared.len() >= 5, "{shared:#?}");
-}
-
-/// A lane is the same run with all that is known of it, not only in its row.
-#[test]
-fn lanes_with_other_strategies_maps_and_sensors_end_as_alone() {
-    let campaign = cut_campaign("moth_plus");
-    let all: Vec<Loaded> = (0..campaign.spec.arms.len()).map(|arm| campaign.loaded(0, arm).unwrap()).collect();
-    let (ends, _) = super::in_lanes(&all.iter().collect::<Vec<_>>());
-    for (end, loaded) in ends.into_iter().zip(&all) {
-        assert_eq!(end.unwrap(), alone(loaded));
-    }
 }

@@ -1,62 +1,7 @@
 //! All mistakes of a file in one round: form, range and meaning, in its order, and nothing that only follows from them.
 
-use super::{POND, golden, pond, refused};
 use rheotaxis::scenario::{CATALOG, ScenarioError, load};
 use world::seeds::Stream;
-
-/// The pond with several things changed.
-#[track_caller]
-fn changed(changes: &[(&str, &str)]) -> String {
-    changes.iter().fold(POND.to_string(), |text, (from, to)| {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text.replace(from, to)
-    })
-}
-
-#[test]
-fn mistakes_of_all_kinds_in_one_round() {
-    let text = changed(&[
-        ("length_m: 100", "lenght_m: 100"),
-        ("horizontal_m2_s: 0.01", "horizontal_m2_s: -0.01"),
-        ("north_m: 40", "north_m: 400"),
-        ("radius_m: 2", "radius_m: \"2\""),
-        ("id: \"auv0\"", "id: \"AUV\""),
-        ("estimator: DeadReckoning(),", "estimator: DeadReckoning,"),
-        ("OpenLoop(", "OpnLoop("),
-        ("limit_s: 2", "spin_up_s: 2"),
-    ]);
-    refused(text, &golden("mistakes_of_all_kinds_in_one_round"));
-}
-
-#[test]
-fn a_variant_without_its_parentheses() {
-    let text = pond("estimator: DeadReckoning()", "estimator: DeadReckoning");
-    refused(text, &golden("a_variant_without_its_parentheses"));
-}
-
-#[test]
-fn a_variant_without_its_parentheses_and_fields() {
-    let text = pond("Level(depth_m: 10)", "Level");
-    refused(text, &golden("a_variant_without_its_parentheses_and_fields"));
-}
-
-#[test]
-fn values_without_their_names() {
-    let text = pond("(length_m: 100, width_m: 50, axis_heading_deg: 0)", "(100, 50, 0)");
-    refused(text, &golden("values_without_their_names"));
-}
-
-#[test]
-fn a_bracket_that_is_not_closed() {
-    let text = pond("axis_heading_deg: 0),", "axis_heading_deg: 0,").replace("limit_s: 2", "limit_s: -2");
-    refused(text, &golden("a_bracket_that_is_not_closed"));
-}
-
-#[test]
-fn a_missing_block() {
-    let text = pond("    time: (limit_s: 2),\n", "");
-    refused(text, &golden("a_missing_block"));
-}
 
 /// Places of the values of `name: number` in a text, outside comments and texts in quotes.
 fn numbers(text: &str) -> Vec<(usize, usize)> {

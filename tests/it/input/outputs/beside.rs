@@ -1,6 +1,7 @@
 //! A thread beside the run gathers what the run's own thread would.
 
-use super::short;
+use super::cut;
+use crate::common;
 use output::files::begin_folder;
 use output::follow::Follower;
 use rheotaxis::frame::Frame;
@@ -13,9 +14,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 fn loaded(dir: &Path) -> Loaded {
-    let file = dir.join("s.ron");
-    fs::write(&file, short()).unwrap();
-    load(&file).unwrap()
+    common::write(dir, "s.ron", &cut());
+    load(&dir.join("s.ron")).unwrap()
 }
 
 fn follower(loaded: &Loaded, out: &Path) -> Follower {

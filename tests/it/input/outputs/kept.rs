@@ -1,17 +1,14 @@
 //! What is there already: files of an earlier run, and files that are not ours.
 
-use super::{ends, short};
-use crate::common::{rheotaxis_in, with_fields};
+use super::{ends, fails, folder};
+use crate::common::{self, rheotaxis_in, says};
 use std::fs;
 
 #[test]
 fn a_folder_used_again_holds_files_of_one_run() {
-    let dir = tempfile::tempdir().unwrap();
+    let dir = folder();
     let at = |name: &str| dir.path().join(name);
-    fs::write(at("s.ron"), short()).unwrap();
-    let crab = include_str!("../../../../scenarios/catalog/flume_crab.ron");
-    let crab = with_fields(crab, &[("limit_s", "2"), ("spin_up_s", "5")]);
-    fs::write(at("crab.ron"), crab).unwrap();
+    common::write(dir.path(), "crab.ron", &common::short("flume_crab", 5.0, 2.0));
     let run = |file: &str| rheotaxis_in(dir.path(), &["run", file, "--no-zenoh", "--out", "out"]);
     let names = || {
         let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
@@ -23,15 +20,15 @@ fn a_folder_used_again_holds_files_of_one_run() {
     let of_crab = names();
     assert!(of_crab.contains(&"probes-crab0.csv".to_string()), "{of_crab:?}");
     fs::write(at("out/notes.csv"), "mine").unwrap();
-    let said = String::from_utf8(run("s.ron").stderr).unwrap();
-    assert!(said.contains("removed from out what an earlier run left"), "{said}");
-    assert!(said.contains("probes-crab0.csv") && !said.contains("notes.csv"), "{said}");
+    let said = run("s.ron").err;
+    says(&said, &["removed from out", "probes-crab0.csv"]);
+    assert!(!said.contains("notes.csv"), "{said}");
     let mixed = names();
     assert!(mixed.contains(&"map.svg".to_string()) && mixed.contains(&"notes.csv".to_string()));
     assert!(!mixed.iter().any(|n| n.contains("crab0")), "{mixed:?}");
     // A run that cannot begin leaves alone what is there.
     fs::write(at("broken.ron"), "(").unwrap();
-    assert_eq!(run("broken.ron").status.code(), Some(1));
+    run("broken.ron").with(1);
     assert_eq!(names(), mixed);
     run("crab.ron");
     let mut again = of_crab.clone();
@@ -42,10 +39,7 @@ fn a_folder_used_again_holds_files_of_one_run() {
     fs::create_dir(at("other")).unwrap();
     fs::copy(at("s.ron"), at("other/s.ron")).unwrap();
     let args = ["run", "s.ron", "other/s.ron", "--no-zenoh", "--quiet", "--out", "both"];
-    let end = rheotaxis_in(dir.path(), &args);
-    let said = String::from_utf8(end.stderr).unwrap();
-    assert_eq!(end.status.code(), Some(1), "{said}");
-    assert!(said.contains("both/s: another scenario of this command"), "{said}");
+    fails(dir.path(), &args, &["both/s: another scenario of this command"]);
 }
 
 #[test]
@@ -54,14 +48,11 @@ fn init_overwrites_nothing_that_its_scenario_names() {
     fs::create_dir(dir.path().join("meshes")).unwrap();
     let mesh = dir.path().join("meshes/reef.obj");
     fs::write(&mesh, "mine").unwrap();
-    let (code, said) = ends(dir.path(), &["init", "reef_mesh", "mine.ron"]);
-    assert_eq!(code, Some(1), "{said}");
-    assert!(said.contains("meshes/reef.obj: is there already"), "{said}");
+    fails(dir.path(), &["init", "reef_mesh", "mine.ron"], &["meshes/reef.obj"]);
     assert_eq!(fs::read_to_string(&mesh).unwrap(), "mine");
     fs::remove_file(&mesh).unwrap();
-    let (code, said) = ends(dir.path(), &["init", "reef_mesh", "yours.ron"]);
-    assert_eq!(code, Some(0), "{said}");
     // The same file again is no hindrance.
-    let (code, said) = ends(dir.path(), &["init", "reef_mesh", "hers.ron"]);
-    assert_eq!(code, Some(0), "{said}");
+    for file in ["yours.ron", "hers.ron"] {
+        assert_eq!(ends(dir.path(), &["init", "reef_mesh", file]), (Some(0), String::new()));
+    }
 }

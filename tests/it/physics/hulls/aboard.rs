@@ -1,8 +1,8 @@
 //! Instruments aboard other hulls: where the URDF puts them, in every scenario.
 
-use super::kit::shipped;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{FolderFiles, load_text, template};
+use super::kit::{folder, shipped};
+use crate::common::{set, short};
+use rheotaxis::scenario::FolderFiles;
 use rheotaxis::trial::Trial;
 use robots::handoff::Readings;
 use robots::sense::Sensors;
@@ -31,20 +31,13 @@ fn an_instrument_reads_from_where_its_link_is() {
     let numbers: Vec<f64> = place.split_whitespace().map(|n| n.parse().expect("a number")).collect();
     let raised = format!("{} {} {}", numbers[0], numbers[1], numbers[2] + 0.25);
     let other = [&urdf[..origin], &raised, &urdf[origin + place.len()..]].concat();
-    let dir = tempfile::tempdir().expect("a folder");
+    let file = robots::vehicles::ShippedVehicle::named("bluerov2_heavy").expect("shipped").file;
     let reads = |urdf: &str| {
-        let folder = dir.path().join("hull");
-        std::fs::create_dir_all(&folder).expect("a folder");
-        let file = robots::vehicles::ShippedVehicle::named("bluerov2_heavy").expect("shipped").file;
-        std::fs::write(folder.join("vehicle.ron"), file).expect("a file");
-        std::fs::write(folder.join("bluerov2_heavy.urdf"), urdf).expect("a file");
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        let hull = format!("File(\"{}\")", folder.display());
-        let text = text
-            .replace("Remus100()", &hull)
-            .replace("speed_m_s: 1.5)", "speed_m_s: 0.5)")
-            .replace("spin_up_s: 2000", "spin_up_s: 0");
-        let loaded = load_text(&Registry::default(), "lever", &text).expect("legal");
+        let dir = folder(file, ("bluerov2_heavy.urdf", urdf));
+        let hull = format!("File(\"{}\")", dir.path().join("hull").display());
+        let values = [("robots[0].vehicle", hull.as_str()), ("robots[0].start.speed_m_s", "0.5")];
+        let loaded = short("uniform_channel", 0.0, 1800.0);
+        let loaded = set(loaded, &values);
         let mut trial = Trial::assemble(&loaded, 1).expect("a run");
         let mut first = None;
         while first.is_none() && trial.step() {

@@ -1,11 +1,10 @@
 //! The axes of a URDF's joints are those of the drives on them.
 
-use super::kit::{built, set, shipped, still};
-use crate::common;
+use super::kit::{built, folder, load, set, shipped, still};
+use crate::common::{rheotaxis_in, says};
 use nalgebra::Vector3;
 use rheotaxis::scenario::FolderFiles;
-use robots::vehicles::{Description, Files, InMemory, Vehicle, VehicleFile, VehicleSpec};
-use std::path::Path;
+use robots::vehicles::{Description, ShippedVehicle, Vehicle, VehicleSpec};
 use world::frames::{Pose, Truth};
 use world::units::Heading;
 
@@ -48,19 +47,8 @@ const BOX: &str = "(
     autopilot: Thrusters(),
 )";
 
-fn box_file() -> VehicleFile {
-    let read = FolderFiles(Path::new("")).vehicle("box", BOX);
-    read.unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn boxed(kind: &str, axis: &str) -> Vehicle {
-    built(&box_file(), &box_urdf(kind, axis))
-}
-
-fn refused(file: &VehicleFile, urdf: &str) -> String {
-    let files = InMemory::default().with(&format!("it/{}", file.urdf), urdf.as_bytes());
-    let loaded = Vehicle::of_file("it", file, &files);
-    loaded.expect_err("it cannot be a vehicle").to_string()
+fn boxed(kind: &str, axis: &str) -> Result<Vehicle, String> {
+    load(&folder(BOX, ("box.urdf", &box_urdf(kind, axis))))
 }
 
 fn way(vehicle: &Vehicle, drive: usize) -> Vector3<f64> {
@@ -76,7 +64,7 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
         ("continuous", "", Vector3::x()),
         ("fixed", "", Vector3::x()),
     ] {
-        let mut vehicle = boxed(kind, axis);
+        let mut vehicle = boxed(kind, axis).expect("a vehicle");
         assert!((way(&vehicle, 2) - along).norm() < 1e-12, "{kind} {axis}");
         assert_eq!(vehicle.capabilities(0.0).dives, along.z != 0.0);
         assert_eq!(vehicle.doubts(), [""; 0]);
@@ -89,21 +77,13 @@ fn a_shaft_lies_along_the_axis_of_its_joint() {
 
 #[test]
 fn an_axis_that_does_not_count_or_is_none_is_told() {
-    let told = boxed("fixed", "<axis xyz=\"0 0 1\"/>").doubts().join("; ");
-    assert!(
-        told.starts_with("drives[2].link: joint \"middle_joint\" of the URDF has the axis 0 0 1, which does not count"),
-        "{told}"
-    );
+    let told = |axis: &str| boxed("fixed", &format!("<axis xyz=\"{axis}\"/>")).expect("a vehicle").doubts().join("; ");
+    says(&told("0 0 1"), &["drives[2].link", "\"middle_joint\"", "0 0 1", "does not count"]);
     // Exporters write zeros for joints without an axis.
-    assert_eq!(boxed("fixed", "<axis xyz=\"0 0 0\"/>").doubts(), [""; 0]);
+    assert_eq!(told("0 0 0"), "");
     for none in ["0 0 0", "0 NaN 1"] {
-        let axis = format!("<axis xyz=\"{none}\"/>");
-        let said = refused(&box_file(), &box_urdf("continuous", &axis));
-        assert!(
-            said.contains("drives[2].link: joint \"middle_joint\" of the URDF has the axis")
-                && said.ends_with("<axis> must be a direction"),
-            "{said}"
-        );
+        let said = boxed("continuous", &format!("<axis xyz=\"{none}\"/>")).expect_err("it cannot be a vehicle");
+        says(&said, &["drives[2].link", "\"middle_joint\"", "must be a direction"]);
     }
 }
 
@@ -130,29 +110,20 @@ fn a_fin_turns_about_the_axis_of_its_joint() {
     let outwards = built(&file, &urdf.replace(ROLL, " rpy=\"0 -1.5707963267948966 0\"/><axis xyz=\"1 0 0\"/>"));
     assert!((way(&outwards, 1) - way(&rolled, 1)).norm() < 1e-12);
     // Without an axis, URDF takes x, about which nothing is steered.
-    let said = refused(&file, &upright(""));
-    assert!(said.contains("drives[1].link: the fin on \"fin_top\"") && said.contains("cannot steer"), "{said}");
+    let lauv = ShippedVehicle::named("lauv").expect("shipped");
+    let said = load(&folder(lauv.file, (lauv.urdf.0, &upright("")))).expect_err("it cannot be a vehicle");
+    says(&said, &["drives[1].link", "\"fin_top\"", "cannot steer"]);
 }
 
 #[test]
 fn pictures_turn_about_the_same_axis_and_check_prints_it() {
-    let dir = tempfile::tempdir().expect("a folder");
-    std::fs::create_dir(dir.path().join("box")).expect("a folder");
-    let urdf = box_urdf("continuous", "<axis xyz=\"0 0 1\"/>");
-    std::fs::write(dir.path().join("box/box.urdf"), urdf).expect("a file");
-    std::fs::write(dir.path().join("box/vehicle.ron"), BOX).expect("a file");
-    let spec = VehicleSpec::File("box".into());
+    let dir = folder(BOX, ("box.urdf", &box_urdf("continuous", "<axis xyz=\"0 0 1\"/>")));
+    let spec = VehicleSpec::File("hull".into());
     let drawn = Description::of_vehicle(&spec, &FolderFiles(dir.path())).expect("a vehicle");
     let joint = |name: &str| drawn.joints.iter().find(|j| j.joint == name);
     assert_eq!(joint("middle_joint").expect("it").axis, Vector3::z());
     assert_eq!(joint("left_joint").expect("it").axis, Vector3::x());
-    let ended = common::rheotaxis_in(dir.path(), &["vehicle", "check", "box"]);
-    let said = String::from_utf8_lossy(&ended.stdout).into_owned();
-    for line in [
-        "at (-0.300, -0.200, 0.000) m, pushes along (1.000, 0.000, 0.000)",
-        "at (0.000, 0.000, 0.000) m, pushes along (0.000, 0.000, 1.000)",
-        "dives yes",
-    ] {
-        assert!(said.contains(line), "{line} is not in: {said}");
-    }
+    let said = rheotaxis_in(dir.path(), &["vehicle", "check", "hull"]).with(0).out;
+    let left = "at (-0.300, -0.200, 0.000) m, pushes along (1.000, 0.000, 0.000)";
+    says(&said, &[left, "at (0.000, 0.000, 0.000) m, pushes along (0.000, 0.000, 1.000)", "dives yes"]);
 }

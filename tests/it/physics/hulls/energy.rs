@@ -1,24 +1,21 @@
 //! A battery: it is counted, it changes nothing while it lasts, and the drives stop when it is empty.
 
-use crate::common;
-use rheotaxis::scenario::template;
+use crate::common::{lasting, mission, scenario};
 
 /// The channel for two minutes with a battery or without.
-fn flown(name: &str, vehicle: &str, energy: &str) -> serde_json::Value {
+fn flown(name: &str, vehicle: &str, energy: Option<&str>) -> serde_json::Value {
     let dir = tempfile::tempdir().expect("a folder");
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text
-        .replace("Remus100()", vehicle)
-        .replace("strategy: Amp(speed_m_s: 1.5", &format!("{energy} strategy: Amp(speed_m_s: 1.4"))
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 10, limit_s: 120");
-    common::mission(dir.path(), name, &text).1
+    let values = [("robots[0].vehicle", vehicle), ("robots[0].strategy.speed_m_s", "1.4")];
+    let values: Vec<_> = values.into_iter().chain(energy.map(|energy| ("robots[0].energy", energy))).collect();
+    let loaded = lasting(scenario("uniform_channel", &values), 10.0, 120.0);
+    mission(dir.path(), name, &loaded.text()).1
 }
 
 #[test]
 fn a_battery_that_lasts_changes_nothing_and_tells_its_endurance() {
     for vehicle in ["Remus100()", "Shipped(\"lauv\")"] {
-        let without = flown("without", vehicle, "");
-        let with = flown("with", vehicle, "energy: (battery_wh: 1000, hotel_w: 30),");
+        let without = flown("without", vehicle, None);
+        let with = flown("with", vehicle, Some("(battery_wh: 1000, hotel_w: 30)"));
         assert_eq!(without["digest"], with["digest"], "{vehicle}");
         assert!(without["robots"][0]["energy"].is_null());
         let energy = &with["robots"][0]["energy"];
@@ -35,8 +32,8 @@ fn a_battery_that_lasts_changes_nothing_and_tells_its_endurance() {
 
 #[test]
 fn an_empty_battery_stops_the_drives() {
-    let full = flown("full", "Shipped(\"lauv\")", "energy: (),");
-    let empty = flown("empty", "Shipped(\"lauv\")", "energy: (battery_wh: 0.5, hotel_w: 30),");
+    let full = flown("full", "Shipped(\"lauv\")", Some("()"));
+    let empty = flown("empty", "Shipped(\"lauv\")", Some("(battery_wh: 0.5, hotel_w: 30)"));
     let energy = &empty["robots"][0]["energy"];
     let emptied_s = energy["emptied_s"].as_f64().expect("it was emptied");
     assert!((5.0..60.0).contains(&emptied_s), "{energy}");

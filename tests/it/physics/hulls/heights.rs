@@ -1,9 +1,7 @@
 //! A height is shown as commanded only for vehicles that keep one.
 
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{load_text, template};
+use crate::common::short;
 use rheotaxis::trial::{Event, Observer, Trial};
-use world::ranges::{NonNegative, Positive};
 
 /// Frames, and how many of them have a commanded height.
 #[derive(Default)]
@@ -23,11 +21,7 @@ fn a_glider_and_a_craft_on_the_surface_have_no_commanded_height() {
     for (name, keeps) in
         [("lauv_bay", true), ("bluerov_harbour", true), ("glider_shelf", false), ("surface_lake", false)]
     {
-        let text = template(name).expect("in the catalogue").text;
-        let mut loaded = load_text(&Registry::default(), name, text).expect("legal");
-        let time = &mut loaded.scenario.time;
-        time.spin_up_s = NonNegative::new(0.0);
-        time.limit_s = Positive::new(10.0);
+        let loaded = short(name, 0.0, 10.0);
         let mut heights = Heights::default();
         Trial::assemble(&loaded, 1).expect("a run").run(&mut heights);
         let Heights(frames, asked) = heights;

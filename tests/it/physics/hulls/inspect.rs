@@ -1,8 +1,7 @@
 //! Told places inspected by a vehicle that hovers: it takes its pictures while it holds over them.
 
+use crate::common::scenario;
 use nalgebra::Vector2;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{load_text, template};
 use rheotaxis::score::Score;
 use rheotaxis::trial::Trial;
 use robots::handoff::{Declaration, Estimate, Readings, Verdict};
@@ -16,26 +15,19 @@ struct Taken {
     altitude_m: f64,
 }
 
-/// The two places of `inspect_places`, inspected by a BlueROV2, with other changes.
+/// The two places of `inspect_places`, inspected by a BlueROV2, with other values.
 #[track_caller]
-fn inspected(changes: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
+fn inspected(values: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
     let hovering = [
-        ("Remus100()", "Shipped(\"bluerov2\")"),
-        ("heading_deg: 270, speed_m_s: 1.5", "heading_deg: 270"),
-        ("estimator: DeadReckoning(),", "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.6),"),
-        ("speed_m_s: 1.5,\n", "speed_m_s: 0.5,\n"),
-        ("east_m: 10, north_m: 28", "east_m: -30, north_m: 28"),
-        (
-            "compass: (), depth: (), altimeter: (), lbl: (noise_m: 1)",
-            "compass: (bias_deg: 0), depth: (), altimeter: (), lbl: (noise_m: 0.2)",
-        ),
+        ("robots[0].vehicle", "Shipped(\"bluerov2\")"),
+        ("robots[0].start.speed_m_s", "0"),
+        ("robots[0].start.east_m", "-30"),
+        ("robots[0].guidance.water_speed_limit_m_s", "0.6"),
+        ("robots[0].strategy.speed_m_s", "0.5"),
+        ("robots[0].sensors.compass.bias_deg", "0"),
+        ("robots[0].sensors.lbl.noise_m", "0.2"),
     ];
-    let mut text = template("inspect_places").expect("in the catalogue").text.to_string();
-    for (from, to) in hovering.iter().chain(changes) {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text = text.replace(from, to);
-    }
-    let loaded = load_text(&Registry::default(), "hovering", &text).expect("legal");
+    let loaded = scenario("inspect_places", &[&hovering[..], values].concat());
     loaded.check().expect("it can be flown");
     let mut trial = Trial::assemble(&loaded, 1).expect("a run");
     let (mut taken, mut believed) = (Vec::new(), Vector2::zeros());
@@ -63,8 +55,11 @@ const TOLD: [[f64; 2]; 2] = [[-40.6, 28.7], [-39.5, -28.8]];
 #[test]
 fn pictures_are_taken_while_it_holds_over_the_place() {
     let (taken, declared) = inspected(&[
-        ("add_up: (within_m: 3)", "held_pictures: 6, verifier: ()"),
-        ("visibility_m: 4", "visibility_m: 15"),
+        (
+            "robots[0].strategy.survey.camera",
+            "(half_length_m: 14, altitude_m: 2.5, period_s: 1, held_pictures: 6, verifier: ())",
+        ),
+        ("optics.clarity.visibility_m", "15"),
     ]);
     for place in TOLD.map(Vector2::from) {
         let here: Vec<&Taken> = (taken.iter()).filter(|p| (p.real - place).norm() < 20.0).collect();

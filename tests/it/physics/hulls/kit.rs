@@ -5,9 +5,10 @@ use rheotaxis::scenario::FolderFiles;
 use robots::handoff::{Actuation, DriveCommand, PilotSpec, ThrustersSpec};
 use robots::vehicles::{
     Axes, Block, CurveSpec, DriveSpec, Files, HydrodynamicsSpec, InMemory, ShippedVehicle, TermsSpec, ThrusterSpec,
-    Vehicle, VehicleFile,
+    Vehicle, VehicleFile, VehicleSpec,
 };
 use std::path::Path;
+use tempfile::TempDir;
 use world::fields::WaterSample;
 use world::math;
 use world::ranges::{Finite, NonNegative, Positive};
@@ -18,6 +19,37 @@ pub(super) fn shipped(name: &str) -> (VehicleFile, String) {
     let shipped = ShippedVehicle::named(name).expect("it is shipped");
     let file = FolderFiles(Path::new("")).vehicle(name, shipped.file).unwrap_or_else(|e| panic!("{e}"));
     (file, shipped.urdf.1.to_string())
+}
+
+/// A text with pieces changed, each of which must be in it.
+#[track_caller]
+pub(super) fn with(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_string(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    })
+}
+
+/// A folder with the vehicle `hull` of a `vehicle.ron` and a URDF of this name.
+pub(super) fn folder(vehicle: &str, urdf: (&str, &str)) -> TempDir {
+    let dir = tempfile::tempdir().expect("a folder");
+    let at = dir.path().join("hull");
+    std::fs::create_dir(&at).expect("a folder");
+    std::fs::write(at.join("vehicle.ron"), vehicle).expect("a file");
+    std::fs::write(at.join(urdf.0), urdf.1).expect("a file");
+    dir
+}
+
+/// The same of a shipped vehicle with both texts changed.
+#[track_caller]
+pub(super) fn changed(name: &str, ron: &[(&str, &str)], urdf: &[(&str, &str)]) -> TempDir {
+    let shipped = ShippedVehicle::named(name).expect("it is shipped");
+    folder(&with(shipped.file, ron), (shipped.urdf.0, &with(shipped.urdf.1, urdf)))
+}
+
+/// The vehicle `hull` of a folder.
+pub(super) fn load(dir: &TempDir) -> Result<Vehicle, String> {
+    Vehicle::load(&VehicleSpec::File("hull".into()), &FolderFiles(dir.path())).map_err(|e| e.to_string())
 }
 
 /// The vehicle of a file and a URDF.

@@ -1,21 +1,19 @@
 //! `docs/vehicles.md` as printed: its commands run, and what they write can search.
 
-use crate::common;
-use rheotaxis::scenario::{FolderFiles, template};
+use crate::common::{read, rheotaxis_in, says, scenario, write};
+use rheotaxis::scenario::FolderFiles;
 use robots::vehicles::{SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
 use studies::trials::{Trial, trials};
 
 #[test]
 fn bring_your_own_works_as_printed() {
-    let page = std::fs::read_to_string(common::root().join("docs/vehicles.md")).expect("the page");
+    let page = read("docs/vehicles.md");
     let dir = tempfile::tempdir().expect("a folder");
     let mut ran = 0;
     for line in page.lines().filter(|l| l.starts_with("rheotaxis ")) {
         let args: Vec<&str> = line.split_whitespace().skip(1).collect();
-        let ended = common::rheotaxis_in(dir.path(), &args);
-        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
-        assert!(ended.status.success(), "{line}: {said}");
+        rheotaxis_in(dir.path(), &args).with(0);
         ran += 1;
     }
     assert_eq!(ran, 3, "commands in the page");
@@ -31,64 +29,38 @@ fn bring_your_own_works_as_printed() {
         let bytes = std::fs::read(dir.path().join(file)).unwrap_or_default();
         assert!(bytes.len() > 200, "{file}");
     }
-    let text = template("lauv_bay").expect("in the catalogue").text;
-    let own = text.replace("Shipped(\"lauv\")", "File(\"my_auv/\")");
-    assert_ne!(own, text);
-    std::fs::write(dir.path().join("mine.ron"), own).expect("a file");
-    let checked = common::rheotaxis_in(dir.path(), &["check", "mine.ron"]);
-    assert!(checked.status.success());
+    write(dir.path(), "mine.ron", &scenario("lauv_bay", &[("robots[0].vehicle", "File(\"my_auv/\")")]));
+    rheotaxis_in(dir.path(), &["check", "mine.ron"]).with(0);
 }
 
 /// A folder that is wrong: the error names the file, and the place in it.
 #[test]
 fn a_broken_folder_gets_a_plain_error() {
     let dir = tempfile::tempdir().expect("a folder");
-    let run = |args: &[&str]| {
-        let ended = common::rheotaxis_in(dir.path(), args);
-        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+    let run = |code: i32, args: &str| {
+        let args: Vec<&str> = args.split(' ').collect();
+        rheotaxis_in(dir.path(), &args).with(code).err
     };
-    let (code, said) = run(&["vehicle", "check", "nowhere"]);
-    assert_eq!(code, Some(1));
-    assert!(said.contains("there is no such folder") && said.contains("lauv"), "{said}");
-    assert_eq!(run(&["vehicle", "init", "lauv", "mine"]).0, Some(0));
-    let (code, said) = run(&["vehicle", "init", "lauv", "mine"]);
-    assert!(code == Some(1) && said.contains("exists already"), "{said}");
+    says(&run(1, "vehicle check nowhere"), &["nowhere", "no such folder", "lauv"]);
+    run(0, "vehicle init lauv mine");
+    says(&run(1, "vehicle init lauv mine"), &["exists already"]);
     let file = dir.path().join("mine/vehicle.ron");
     let text = std::fs::read_to_string(&file).expect("it was written");
     std::fs::write(&file, text.replace("lag_s: 0.05", "lag_s: -0.05")).expect("a file");
-    let (code, said) = run(&["vehicle", "trials", "mine"]);
-    assert_eq!(code, Some(1));
-    assert!(said.contains("mine/vehicle.ron") && said.contains("drives[0].lag_s"), "{said}");
-    assert!(said.contains("must be >= 0"), "{said}");
+    says(&run(1, "vehicle trials mine"), &["mine/vehicle.ron", "drives[0].lag_s", "must be >= 0"]);
 }
 
 /// A table of set-points gives a table of states; a wrong one is told with its line.
 #[test]
 fn a_table_flies_it() {
     let dir = tempfile::tempdir().expect("a folder");
-    let run = |table: &str| {
+    const FLY: &str = "vehicle fly lauv --table tank.csv --velocity 1.5,0,0 --water 0.2,0,0 --lasts-s 20 --every-s 1";
+    let run = |code: i32, table: &str| {
         std::fs::write(dir.path().join("tank.csv"), table).expect("a file");
-        let args = [
-            "vehicle",
-            "fly",
-            "lauv",
-            "--table",
-            "tank.csv",
-            "--velocity",
-            "1.5,0,0",
-            "--water",
-            "0.2,0,0",
-            "--lasts-s",
-            "20",
-            "--every-s",
-            "1",
-        ];
-        let ended = common::rheotaxis_in(dir.path(), &args);
-        (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
+        rheotaxis_in(dir.path(), &FLY.split(' ').collect::<Vec<_>>()).with(code).err
     };
     let header = "t_s,propeller,fin_top,fin_bottom,fin_port,fin_starboard";
-    let (code, said) = run(&format!("{header}\n0,8,0,0,0,0\n10,0,0,0,0,0\n"));
-    assert_eq!(code, Some(0), "{said}");
+    run(0, &format!("{header}\n0,8,0,0,0,0\n10,0,0,0,0,0\n"));
     let text = std::fs::read_to_string(dir.path().join("flown.csv")).expect("the states");
     let rows: Vec<Vec<f64>> =
         (text.lines().skip(1)).map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect()).collect();
@@ -98,11 +70,7 @@ fn a_table_flies_it() {
     assert!((start[1], start[2], start[3]) == (0.0, 0.0, -10.0), "{start:?}");
     assert!(middle[2] > 12.0 && (middle[1] - 2.0).abs() < 0.3, "{middle:?}");
     assert!(end[8] < middle[8] - 0.2, "{end:?}");
-    let (code, said) = run(&format!("{header}\n0,8,0,0,0,fast\n"));
-    assert_eq!(code, Some(1));
-    assert!(said.contains("tank.csv: line 2, fin_starboard: not a number"), "{said}");
-    let (code, said) = run("t_s,propeller\n0,8\n");
-    assert!(code == Some(1) && said.contains("no column \"fin_top\""), "{said}");
+    says(&run(1, &format!("{header}\n0,8,0,0,0,fast\n")), &["tank.csv", "line 2, fin_starboard"]);
 }
 
 /// Columns of the page's tables, and what the trials call it.
@@ -129,7 +97,7 @@ const COLUMNS: &[(&str, &str, &str)] = &[
 /// Every figure of the page's tables of trials is the one that the trials give now.
 #[test]
 fn the_figures_of_the_shipped_vehicles_are_those_of_their_trials() {
-    let page = std::fs::read_to_string(common::root().join("docs/vehicles.md")).expect("the page");
+    let page = read("docs/vehicles.md");
     let cells = |line: &str| -> Vec<String> {
         let bare = line.trim().trim_matches('|');
         bare.split('|').map(|c| c.trim().to_string()).collect()

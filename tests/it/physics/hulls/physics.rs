@@ -22,7 +22,8 @@ fn random_state(rng: &mut Stream) -> Truth {
     truth
 }
 
-/// Kinetic energy in still water, with that of the water that moves along, and potential energy in water of a density, J.
+/// Kinetic energy in still water, with that of the water that moves along, and potential energy in water of a density,
+/// J.
 fn energy_J(hull: &Vehicle, truth: &Truth, density_kg_m3: f64) -> f64 {
     let statics = hull.statics().expect("a hull");
     let (v, w) = (truth.v_WB_B, truth.w_WB_B);

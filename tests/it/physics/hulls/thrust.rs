@@ -1,8 +1,9 @@
 //! What drives cannot give: thrusters at their limits are told of, and a torpedo is not steered too slowly.
 
-use crate::common;
+use super::kit::folder;
+use crate::common::{lasting, mission, scenario};
 use nalgebra::{Vector2, Vector3};
-use rheotaxis::scenario::{FolderFiles, template};
+use rheotaxis::scenario::FolderFiles;
 use robots::actuate::DrivePilot;
 use robots::handoff::{Attitude, Command, Control, Estimate, FlowEstimate, Setpoint, Vertical};
 use robots::vehicles::{ShippedVehicle, Vehicle, VehicleSpec};
@@ -11,7 +12,6 @@ use world::units::Heading;
 
 /// A minute of the channel with a BlueROV2 Heavy whose thrusters have this curve.
 fn flown(curve: Option<&str>) -> serde_json::Value {
-    let dir = tempfile::tempdir().expect("a folder");
     let shipped = ShippedVehicle::named("bluerov2_heavy").expect("shipped");
     let mut file = shipped.file.to_string();
     if let Some(curve) = curve {
@@ -21,16 +21,14 @@ fn flown(curve: Option<&str>) -> serde_json::Value {
         }
         assert!(file.contains(curve));
     }
-    std::fs::create_dir(dir.path().join("rov")).expect("a folder");
-    std::fs::write(dir.path().join("rov/vehicle.ron"), file).expect("a file");
-    std::fs::write(dir.path().join("rov").join(shipped.urdf.0), shipped.urdf.1).expect("a file");
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text
-        .replace("Remus100()", "File(\"rov\")")
-        .replace("strategy: Amp(speed_m_s: 1.5", "strategy: Amp(speed_m_s: 0.4")
-        .replace("speed_m_s: 1.5)", "speed_m_s: 0.2)")
-        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 10, limit_s: 60");
-    common::mission(dir.path(), "rov_in_channel", &text).1
+    let dir = folder(&file, shipped.urdf);
+    let values = [
+        ("robots[0].vehicle", "File(\"hull\")"),
+        ("robots[0].strategy.speed_m_s", "0.4"),
+        ("robots[0].start.speed_m_s", "0.2"),
+    ];
+    let loaded = lasting(scenario("uniform_channel", &values), 10.0, 60.0);
+    mission(dir.path(), "rov_in_channel", &loaded.text()).1
 }
 
 fn share(run: &serde_json::Value) -> f64 {

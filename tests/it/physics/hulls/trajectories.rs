@@ -2,7 +2,7 @@
 //!
 //! Reference data: `tests/reference/vehicles/README.md`.
 
-use super::kit::{self, built, newtons, shipped, still};
+use super::kit::{self, built, newtons, shipped, side, still};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use robots::vehicles::{DriveSpec, Vehicle};
 use world::frames::{Pose, Truth};
@@ -60,13 +60,7 @@ fn bluerov() -> Vehicle {
 /// The hull alone, with a thruster along its axis and two beside it.
 fn lauv() -> Vehicle {
     let (mut file, urdf) = shipped("lauv");
-    let link = |name: &str, y: f64| {
-        format!(
-            "<link name=\"{name}\"/><joint name=\"{name}_joint\" type=\"fixed\"><parent link=\"base_link\"/>\
-             <child link=\"{name}\"/><origin xyz=\"0 {y} 0\"/></joint>"
-        )
-    };
-    let three = link("push", 0.0) + &link("port", 0.5) + &link("starboard", -0.5);
+    let three = side("push", 0.0) + &side("port", 0.5) + &side("starboard", -0.5);
     let urdf = urdf.replace("</robot>", &format!("{three}</robot>"));
     let fins = file.drives.clone();
     file.drives = ["push", "port", "starboard"].map(newtons).to_vec();

@@ -1,97 +1,81 @@
 //! What a kinematic vehicle is refused for, and what is warned of.
 
-use super::with;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{check, load_text, template};
-
-/// The one error of a scenario with this vehicle, after its place.
-fn error(vehicle: &str) -> String {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("Remus100()", vehicle);
-    let error = load_text(&Registry::default(), "bad", &text).expect_err("this is wrong");
-    let mut lines = error.lines();
-    let line = lines.pop().expect("a line");
-    assert!(lines.is_empty(), "{lines:?}");
-    let row = text.lines().position(|l| l.contains("vehicle:")).expect("it has one") + 1;
-    let (place, said) = line.split_once(": ").expect("a place");
-    assert!(place.contains(&format!(":{row}:")), "{place} is not in line {row}");
-    said.to_string()
-}
+use super::{VEHICLE, with};
+use crate::common::{says, scenario, set};
+use rheotaxis::scenario::Loaded;
 
 #[test]
 fn numbers_without_meaning_are_refused_with_their_range() {
-    for (vehicle, said) in [
-        ("Kinematic(turn: Radius(radius_m: 0))", "turn.radius_m: must be from 0.01 to 10000 m, got 0"),
-        ("Kinematic(turn: Radius(radius_m: -3))", "turn.radius_m: must be from 0.01 to 10000 m, got -3"),
-        ("Kinematic(turn: Radius(radius_m: NaN))", "turn.radius_m: must be from 0.01 to 10000 m, got NaN"),
-        ("Kinematic(turn: Radius(radius_m: 0.001))", "turn.radius_m: must be from 0.01 to 10000 m, got 0.001"),
-        ("Kinematic(turn: Rate(deg_s: 1e6))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 1e6"),
-        ("Kinematic(turn: Rate(deg_s: 0))", "turn.deg_s: must be from 0.01 to 720 degrees/s, got 0"),
-        ("Kinematic(max_speed_m_s: -2)", "max_speed_m_s: must be > 0 and <= 15 m/s, got -2"),
-        ("Kinematic(max_speed_m_s: NaN)", "max_speed_m_s: must be > 0 and <= 15 m/s, got NaN"),
-        ("Kinematic(max_speed_m_s: 99)", "max_speed_m_s: must be > 0 and <= 15 m/s, got 99"),
-        ("Kinematic(climb_m_s: 0)", "climb_m_s: must be > 0 and <= 15 m/s, got 0"),
-        ("Kinematic(lag_s: -1)", "lag_s: must be from 0 to 1000 s, got -1"),
-        ("Kinematic(lag_s: inf)", "lag_s: must be from 0 to 1000 s, got inf"),
+    let channel = scenario("uniform_channel", &[]);
+    let radius = "turn.radius_m: must be from 0.01 to 10000 m";
+    let rate = "turn.deg_s: must be from 0.01 to 720 degrees/s";
+    let speed = "max_speed_m_s: must be > 0 and <= 15 m/s";
+    let lag = "lag_s: must be from 0 to 1000 s";
+    for (vehicle, said, got) in [
+        ("turn: Radius(radius_m: 0)", radius, "got 0"),
+        ("turn: Radius(radius_m: -3)", radius, "got -3"),
+        ("turn: Radius(radius_m: NaN)", radius, "got NaN"),
+        ("turn: Radius(radius_m: 0.001)", radius, "got 0.001"),
+        ("turn: Rate(deg_s: 1e6)", rate, "got 1e6"),
+        ("turn: Rate(deg_s: 0)", rate, "got 0"),
+        ("max_speed_m_s: -2", speed, "got -2"),
+        ("max_speed_m_s: NaN", speed, "got NaN"),
+        ("max_speed_m_s: 99", speed, "got 99"),
+        ("climb_m_s: 0", "climb_m_s: must be > 0 and <= 15 m/s", "got 0"),
+        ("lag_s: -1", lag, "got -1"),
+        ("lag_s: inf", lag, "got inf"),
+        ("turn: Radius(radius: 5)", "", "`radius`"),
+        ("moves: InAir", "", "InAir"),
     ] {
-        assert_eq!(error(vehicle), format!("robots[0].vehicle.{said}"), "{vehicle}");
+        let error = channel.set(VEHICLE, &format!("Kinematic({vehicle})")).expect_err("this is wrong");
+        let lines = error.lines();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        says(&lines[0], &[&format!("robots[0].vehicle.{said}").trim_end_matches('.'), got]);
     }
-    let misspelt = error("Kinematic(turn: Radius(radius: 5))");
-    assert!(misspelt.contains("there is no field `radius`"), "{misspelt}");
-    let unknown = error("Kinematic(moves: InAir)");
-    assert!(unknown.contains("InAir"), "{unknown}");
 }
 
-/// What `check` says of a channel with this vehicle.
-fn told(vehicle: &str, changes: &[(&str, &str)]) -> Vec<String> {
-    let loaded = with("uniform_channel", vehicle, changes);
-    let found = check(&loaded.scenario, &loaded.base_dir);
-    found.iter().map(|f| format!("{}: {}", f.path, f.message)).collect()
+/// What `check` says.
+fn told(loaded: &Loaded) -> Vec<String> {
+    loaded.check().map_or_else(|e| e.lines(), |warnings| warnings.iter().map(ToString::to_string).collect())
 }
 
 #[test]
 fn what_it_cannot_do_is_warned_of() {
-    assert_eq!(told("Kinematic()", &[]), [""; 0]);
-    assert_eq!(told("Kinematic(moves: OverGround)", &[]), [""; 0]);
-    // The channel's water moves at 0.2 m/s.
-    let limit = ("estimator: DeadReckoning()", "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 0.1)");
-    let slow = told("Kinematic(max_speed_m_s: 0.1)", &[limit]);
-    assert!(
-        slow[0]
-            .starts_with("robots[0].vehicle: the water carries it away: it reaches at most 0.10 m/s through the water"),
-        "{slow:?}"
-    );
-    // Over ground that is merely slow.
-    let slow = told("Kinematic(max_speed_m_s: 0.1, moves: OverGround)", &[limit]);
-    assert!(slow.iter().all(|s| !s.contains("carries it away")), "{slow:?}");
-    assert!(slow.iter().any(|s| s.contains("it reaches at most 0.10 m/s over ground")), "{slow:?}");
-    let nimble = told("Kinematic(turn: Rate(deg_s: 60))", &[]);
-    assert_eq!(
-        nimble,
-        ["robots[0].guidance.heading_rate_deg_s: the guidance asks for at most 10 degrees/s, so the vehicle never \
-             turns at the 60.0 degrees/s that it can"]
-    );
+    let with = |vehicle: &str| with("uniform_channel", vehicle);
+    for fine in ["Kinematic()", "Kinematic(moves: OverGround)"] {
+        assert_eq!(told(&with(fine)), [""; 0]);
+    }
+    // The channel's water moves at 0.2 m/s; over ground that is merely slow.
+    for (slow, carried) in
+        [("Kinematic(max_speed_m_s: 0.1)", true), ("Kinematic(max_speed_m_s: 0.1, moves: OverGround)", false)]
+    {
+        let loaded = set(with(slow), &[("robots[0].guidance.water_speed_limit_m_s", "0.1")]);
+        let said = told(&loaded).join("\n");
+        assert_eq!(said.contains("carries it away"), carried, "{said}");
+        says(&said, &[if carried { "0.10 m/s through the water" } else { "0.10 m/s over ground" }]);
+    }
+    let nimble = told(&with("Kinematic(turn: Rate(deg_s: 60))"));
+    assert_eq!(nimble.len(), 1, "{nimble:?}");
+    says(&nimble[0], &["robots[0].guidance.heading_rate_deg_s", "10 degrees/s", "60.0 degrees/s"]);
 }
 
 /// Between two steps nobody sees and decides, so steps end at 1 s.
 #[test]
 fn steps_may_be_long_without_dynamics() {
-    let each = "fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl";
-    let slow = each.replace(": ()", ": (rate_hz: 0.5)");
-    let said = |vehicle: &str, step_s: &str| -> Vec<String> {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        let times = format!("record: (frame_period_s: 2),\n    time: (step_s: {step_s}, ");
-        let text = text.replace("Remus100()", vehicle).replace("time: (", &times);
-        assert!(text.contains(each));
-        let text = text.replace(each, &slow);
-        let loaded = load_text(&Registry::default(), "long", &text).expect("it can be read");
-        let found = check(&loaded.scenario, &loaded.base_dir);
-        let lines = found.iter().map(|f| format!("{}: {}", f.path, f.message));
-        lines.collect()
+    let slow =
+        ["fluorometer", "dvl", "adcp", "compass", "depth", "altimeter"].map(|of| format!("{of}: (rate_hz: 0.5)"));
+    let slow = format!("({}, lbl: (noise_m: 1))", slow.join(", "));
+    let said = |vehicle: &str, step_s: &str| {
+        let values = [
+            (VEHICLE, vehicle),
+            ("robots[0].sensors", slow.as_str()),
+            ("record.frame_period_s", "2"),
+            ("time.step_s", step_s),
+        ];
+        told(&scenario("uniform_channel", &values)).join("\n")
     };
-    assert_eq!(said("Kinematic()", "1"), Vec::<String>::new());
+    assert_eq!(said("Kinematic()", "1"), "");
     for (vehicle, step_s, longest) in [("Remus100()", "1", "0.1"), ("Kinematic()", "1.5", "1")] {
-        let range = format!("time.step_s: must be from 0.001 to {longest} s, got {step_s}");
-        assert_eq!(said(vehicle, step_s), [range]);
+        says(&said(vehicle, step_s), &[&format!("time.step_s: must be from 0.001 to {longest} s, got {step_s}")]);
     }
 }

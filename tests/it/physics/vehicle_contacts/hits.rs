@@ -1,6 +1,7 @@
 //! Hits: the whole mass matrix, friction, energy.
 
-use super::kit::{HALF_M, RADIUS_M, Water, flip, join, mass, moving, nu, plate};
+use super::kit::{HALF_M, RADIUS_M, Water, moving, plate};
+use crate::physics::kit::{flip, join, mass, nu};
 use nalgebra::{Matrix3, Vector3, Vector6};
 use robots::vehicles::Vehicle;
 use world::frames::Truth;

@@ -1,10 +1,10 @@
 //! Hulls in still water, and what stands in their way.
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use crate::physics::kit::{energy, remus, water};
+use nalgebra::Vector3;
 use robots::handoff::{Actuation, ActuatorCommand};
-use robots::vehicles::{Coefficients, InMemory, Vehicle, VehicleSpec};
+use robots::vehicles::{ParameterSet, Vehicle};
 use std::path::Path;
-use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
 use world::physics::{BodyId, Physics};
@@ -14,7 +14,7 @@ use world::units::Heading;
 
 /// The usual, a middling and the longest legal step, s.
 pub(super) const STEPS_S: [f64; 3] = [0.02, 0.05, 0.1];
-pub(super) const SEA: Terrain = Terrain::Level { depth_m: 40.0 };
+const SEA: Terrain = Terrain::Level { depth_m: 40.0 };
 /// Half of the hull, a capsule: its straight part, and its radius, m.
 pub(super) const HALF_M: f64 = 0.705;
 pub(super) const RADIUS_M: f64 = 0.095;
@@ -57,27 +57,6 @@ pub(super) fn front_m(t: &Truth) -> f64 {
     a.x.max(b.x) + RADIUS_M
 }
 
-/// FLU and FRD, either way.
-pub(super) fn flip(v: Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, -v.y, -v.z)
-}
-
-pub(super) fn join(a: Vector3<f64>, b: Vector3<f64>) -> Vector6<f64> {
-    Vector6::new(a.x, a.y, a.z, b.x, b.y, b.z)
-}
-
-pub(super) fn nu(t: &Truth) -> Vector6<f64> {
-    join(flip(t.v_WB_B), flip(t.w_WB_B))
-}
-
-fn coefficients(vehicle: &Vehicle) -> &Coefficients {
-    vehicle.coefficients().expect("terms of its own")
-}
-
-pub(super) fn mass(vehicle: &Vehicle) -> Matrix6<f64> {
-    coefficients(vehicle).rigid_mass() + coefficients(vehicle).added_mass()
-}
-
 /// Hulls in still water among solids.
 pub(super) struct Water {
     pub(super) physics: Physics,
@@ -93,8 +72,7 @@ impl Water {
         }
         let hulls = (starts.iter())
             .map(|start| {
-                let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default());
-                let vehicle = vehicle.expect("built-in vehicle");
+                let vehicle = remus(ParameterSet::Remus100);
                 let id = physics.add_body(vehicle.body_spec("auv", *start));
                 (vehicle, id)
             })
@@ -114,12 +92,7 @@ impl Water {
 
     /// By the hull's own equation.
     pub(super) fn step(&mut self) -> bool {
-        let still = WaterSample {
-            velocity: Vector3::zeros(),
-            gradient: Matrix3::zeros(),
-            rate: Vector3::zeros(),
-            density_kg_m3: 1026.0,
-        };
+        let still = water(Vector3::zeros());
         let step_s = self.physics.dt_s();
         for (vehicle, id) in &mut self.hulls {
             let free = vehicle.step_in(&self.physics.truth(*id), &still, &Actuation::Fins(self.command), step_s);
@@ -132,13 +105,8 @@ impl Water {
         self.physics.contacts(self.hulls[0].1).impulse_N_s
     }
 
-    /// Kinetic energy with the water's, and that of the low centre of gravity, J.
+    /// That of all hulls, J.
     pub(super) fn energy(&self) -> f64 {
-        let of = |(vehicle, id): &(Vehicle, BodyId)| {
-            let (t, c) = (self.physics.truth(*id), coefficients(vehicle));
-            let upright = (t.pose.R_WB * Vector3::z()).z;
-            0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t))) + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
-        };
-        self.hulls.iter().map(of).sum()
+        self.hulls.iter().map(|(vehicle, id)| energy(vehicle, &self.physics.truth(*id))).sum()
     }
 }

@@ -2,12 +2,12 @@
 
 use super::kit::{client, frame, kept, meta, options, plume, sent, start};
 use super::readings::picture;
+use crate::common::free_endpoint;
 use crate::waits::until;
 use output::live::{ListenOptions, Listener, Live, LiveOptions, News, Plane, topics};
 use rheotaxis::trial::Event;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use std::net::TcpListener;
 use std::sync::Arc;
 use std::time::Duration;
 use world::registry::Registry;
@@ -109,8 +109,7 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
 /// A run keeps a message before it sends it: who asks between the two is answered, and then hears the same.
 #[test]
 fn a_message_that_is_answered_and_then_sent_is_heard_once() {
-    let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
-    let endpoint = format!("tcp/{}", port.expect("a free port"));
+    let endpoint = free_endpoint();
     let config = format!(
         r#"{{ mode: "peer", listen: {{ endpoints: ["{endpoint}"] }}, scouting: {{ multicast: {{ enabled: false }} }} }}"#
     );
@@ -178,8 +177,7 @@ fn a_key_narrows_what_is_heard_and_the_end_is_heard_in_any_case() {
 
 #[test]
 fn a_run_that_breaks_off_is_gone_and_one_of_the_same_id_is_heard_anew() {
-    let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
-    let options = LiveOptions { listen: Some(format!("tcp/{}", port.expect("a free port"))), ..options("again_1") };
+    let options = LiveOptions { listen: Some(free_endpoint()), ..options("again_1") };
     let live = Live::start(&options, meta()).unwrap();
     let mut listener = at(&live, Some("clock"));
     assert_eq!(next(&mut listener), News::Begun("again_1".to_owned()));

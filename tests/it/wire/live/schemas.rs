@@ -1,15 +1,14 @@
 //! Every message of runs of each kind keeps the schema that the run itself publishes.
 
 use super::kit::broken;
-use crate::common::root;
+use crate::common::{lasting, scenario, short};
 use output::live::topics;
 use rheotaxis::control::{Question, Response, read_answer};
 use rheotaxis::registry::{Registry, messages};
-use rheotaxis::scenario::{Loaded, load, load_text, template};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use world::ranges::{NonNegative, Positive};
 
 /// Holds each message of each state against its schema.
 struct Checking {
@@ -55,16 +54,6 @@ impl Observer for Checking {
     }
 }
 
-fn short(mut loaded: Loaded, limit_s: f64) -> Loaded {
-    loaded.scenario.time.spin_up_s = NonNegative::new(1.0);
-    loaded.scenario.time.limit_s = Positive::new(limit_s);
-    loaded
-}
-
-fn shipped(name: &str) -> Loaded {
-    load(&root().join(format!("scenarios/catalog/{name}.ron"))).expect("in the catalogue")
-}
-
 /// The beginning of a run, and what it has said.
 fn checked(loaded: &Loaded) -> Checking {
     let mut checking = Checking::new();
@@ -84,12 +73,12 @@ fn vehicles_of_each_kind_and_searchers_of_each_kind_keep_their_schemas() {
         ("glider_shelf", "chemical"),
         ("surface_lake", "chemical"),
     ] {
-        let said = checked(&short(shipped(name), 2.0)).said;
+        let said = checked(&short(name, 1.0, 2.0)).said;
         for topic in robots.iter().chain(&[more]) {
             assert!(said.contains(topic), "{name} says no {topic}: {said:?}");
         }
     }
-    let said = checked(&short(shipped("flume_crab"), 1.0)).said;
+    let said = checked(&short("flume_crab", 1.0, 1.0)).said;
     let gantry = ["joints", "probes", "spikes", "gantry_behaviour"];
     assert!(gantry.iter().all(|t| said.contains(t)), "{said:?}");
 }
@@ -132,21 +121,16 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
             json!({"behaviour": "own_word", "declare": {"position_m": place, "rule": "own_rule"}}),
         ]
     };
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let asks = "External(period_s: 0.2)";
-    let text = text.replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", asks);
-    assert!(text.contains(asks) && text.contains("Remus100()"));
     for (vehicle, drives, fins) in
         [("Remus100()", 3, true), ("Kinematic()", 3, false), ("Shipped(\"bluerov2_heavy\")", 8, false)]
     {
-        let own = text.replace("Remus100()", vehicle);
-        let loaded = load_text(&Registry::default(), "asks", &own);
-        let loaded = loaded.unwrap_or_else(|e| panic!("{vehicle}: {:?}", e.lines()));
+        let values = [("robots[0].vehicle", vehicle), ("robots[0].strategy", "External(period_s: 0.2)")];
+        let loaded = lasting(scenario("uniform_channel", &values), 1.0, 3.5);
         let mut orders = orders(drives);
         if fins {
             orders.push(goal(json!({"direct": {"rudder_rad": 0.1, "stern_rad": 0.0, "rpm": 900.0}})));
         }
-        let checking = answered(&short(loaded, 3.5), "auv0", orders);
+        let checking = answered(&loaded, "auv0", orders);
         assert!(checking.said.contains("declaration"), "{vehicle}");
         let (_, _, schema) = (checking.topics.iter()).find(|(name, ..)| *name == "goal").expect("a topic");
         let words = schema["properties"]["manoeuvre"]["enum"].as_array();
@@ -160,7 +144,7 @@ fn searchers_outside_keep_the_schemas_with_all_that_they_may_order() {
         json!({"head": {"target_m": [0.9, 0.1], "speed_m_s": [0.05, 0.05]}}),
         json!({"declare": {"position_m": [0.1, 0.2]}, "end": "completed"}),
     ];
-    let flume = answered(&short(shipped("flume_external"), 3.0), "crab0", heads);
+    let flume = answered(&short("flume_external", 1.0, 3.0), "crab0", heads);
     let said = ["joints", "gantry_behaviour", "gantry_declaration"];
     assert!(said.iter().all(|t| flume.said.contains(t)), "{:?}", flume.said);
 }

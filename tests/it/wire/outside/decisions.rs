@@ -1,17 +1,17 @@
 //! The same decisions give the same run, whoever makes them.
 
-use super::kit::{Run, asking, channel, client, controller, external};
+use super::kit::{AMP, Run, asking, channel, channel_of, client, controller, external};
+use crate::common;
 use crate::waits::PATIENCE;
 use rheotaxis::control::{Question, QuestionContent, Response, consultation_json};
-use rheotaxis::scenario::load_text;
+use rheotaxis::scenario::Id;
 use rheotaxis::trial::{Event, Observer, Trial};
 use robots::handoff::Reply;
 use serde_json::{Value, json};
-use world::registry::Registry;
+use world::ranges::Finite;
 use world::seeds::{Seed, Stream};
 use zenoh::Wait;
 
-const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 /// Long enough for a plume to be found, lost and found again, s.
 const LONG_S: f64 = 400.0;
 /// The run in this process, where no deadline counts, of which `planner_answers.json` has the text.
@@ -30,11 +30,9 @@ impl Observer for Answers {
 
 /// What the planner of the paper answers in each step, and the digest of its run.
 fn recorded(limit_s: f64) -> (Vec<Value>, String) {
-    let registry = Registry::default();
-    let plain = load_text(&registry, "asks", &channel(AMP, limit_s)).expect("legal");
+    let plain = channel_of(AMP, limit_s);
     let inside = Trial::assemble(&plain, 1).expect("legal").finish_quietly();
-    let outside = load_text(&registry, "asks", &channel(EACH_STEP, limit_s)).expect("legal");
-    let mut trial = Trial::assemble(&outside, 1).expect("legal");
+    let mut trial = Trial::assemble(&channel_of(EACH_STEP, limit_s), 1).expect("legal");
     let ocean = trial.simulation.ocean();
     let robot = &plain.scenario.robots[0];
     let setting = robot.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
@@ -80,7 +78,7 @@ fn the_stream_that_other_doors_are_tested_with_is_the_planners() {
     }
     let scenario = channel(EACH_STEP, LONG_S);
     let now = json!({"scenario": scenario, "seed": 1, "digest": digest, "answers": runs});
-    let path = crate::common::root().join("tests/golden/planner_answers.json");
+    let path = common::root().join("tests/golden/planner_answers.json");
     if std::env::var_os("RHEOTAXIS_BLESS").is_some() {
         std::fs::write(&path, format!("{now:#}\n")).expect("written");
     }
@@ -91,12 +89,13 @@ fn the_stream_that_other_doors_are_tested_with_is_the_planners() {
 
 #[test]
 fn each_robot_has_a_controller_of_its_own() {
-    let text = channel(&external("Hold"), 5.0);
-    let robot = &text[text.find("        (\n            id: \"auv0\"").expect("a robot")..];
-    let robot = &robot[..robot.find("        ),\n    ],").expect("its end")];
-    let second = robot.replace("auv0", "auv1").replace("north_m: -30", "north_m: 30");
-    let both = text.replace(robot, &format!("{robot}        ),\n{second}"));
-    let run = Run::controlled(&both);
+    let both = channel_of(&external("Hold"), 5.0).edit(|s| {
+        let mut second = s.robots[0].clone();
+        second.id = Id::try_from("auv1".to_string()).expect("a name");
+        second.start.north_m = Finite::new(30.0);
+        s.robots.push(second);
+    });
+    let run = Run::controlled(&both.text());
     let session = client(&run.endpoint);
     let to = |robot: &'static str, rad: f64| {
         controller(&session, robot, move |question| {
@@ -118,10 +117,10 @@ fn each_robot_has_a_controller_of_its_own() {
 
 #[test]
 fn a_gantry_goes_where_it_is_told() {
-    let text = std::fs::read_to_string(crate::common::root().join("scenarios/catalog/flume_external.ron"));
-    let text = text.expect("it is there");
-    let text = text.replace("limit_s: 180", "limit_s: 6").replace("spin_up_s: 60", "spin_up_s: 2");
-    let run = Run::controlled(&text.replace("deadline_s: 2", &format!("deadline_s: {}", PATIENCE.as_secs())));
+    let deadline_s = PATIENCE.as_secs().to_string();
+    let patient =
+        [("time.limit_s", "6"), ("time.spin_up_s", "2"), ("gantries[0].tracker.deadline_s", deadline_s.as_str())];
+    let run = Run::controlled(&common::scenario("flume_external", &patient).text());
     let session = client(&run.endpoint);
     let _controller = controller(&session, "crab0", |question| {
         let scans = question["scans"].as_array().expect("scans").len();

@@ -2,35 +2,35 @@
 
 use crate::common;
 use crate::waits::{PATIENCE, Process, until};
+use rheotaxis::scenario::Loaded;
 use serde_json::Value;
 use std::net::TcpListener;
 use std::path::Path;
-use std::process::{Output, Stdio};
+use std::process::Stdio;
 use tempfile::TempDir;
 use zenoh::query::{Query, Queryable};
 use zenoh::{Config, Session, Wait};
 
-/// A channel in which `auv0` asks; the plume is a few minutes old.
+/// The planner of the paper, as it is in the channel.
+pub(super) const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+
+/// A channel in which `auv0` has this strategy; the plume is a few minutes old.
+pub(super) fn channel_of(strategy: &str, limit_s: f64) -> Loaded {
+    let limit_s = limit_s.to_string();
+    let values = [("robots[0].strategy", strategy), ("time.spin_up_s", "300"), ("time.limit_s", limit_s.as_str())];
+    common::scenario("uniform_channel", &values)
+}
+
+/// Its text.
 pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
-    let text = std::fs::read_to_string(common::root().join("scenarios/catalog/uniform_channel.ron"));
-    let text = text.expect("it is there");
-    let amp = "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))";
-    assert!(text.contains(amp));
-    text.replace(amp, &format!("strategy: {strategy}"))
-        .replace("spin_up_s: 2000, limit_s: 1800", &format!("spin_up_s: 300, limit_s: {limit_s}"))
+    channel_of(strategy, limit_s).text().into_owned()
 }
 
 /// A channel whose run goes on until a test ends it, on however slow a machine: nothing is found in it, and who goes
 /// straight on does not leave it.
 pub(super) fn endless(strategy: &str) -> String {
-    let mut text = channel(strategy, 1e5);
-    let changes =
-        [("length_m: 400", "length_m: 20000"), ("cell_m: 20)", "cell_m: 200)"), ("rate_g_s: 0.02", "rate_g_s: 1e-9")];
-    for (from, to) in changes {
-        assert_eq!(text.matches(from).count(), 1, "{from}");
-        text = text.replace(from, to);
-    }
-    text
+    let values = [("area.length_m", "20000"), ("water.currents[1].cell_m", "200"), ("sources[0].rate_g_s", "1e-9")];
+    common::set(channel_of(strategy, 1e5), &values).text().into_owned()
 }
 
 /// Keys of a run, below its name, that only the run itself should publish or answer.
@@ -93,11 +93,11 @@ impl Run {
 
     /// Waits for its end: exit code, summary, and what it said on standard error.
     pub(super) fn end(self) -> End {
-        let out = self.process.output();
+        let out = common::Ended::from(self.process.output());
         let summary = std::fs::read(self.dir.path().join("out/summary.json"));
         End {
-            code: out.status.code().expect("it was not killed"),
-            said: String::from_utf8_lossy(&out.stderr).into_owned(),
+            code: out.code.expect("it was not killed"),
+            said: out.err,
             summary: summary.map_or(Value::Null, |s| serde_json::from_slice(&s).expect("JSON")),
             dir: self.dir,
         }
@@ -125,15 +125,12 @@ impl End {
 
     /// Makes the run again from its recording, which must come to the same digest.
     pub(super) fn run_again(&self) {
-        let again = rerun(self.dir.path(), "out");
-        let said = String::from_utf8_lossy(&again.stdout);
-        let wrong = String::from_utf8_lossy(&again.stderr);
-        assert_eq!(again.status.code(), Some(0), "{said}{wrong}");
-        assert!(said.starts_with(&format!("the same run: digest {}", self.digest())), "{said}");
+        let said = rerun(self.dir.path(), "out").with(0).out;
+        common::says(&said, &["the same run", self.digest()]);
     }
 }
 
-pub(super) fn rerun(dir: &Path, recording: &str) -> Output {
+pub(super) fn rerun(dir: &Path, recording: &str) -> common::Ended {
     common::rheotaxis_in(dir, &["rerun", recording, "--quiet"])
 }
 

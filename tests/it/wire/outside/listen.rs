@@ -1,17 +1,15 @@
-//! `rheotaxis listen` beside real runs: it comes first or late, needs a password, ends with the run, at a count, at Ctrl-C
+//! `rheotaxis listen` beside real runs: it comes first or late, needs a password, ends with the run, at a count, at
+//! Ctrl-C
 //! and when nobody reads.
 
-use super::kit::{Run, channel, endless};
-use crate::common::{command, rheotaxis, root};
+use super::kit::{AMP, Run, channel, endless};
+use crate::common::{command, digest, free_endpoint, rheotaxis, root, says};
 use crate::waits::{INT, Process, until};
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::net::TcpListener;
 use std::path::Path;
 use std::process::{Output, Stdio};
-
-const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 
 fn listen(args: &[&str]) -> Process {
     let mut listen = command(Path::new("."), &["listen"]);
@@ -37,8 +35,7 @@ fn of<'a>(lines: &'a [Value], end: &str) -> Vec<&'a Value> {
 fn who_listens_before_a_run_sees_its_state_and_ends_with_it() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("asks.ron"), channel(AMP, 20.0)).unwrap();
-    let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
-    let end = format!("tcp/{}", port.expect("a free port"));
+    let end = free_endpoint();
     let listener = listen(&["--connect", &end]);
     // It goes when the listener has heard its end, however slow that is.
     let mut run = command(dir.path(), &["run", "asks.ron", "--quiet"]);
@@ -50,9 +47,8 @@ fn who_listens_before_a_run_sees_its_state_and_ends_with_it() {
     let (lines, said) = lines(&out);
     assert_eq!(out.status.code(), Some(0), "{said}");
     assert!(said.contains("rheotaxis/asks_1 has ended"), "{said}");
-    let summary = fs::read(dir.path().join("runs/asks-1/summary.json")).unwrap();
-    let summary: Value = serde_json::from_slice(&summary).unwrap();
-    assert_eq!(of(&lines, "/meta/digest")[0]["message"]["digest"], summary["digest"]);
+    let made = digest(&dir.path().join("runs/asks-1"));
+    assert_eq!(of(&lines, "/meta/digest")[0]["message"]["digest"], made);
     assert_eq!(of(&lines, "/meta/scenario")[0]["message"]["seed"], 1);
     let pose = of(&lines, "/auv/auv0/truth").pop().expect("a pose");
     assert!(pose["message"]["t_s"].as_f64() > Some(0.0), "{pose}");
@@ -127,16 +123,12 @@ fn a_listener_with_the_password_is_let_in_and_one_without_waits() {
 
 #[test]
 fn what_cannot_be_listened_to_is_refused_with_the_legal_form() {
-    for (args, said) in [
-        (["auv//truth", "--count=1"], "`auv//truth` is no key expression: "),
-        (["clock", "--connect=7447"], "`7447` is not a zenoh endpoint"),
-        (["clock", "--zenoh-config=/no.json5"], "zenoh configuration /no.json5: "),
+    for (args, code, part) in [
+        (["auv//truth", "--count=1"], 1, "`auv//truth`"),
+        (["clock", "--connect=7447"], 1, "`7447`"),
+        (["clock", "--zenoh-config=/no.json5"], 1, "/no.json5"),
+        (["clock", "--count=0"], 2, "--count"),
     ] {
-        let out = rheotaxis(&["listen", args[0], args[1]]);
-        let error = String::from_utf8_lossy(&out.stderr);
-        assert_eq!(out.status.code(), Some(1), "{error}");
-        assert!(error.contains(said), "{error}");
+        says(&rheotaxis(&["listen", args[0], args[1]]).with(code).err, &[part]);
     }
-    let out = rheotaxis(&["listen", "clock", "--count", "0"]);
-    assert_eq!(out.status.code(), Some(2));
 }

@@ -1,11 +1,9 @@
 //! The control plane of a run: pause, step, speed, stop; and its refusal.
 
-use super::kit::{Run, client, endless};
+use super::kit::{AMP, Run, client, endless};
 use crate::waits::{PATIENCE, until};
 use serde_json::{Value, json};
 use zenoh::{Session, Wait};
-
-const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 
 /// The answer to a command, or why it was refused.
 pub(super) fn command(session: &Session, command: &str) -> Result<Value, String> {

@@ -123,7 +123,8 @@ impl Watcher {
 
     /// Last chunks of the tokens that are there, one of which is the run's.
     ///
-    /// A question that is sent while the subscriber's tokens are on their way comes back empty: zenoh takes its reply for
+    /// A question that is sent while the subscriber's tokens are on their way comes back empty: zenoh takes its reply
+    /// for
     /// something that the session knows already. So it is asked again.
     pub(super) fn tokens(&self) -> Vec<String> {
         until("there are tokens", || {
