@@ -79,6 +79,8 @@ mod tests {
     fn straight_passes_are_kept_and_turns_are_not() {
         let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
         let mut robot = sample::robot(Vector3::zeros(), Heading::from_deg(0.0));
+        robot.estimate.altitude_m = Some(2.0);
+        robot.estimate.v_ground_body.x = 2.0;
         let mut echoes = Echoes::default();
         let mut lines = 0;
         for k in 0..1000 {

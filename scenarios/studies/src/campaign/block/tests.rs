@@ -168,12 +168,6 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     odd
 }
 
-/// Writes a new file: one that is replaced in place is waited for by some file systems.
-fn anew(path: &Path, bytes: &[u8]) {
-    fs::remove_file(path).unwrap();
-    fs::write(path, bytes).unwrap();
-}
-
 type Damage = fn(&[u8], &mut Stream) -> Vec<u8>;
 
 /// Reads `n` blocks of which one file is damaged. Returns how many are reported as not whole; the others are unchanged.
