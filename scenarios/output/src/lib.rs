@@ -27,3 +27,5 @@ pub mod shown;
 mod sample;
 #[cfg(test)]
 mod sample_gantry;
+#[cfg(test)]
+mod sample_run;

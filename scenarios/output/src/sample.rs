@@ -1,14 +1,14 @@
 //! An invented run for the tests: a zig-zag up a straight plume, a bowtie, a declaration, the way home.
 
 use crate::results::{RobotInfo, RunInfo, SourceTruth};
-use nalgebra::{Vector2, Vector3};
-use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use image::RgbImage;
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use rheotaxis::score::Score;
 use robots::handoff::{
-    Actuation, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate, FlowEstimate, Layer, LayerState,
-    Setpoint, Shown, Vertical,
+    Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
+    Layer, LayerState, Odour, Picture, Setpoint, Shown, SidescanPing, Vertical,
 };
-use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::path::Path;
 use std::sync::Arc;
 use world::area::Area;
@@ -117,101 +117,112 @@ fn layers(b: Behaviour) -> Vec<Layer> {
     (names.iter().enumerate()).map(|(k, name)| Layer { name, state: state(k) }).collect()
 }
 
+/// A robot at a place with a heading, 1 m/s fast, that knows where it is and has sensed nothing.
+pub(crate) fn robot(place: Vector3<f64>, heading: Heading) -> RobotFrame {
+    RobotFrame {
+        id: "auv0".into(),
+        truth: Truth { v_WB_B: Vector3::x(), ..Truth::at_rest(Pose::level(place, heading)) },
+        altitude_m: 2.0,
+        estimate: Estimate {
+            t_s: 0.0,
+            position: place.xy(),
+            depth_m: -place.z,
+            altitude_m: None,
+            attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() },
+            v_ground_body: Vector3::x(),
+            flow: None,
+            fix_jump: Vector2::zeros(),
+        },
+        goal: None,
+        command: None,
+        keeps_height: true,
+        actuators: Actuation::default(),
+        readings: Default::default(),
+        chemical: None,
+        detected: false,
+        behaviour: Behaviour::Find,
+        shown: Shown::default(),
+        belief: None,
+        declarations: Vec::new(),
+        fix_m: None,
+    }
+}
+
+/// A black picture that a robot takes ahead.
+pub(crate) fn picture(of: &RobotFrame, t_s: f64) -> PictureFrame {
+    let picture = Picture {
+        image: Arc::new(RgbImage::new(4, 2)),
+        p_BC: Vector3::new(0.5, 0.0, -0.1),
+        R_BC: UnitQuaternion::identity(),
+        view_rad: 1.0,
+    };
+    PictureFrame { t_s, robot: of.id.clone(), picture, truth: of.truth.pose, estimate: of.estimate }
+}
+
+/// A ping of a robot's sidescan with these echoes.
+pub(crate) fn ping(of: &RobotFrame, t_s: f64, port_db: Arc<[f32]>, starboard_db: Arc<[f32]>) -> PingFrame {
+    let ping = SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db, starboard_db };
+    PingFrame { t_s, robot: of.id.clone(), ping, estimate: of.estimate }
+}
+
 /// Frames at 10 Hz for `seconds`.
 pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
     let terrain = terrain();
     let flow = Heading::from_deg(158.0);
     let side = flow.turned(std::f64::consts::FRAC_PI_2).unit();
     let from = source().position.xy();
+    let start = Vector2::new(150.0, -500.0);
     let (n, declare_at) = (10 * seconds, 7 * seconds);
-    let mut p = Vector2::new(150.0, -500.0);
-    (0..n)
-        .map(|k| {
-            let t_s = k as f64 * 0.1;
-            let share = (k as f64 / declare_at as f64).min(1.0);
-            let away = 950.0 * (1.0 - share);
-            let across = (20.0 + 0.1 * away) * math::sin(t_s / 9.0);
-            let aim = if k < declare_at {
-                from + flow.unit() * away + side * across
-            } else {
-                let home = (k - declare_at) as f64 / (n - declare_at) as f64;
-                from + (Vector2::new(150.0, -500.0) - from) * home
-            };
-            let heading = Heading::from_vector(aim - p);
-            p = aim;
-            let in_plume = k < declare_at && away < 800.0 && across.abs() < 9.0;
-            let behaviour = match k {
-                0..20 => Behaviour::GoTo,
-                _ if k >= declare_at => Behaviour::GoHome,
-                _ if away >= 800.0 => Behaviour::Find,
-                _ if in_plume => Behaviour::TrackIn,
-                _ if away < 60.0 => Behaviour::Reacquire,
-                _ => Behaviour::TrackOut,
-            };
-            let bed = terrain.bed_z(p.x, p.y);
-            let altitude = 2.0 + 0.3 * math::sin(t_s / 17.0);
-            let of_full_scale = if in_plume { 0.3 + 0.2 * math::sin(t_s) } else { 0.01 };
-            let lost = (0..4).map(|i| from + side * (3.0 * f64::from(i) - 4.0)).collect();
-            let robot = RobotFrame {
-                id: "auv0".into(),
-                truth: Truth {
-                    v_WB_B: Vector3::new(2.0, 0.0, 0.0),
-                    ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, bed + altitude), heading))
-                },
-                altitude_m: altitude,
-                estimate: Estimate {
-                    t_s,
-                    position: p + Vector2::new(3.0 + 3.0 * math::sin(t_s / 60.0), 4.0),
-                    depth_m: -bed - altitude,
-                    altitude_m: Some(altitude),
-                    attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.1, rates_rad_s: Vector3::zeros() },
-                    v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-                    flow: Some(FlowEstimate { velocity: flow.unit() * 0.1, age_s: 0.0 }),
-                    fix_jump: Vector2::zeros(),
-                },
-                goal: None,
-                command: Some(Command::Steer(Setpoint {
-                    heading,
-                    water_speed_m_s: 2.0,
-                    vertical: Vertical::Altitude(2.0),
-                })),
-                keeps_height: true,
-                actuators: Actuation::default(),
-                readings: Default::default(),
-                chemical: Some(ChemicalReading { volts: 5.0 * of_full_scale, of_full_scale, detected: in_plume }),
-                detected: in_plume,
-                behaviour,
-                shown: Shown {
-                    layers: layers(behaviour),
-                    lost_points: if away < 60.0 { lost } else { Vec::new() },
-                    ..Shown::default()
-                },
-                belief: Some(Belief {
-                    odour: (away < 60.0).then(|| std::sync::Arc::new(odour(t_s.floor()))),
-                    ..belief(t_s.floor())
-                }),
-                declarations: (k >= declare_at)
-                    .then(|| {
-                        Declaration::first(
-                            declare_at as f64 * 0.1,
-                            from + flow.unit() * 12.0 + side * 5.0,
-                            "along_flow",
-                        )
-                    })
-                    .into_iter()
-                    .collect(),
-                fix_m: (k % 300 == 0).then_some(7.0),
-            };
-            Frame {
-                t_s,
-                step: 5 * k as u64,
-                robots: vec![robot],
-                gantries: Vec::new(),
-                abnormal: Vec::new(),
-                published: Vec::new(),
-            }
-        })
-        .collect()
+    let mut p = start;
+    let frame = |k: usize| {
+        let t_s = k as f64 * 0.1;
+        let share = (k as f64 / declare_at as f64).min(1.0);
+        let away = 950.0 * (1.0 - share);
+        let across = (20.0 + 0.1 * away) * math::sin(t_s / 9.0);
+        let aim = if k < declare_at {
+            from + flow.unit() * away + side * across
+        } else {
+            from + (start - from) * ((k - declare_at) as f64 / (n - declare_at) as f64)
+        };
+        let heading = Heading::from_vector(aim - p);
+        p = aim;
+        let in_plume = k < declare_at && away < 800.0 && across.abs() < 9.0;
+        let behaviour = match k {
+            0..20 => Behaviour::GoTo,
+            _ if k >= declare_at => Behaviour::GoHome,
+            _ if away >= 800.0 => Behaviour::Find,
+            _ if in_plume => Behaviour::TrackIn,
+            _ if away < 60.0 => Behaviour::Reacquire,
+            _ => Behaviour::TrackOut,
+        };
+        let bed = terrain.bed_z(p.x, p.y);
+        let altitude_m = 2.0 + 0.3 * math::sin(t_s / 17.0);
+        let of_full_scale = if in_plume { 0.3 + 0.2 * math::sin(t_s) } else { 0.01 };
+        let lost_points = (0..4).map(|i| from + side * (3.0 * f64::from(i) - 4.0)).filter(|_| away < 60.0).collect();
+        let odour = (away < 60.0).then(|| Arc::new(odour(t_s.floor())));
+        let declared_at = from + flow.unit() * 12.0 + side * 5.0;
+        let declared = Declaration::first(declare_at as f64 * 0.1, declared_at, "along_flow");
+        let mut robot = robot(Vector3::new(p.x, p.y, bed + altitude_m), heading);
+        robot.truth.v_WB_B.x = 2.0;
+        robot.altitude_m = altitude_m;
+        robot.estimate.t_s = t_s;
+        robot.estimate.position += Vector2::new(3.0 + 3.0 * math::sin(t_s / 60.0), 4.0);
+        robot.estimate.altitude_m = Some(altitude_m);
+        robot.estimate.attitude.pitch_rad = 0.1;
+        robot.estimate.v_ground_body.x = 2.0;
+        robot.estimate.flow = Some(FlowEstimate { velocity: flow.unit() * 0.1, age_s: 0.0 });
+        let steer = Setpoint { heading, water_speed_m_s: 2.0, vertical: Vertical::Altitude(2.0) };
+        robot.command = Some(Command::Steer(steer));
+        robot.chemical = Some(ChemicalReading { volts: 5.0 * of_full_scale, of_full_scale, detected: in_plume });
+        robot.detected = in_plume;
+        robot.behaviour = behaviour;
+        robot.shown = Shown { layers: layers(behaviour), lost_points, ..Shown::default() };
+        robot.belief = Some(Belief { odour, ..belief(t_s.floor()) });
+        robot.declarations.extend((k >= declare_at).then_some(declared));
+        robot.fix_m = (k % 300 == 0).then_some(7.0);
+        Frame { t_s, step: 5 * k as u64, robots: vec![robot], ..Frame::default() }
+    };
+    (0..n).map(frame).collect()
 }
 
 /// The score of a run with these frames.

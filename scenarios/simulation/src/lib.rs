@@ -114,6 +114,8 @@ pub mod scenario;
 pub mod score;
 pub mod searchers;
 mod shape;
+#[cfg(test)]
+mod testing;
 pub mod tick;
 pub mod topic;
 pub mod trial;

@@ -136,7 +136,8 @@ fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{CATALOG, parse_with};
+    use crate::scenario::CATALOG;
+    use crate::testing::with;
     use robots::behave::{Behave, BehaviourParams, ReacquireSpec, Reacquires};
     use robots::error::RobotError;
     use robots::strategy::AmpSpec;
@@ -222,29 +223,17 @@ mod tests {
     fn a_scenario_may_ask_for_what_another_crate_adds() {
         let registry = Registry::default().with::<Reacquires, Spiral>();
         let registry = registry.expect("a new name");
-        let duck = CATALOG.iter().find(|t| t.name == "duck_st").expect("there");
-        let with = |what: &str| {
-            let all = &duck.text;
-            let at = all.find("reacquire: Bowtie(").expect("duck_st has bowties");
-            let end = at + all[at..].find(')').expect("closed") + 1;
-            format!("{}reacquire: {what}{}", &all[..at], &all[end..])
-        };
-        let text = with("Spiral(turn_m: 5)");
-        let scenario = parse_with(&registry, "own", &text).expect("legal");
-        let amp = scenario.robots[0].strategy.get::<AmpSpec>().expect("Amp");
+        let place = "robots[0].strategy.reacquire";
+        let own = with(&registry, "duck_st", &[(place, "Spiral(turn_m: 5)")]).expect("legal");
+        let amp = own.scenario.robots[0].strategy.get::<AmpSpec>().expect("Amp");
         assert_eq!(amp.reacquire, ReacquireSpec::new(Spiral { turn_m: Positive::new(5.0) }));
-        let lines = |text: &str, registry: &Registry| -> Vec<String> {
-            let refused = parse_with(registry, "own", text).expect_err("not legal").lines();
-            refused.into_iter().map(|l| l.split_once(": ").expect("a place").1.to_string()).collect()
-        };
-        assert_eq!(lines(&text, &Registry::default()), ["robots[0].strategy.reacquire: there is no choice `Spiral`"]);
-        assert_eq!(
-            lines(&with("Spiral(turn_m: -5)"), &registry),
-            ["robots[0].strategy.reacquire.turn_m: must be > 0, got -5"]
-        );
-        assert_eq!(
-            lines(&with("Spiral(turns_m: 5)"), &registry),
-            ["robots[0].strategy.reacquire: there is no field `turns_m`"]
-        );
+        for (registry, value, says) in [
+            (&Registry::default(), "Spiral(turn_m: 5)", ": there is no choice `Spiral`"),
+            (&registry, "Spiral(turn_m: -5)", ".turn_m: must be > 0, got -5"),
+            (&registry, "Spiral(turns_m: 5)", ": there is no field `turns_m`"),
+        ] {
+            let refused = with(registry, "duck_st", &[(place, value)]).expect_err("not legal").lines();
+            assert!(refused.len() == 1 && refused[0].ends_with(&format!("{place}{says}")), "{refused:?}");
+        }
     }
 }

@@ -211,18 +211,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn steps_are_one_two_or_five() {
-        assert_eq!(nice_step(1000.0, 5.0), 200.0);
-        assert_eq!(nice_step(1.0, 10.0), 0.1);
-        assert_eq!(nice_step(7.0, 3.0), 5.0);
+    fn steps_are_one_two_or_five_and_numbers_carry_their_decimals_and_no_minus_zero() {
+        for (span, parts, step) in [(1000.0, 5.0, 200.0), (1.0, 10.0, 0.1), (7.0, 3.0, 5.0)] {
+            assert_eq!(nice_step(span, parts), step);
+        }
         assert_eq!(ticks([0.5, -0.2], 0.2).len(), 4);
-    }
-
-    #[test]
-    fn numbers_carry_their_decimals_and_no_minus_zero() {
-        assert_eq!(number(-200.0, 100.0), "−200");
-        assert_eq!(number(0.25, 0.05), "0.25");
-        assert_eq!(number(-1e-12, 0.1), "0.0");
+        for (value, step, text) in [(-200.0, 100.0, "−200"), (0.25, 0.05, "0.25"), (-1e-12, 0.1, "0.0")] {
+            assert_eq!(number(value, step), text);
+        }
     }
 
     #[test]

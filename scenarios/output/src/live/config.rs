@@ -203,13 +203,10 @@ mod tests {
         let OpenedSession { session, told } = at_a_free_port(taken..=taken, true).unwrap();
         let end = endpoint(&session);
         assert!(end.starts_with("tcp/127.0.0.1:") && port(&end) != Some(taken));
-        assert_eq!(
-            told.notice.unwrap(),
-            format!(
-                "ports {taken} to {taken} are already in use: zenoh listens on {end}, and connects to \
-                 tcp/127.0.0.1:{taken} for ROS 2; clients have to be told (rheotaxis listen --connect {end})"
-            )
-        );
+        let notice = told.notice.unwrap();
+        for says in [format!("ports {taken} to {taken} "), format!("--connect {end})")] {
+            assert!(notice.contains(&says), "{notice}");
+        }
         session.close().wait().unwrap();
     }
 }

@@ -82,13 +82,9 @@ pub(super) fn ping(newest: &CountedValue<PingFrame>) -> Message {
 mod tests {
     use super::super::message::tests::frame;
     use super::*;
+    use crate::sample;
     use image::Rgb;
-    use nalgebra::{UnitQuaternion, Vector3};
-    use robots::handoff::{Picture, SidescanPing};
     use serde_json::{Value, json};
-    use std::sync::Arc;
-    use world::frames::Pose;
-    use world::units::Heading;
 
     fn header(message: &Message) -> Value {
         serde_json::from_slice(message.attachment.as_ref().unwrap()).unwrap()
@@ -113,22 +109,7 @@ mod tests {
 
     #[test]
     fn the_camera_is_where_the_vehicle_believes_it() {
-        let estimate = frame(0).robots[0].estimate;
-        let newest = CountedValue {
-            taken: 3,
-            value: PictureFrame {
-                t_s: 1.0,
-                robot: "auv0".to_owned(),
-                picture: Picture {
-                    image: Arc::new(RgbImage::new(4, 2)),
-                    p_BC: Vector3::new(0.5, 0.0, -0.1),
-                    R_BC: UnitQuaternion::identity(),
-                    view_rad: 1.0,
-                },
-                truth: Pose::level(Vector3::zeros(), Heading::from_deg(0.0)),
-                estimate,
-            },
-        };
+        let newest = CountedValue { taken: 3, value: sample::picture(&frame(0).robots[0], 1.0) };
         let header = header(&picture(&newest).unwrap());
         let at: Vec<f64> = serde_json::from_value(header["position_m"].clone()).unwrap();
         // It heads east at (1, 2), 3 m down.
@@ -140,20 +121,8 @@ mod tests {
 
     #[test]
     fn a_ping_has_port_before_starboard() {
-        let ping = ping(&CountedValue {
-            taken: 1,
-            value: PingFrame {
-                t_s: 1.0,
-                robot: "auv0".to_owned(),
-                ping: SidescanPing {
-                    p_BS: Vector3::zeros(),
-                    max_m: 20.0,
-                    port_db: [1.0, 2.0].into(),
-                    starboard_db: [3.0].into(),
-                },
-                estimate: frame(0).robots[0].estimate,
-            },
-        });
+        let value = sample::ping(&frame(0).robots[0], 1.0, [1.0, 2.0].into(), [3.0].into());
+        let ping = ping(&CountedValue { taken: 1, value });
         let numbers: Vec<u8> = [1f32, 2.0, 3.0].into_iter().flat_map(f32::to_le_bytes).collect();
         assert_eq!(ping.payload, numbers);
         let header = header(&ping);

@@ -252,11 +252,18 @@ impl Mailbox {
 mod tests {
     use super::super::message::tests::{frame, published};
     use super::*;
+    use crate::sample;
     use rheotaxis::frame::TimedReading;
     use robots::handoff::DepthReading;
 
     fn hour_between_states() -> Mailbox {
         Mailbox::new(Duration::from_secs(3600), Duration::from_secs(3600))
+    }
+
+    /// The state that was handed over.
+    fn state(mailbox: &Mailbox) -> Frame {
+        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
+        sent
     }
 
     #[test]
@@ -265,7 +272,7 @@ mod tests {
         for step in 0..100 {
             mailbox.put_frame(&frame(step));
         }
-        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
+        let sent = state(&mailbox);
         assert_eq!(sent.step, 99);
         let counts = LiveCounts { offered: 100, sent: 1, superseded: 99 };
         assert_eq!(mailbox.counts(), counts);
@@ -285,7 +292,7 @@ mod tests {
         detected.robots[0].readings.depth = Some(TimedReading { t_s: 0.5, value: DepthReading { depth_m: 3.0 } });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
-        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
+        let sent = state(&mailbox);
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].shown.spike[0]);
         let depth = sent.robots[0].readings.depth.as_ref();
@@ -300,7 +307,7 @@ mod tests {
             state.published = values.map(|(key, t_s)| published(key, t_s)).to_vec();
             mailbox.put_frame(&state);
         }
-        let Work::Frame(sent) = mailbox.next() else { panic!("a state was handed over") };
+        let sent = state(&mailbox);
         let mut values: Vec<_> = (sent.published.iter()).map(|p| (p.key.as_str(), p.t_s)).collect();
         values.sort_by_key(|v| v.0);
         assert_eq!(values, [("a", 0.0), ("b", 1.0), ("c", 1.0)]);
@@ -321,17 +328,8 @@ mod tests {
     }
 
     fn ping(robot: &str, t_s: f64) -> PingFrame {
-        PingFrame {
-            t_s,
-            robot: robot.to_owned(),
-            ping: robots::handoff::SidescanPing {
-                p_BS: nalgebra::Vector3::zeros(),
-                max_m: 20.0,
-                port_db: [1.0].into(),
-                starboard_db: [2.0].into(),
-            },
-            estimate: frame(0).robots[0].estimate,
-        }
+        let ping = sample::ping(&frame(0).robots[0], t_s, [1.0].into(), [2.0].into());
+        PingFrame { robot: robot.to_owned(), ..ping }
     }
 
     #[test]

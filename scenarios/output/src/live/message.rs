@@ -107,57 +107,19 @@ pub(super) fn digest(digest: &str) -> Message {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::sample_gantry as sample;
+    use crate::{sample, sample_gantry};
     use nalgebra::{Vector2, Vector3};
-    use rheotaxis::frame::{GantryFrame, RobotFrame};
+    use rheotaxis::frame::GantryFrame;
     use rheotaxis::topic::TopicValue;
-    use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, ProbeScan};
+    use robots::handoff::{Behaviour, ProbeScan};
     use serde_json::{Value, json};
-    use world::frames::{Pose, Truth};
     use world::units::Heading;
 
-    /// One robot, heading east at 1 m/s.
+    /// One robot, heading east at 1 m/s, and a gantry.
     pub(crate) fn frame(step: u64) -> Frame {
-        let heading = Heading::from_deg(90.0);
-        let pose = Pose::level(Vector3::new(1.0, 2.0, -3.0), heading);
-        let mut truth = Truth::at_rest(pose);
-        truth.v_WB_B = Vector3::x();
-        let estimate = Estimate {
-            t_s: 0.0,
-            position: Vector2::new(1.0, 2.0),
-            depth_m: 3.0,
-            altitude_m: None,
-            attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() },
-            v_ground_body: Vector3::x(),
-            flow: None,
-            fix_jump: Vector2::zeros(),
-        };
-        let robot = RobotFrame {
-            id: "auv0".to_owned(),
-            truth,
-            altitude_m: 2.0,
-            estimate,
-            goal: None,
-            command: None,
-            keeps_height: true,
-            actuators: Actuation::default(),
-            readings: Default::default(),
-            chemical: None,
-            detected: false,
-            behaviour: Behaviour::Find,
-            shown: Default::default(),
-            belief: None,
-            declarations: Vec::new(),
-            fix_m: None,
-        };
-        Frame {
-            t_s: 0.1,
-            step,
-            robots: vec![robot],
-            gantries: vec![sample::gantry(1.0, 0.0, Behaviour::StepUp)],
-            abnormal: Vec::new(),
-            published: Vec::new(),
-        }
+        let robot = sample::robot(Vector3::new(1.0, 2.0, -3.0), Heading::from_deg(90.0));
+        let gantry = sample_gantry::gantry(1.0, 0.0, Behaviour::StepUp);
+        Frame { t_s: 0.1, step, robots: vec![robot], gantries: vec![gantry], ..Frame::default() }
     }
 
     /// A value of a topic of another crate.
@@ -212,7 +174,7 @@ pub(super) mod tests {
 
     #[test]
     fn only_the_probes_there_are_speak_and_only_once_they_were_read() {
-        let mut g = sample::gantry(1.0, 0.2, Behaviour::Cast);
+        let mut g = sample_gantry::gantry(1.0, 0.2, Behaviour::Cast);
         assert_eq!(said(&g, "probes"), None);
         g.scan = Some(ProbeScan { t_s: 2.4, volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0], count: 1 });
         let probes = said(&g, "probes").unwrap();

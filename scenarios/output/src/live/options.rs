@@ -100,20 +100,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ids_fit_into_keys() {
-        assert_eq!(run_id("duck_st", 7), "duck_st_7");
-        assert_eq!(run_id("Duck ST/é*?$#@", 1), "duck_st________1");
-        assert_eq!(run_id("", 0), "__0");
-        for name in ["duck_st", "Duck ST/é*?$#@", ""] {
-            assert_eq!(LiveOptions::new(run_id(name, 3)).check(), Ok(()));
+    fn ids_fit_into_keys_or_are_refused() {
+        for (name, seed, id) in [("duck_st", 7, "duck_st_7"), ("Duck ST/é*?$#@", 1, "duck_st________1"), ("", 0, "__0")]
+        {
+            assert_eq!(run_id(name, seed), id);
+            assert_eq!(LiveOptions::new(id.to_owned()).check(), Ok(()));
         }
-    }
-
-    #[test]
-    fn ids_that_do_not_fit_are_refused() {
         for id in ["", "Duck", "a/b", "a*", "@live"] {
             let error = LiveOptions::new(id.to_owned()).check().unwrap_err();
-            assert_eq!(error.to_string(), format!("run id `{id}` must be of a-z, 0-9 and _ only, and not empty"));
+            assert!(error.to_string().contains(&format!("`{id}` must be of a-z, 0-9 and _ only")), "{error}");
         }
     }
 }

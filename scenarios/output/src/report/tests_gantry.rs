@@ -2,15 +2,12 @@
 
 use super::write_all;
 use crate::files::ReportError;
-use crate::record::Recorder;
-use crate::results::{
-    GantryInfo, ProbeTables, RunReport, SourceTruth, Summary, SummaryBuilder, SummaryEnd, Totals, Track,
-};
-use crate::sample::{folder, info, scored};
+use crate::results::{GantryInfo, ProbeTables, SourceTruth, Track};
+use crate::sample::folder;
 use crate::sample_gantry as sample;
+use crate::sample_run::Told;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
-use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Behaviour, Declaration, MAX_PROBES, Outcome, ProbeScan};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -83,29 +80,9 @@ fn frames() -> Vec<Frame> {
             g.outcome = (behaviour == Behaviour::Done).then_some(Outcome::Completed);
             let declared = Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop");
             g.declarations = g.outcome.map(|_| declared).into_iter().collect();
-            Frame {
-                t_s,
-                step: u64::from(k),
-                robots: Vec::new(),
-                gantries: vec![g],
-                abnormal: Vec::new(),
-                published: Vec::new(),
-            }
+            Frame { t_s, step: u64::from(k), gantries: vec![g], ..Frame::default() }
         })
         .collect()
-}
-
-fn summary(frames: &[Frame]) -> Summary {
-    let mut builder = SummaryBuilder::new(&info());
-    frames.iter().for_each(|f| builder.observe(f));
-    let end = SummaryEnd {
-        outcome: RunOutcome::Found,
-        error: None,
-        digest: "00ff".into(),
-        score: scored(frames),
-        totals: Totals::default(),
-    };
-    builder.finish(&end, &[source()])
 }
 
 #[test]
@@ -113,9 +90,7 @@ fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
     let dir = tempfile::tempdir().unwrap();
     let mut tables = ProbeTables::create(&folder(dir.path()), gantries()).unwrap();
     let run = frames();
-    for f in &run {
-        tables.push(f).unwrap();
-    }
+    run.iter().for_each(|f| tables.push(f).unwrap());
     // The table is still open, as if the program were killed here.
     let text = fs::read_to_string(dir.path().join("probes-crab0.csv")).unwrap();
     let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
@@ -126,10 +101,14 @@ fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
         let line = text.lines().nth(row + 1).unwrap();
         line.split(',').nth(column(name)).unwrap().to_string()
     };
-    assert_eq!(of(0, "behaviour"), "sweep");
-    assert_eq!(of(1000, "behaviour"), "step_up");
-    assert_eq!(of(18, "probe_left_v"), "-4.6000");
-    assert_eq!(of(18, "probe_left_threshold_v"), "-4.9000");
+    for (row, name, value) in [
+        (0, "behaviour", "sweep"),
+        (1000, "behaviour", "step_up"),
+        (18, "probe_left_v", "-4.6000"),
+        (18, "probe_left_threshold_v", "-4.9000"),
+    ] {
+        assert_eq!(of(row, name), value);
+    }
     // A spike is known one scan later, and reported once although two rows show that scan.
     let spikes = [18, 19, 20, 21, 22].map(|row| of(row, "probe_left_spike"));
     assert_eq!(spikes, ["0", "0", "1", "0", "0"]);
@@ -156,63 +135,25 @@ fn a_long_record_is_thinned_and_keeps_its_spikes() {
     assert!(pairs.all(|w| (w[1].t_s - w[0].t_s - step).abs() < 1e-6));
 }
 
-#[test]
-fn recording_holds_joints_probes_and_decisions() {
-    let dir = tempfile::tempdir().unwrap();
-    let path = dir.path().join("run.mcap");
-    let mut recorder = Recorder::create(&path, &info()).unwrap();
-    for f in &frames() {
-        recorder.frame(f).unwrap();
-    }
-    recorder.finish("00ff", 1).unwrap();
-    let bytes = fs::read(&path).unwrap();
-    for part in [
-        "/crab0/joint_states",
-        "sensor_msgs/msg/JointState",
-        "/crab0/probes/0",
-        "/crab0/thresholds/0",
-        "/crab0/spikes/0",
-        "/crab0/spike_hz",
-        "/crab0/behaviour",
-        "/crab0/declaration",
-    ] {
-        let found = bytes.windows(part.len()).any(|w| w == part.as_bytes());
-        assert!(found, "{part}");
-    }
-}
+/// A concentration that may be looked at.
+type Dye = Option<&'static dyn Concentration>;
 
-fn write_into(
-    dir: &Path,
-    frames: &[Frame],
-    dye: Option<&dyn Concentration>,
-    sources: &[SourceTruth],
-) -> Result<Vec<PathBuf>, ReportError> {
+fn write_into(dir: &Path, frames: &[Frame], dye: Dye, sources: &[SourceTruth]) -> Result<Vec<PathBuf>, ReportError> {
     let mut tables = ProbeTables::in_memory(gantries());
     frames.iter().for_each(|f| tables.push(f).unwrap());
-    write_all(
-        &folder(dir),
-        &RunReport {
-            pictures: &[],
-            echoes: &crate::results::Echoes::default(),
-            summary: &summary(frames),
-            track: &Track::default(),
-            beliefs: &crate::results::BeliefTrack::default(),
-            gantries: &tables.finish(),
-            plume: None,
-            plume_film: &crate::results::PlumeFilm::default(),
-            dye,
-            area: &flume(),
-            terrain: &Terrain::Level { depth_m: 0.2 },
-            sources,
-            interfaces: &[],
-            obstacles: &[],
-            solids: None,
-            scenario_text: "()",
-        },
-    )
+    let told = Told {
+        track: Track::default(),
+        gantries: tables.finish(),
+        dye,
+        area: flume(),
+        terrain: Terrain::Level { depth_m: 0.2 },
+        sources: sources.to_vec(),
+        ..Told::new(frames, &[source()])
+    };
+    write_all(&folder(dir), &told.report())
 }
 
-fn written(frames: &[Frame], dye: Option<&dyn Concentration>, sources: &[SourceTruth]) -> Vec<(String, String)> {
+fn written(frames: &[Frame], dye: Dye, sources: &[SourceTruth]) -> Vec<(String, String)> {
     let dir = tempfile::tempdir().unwrap();
     let files = write_into(dir.path(), frames, dye, sources);
     let text = |path: &PathBuf| {
@@ -231,28 +172,20 @@ fn written(frames: &[Frame], dye: Option<&dyn Concentration>, sources: &[SourceT
 fn figures_of_a_flume_stand_in_for_the_map() {
     let files = written(&frames(), Some(&Straight), &[source()]);
     let names: Vec<&str> = files.iter().map(|f| f.0.as_str()).collect();
-    assert_eq!(
-        names,
-        [
-            "summary.json",
-            "flume-crab0.svg",
-            "flume-crab0.png",
-            "probes-crab0.svg",
-            "probes-crab0.png",
-            "approach-crab0.svg",
-            "approach-crab0.png",
-            "report.html"
-        ]
-    );
-    let of = |name: &str| files.iter().find(|f| f.0 == name).unwrap().1.as_str();
-    let flume = of("flume-crab0.svg");
-    for words in ["C/C0", "7.5 cm above the bed", "5.0 cm/s", "20 cm"] {
-        assert!(flume.contains(words), "{words}");
+    let figures = ["flume", "probes", "approach"];
+    let figures = figures.iter().flat_map(|figure| ["svg", "png"].map(|end| format!("{figure}-crab0.{end}")));
+    let all: Vec<String> = ["summary.json".into()].into_iter().chain(figures).chain(["report.html".into()]).collect();
+    assert_eq!(names, all);
+    for (file, words) in [
+        ("flume-crab0.svg", ["C/C0", "7.5 cm above the bed", "5.0 cm/s", "20 cm"].as_slice()),
+        ("probes-crab0.svg", &["79 spikes"]),
+        // Path of √(1 + 0.3²) m in 18 s.
+        ("approach-crab0.svg", &["mean 50–100 cm: 5.8 cm/s"]),
+        ("report.html", &["14.0 cm from nozzle"]),
+    ] {
+        let (_, text) = files.iter().find(|f| f.0 == file).unwrap();
+        assert!(words.iter().all(|w| text.contains(w)), "{file}: {words:?}");
     }
-    assert!(of("probes-crab0.svg").contains("79 spikes"));
-    // Path of √(1 + 0.3²) m in 18 s.
-    assert!(of("approach-crab0.svg").contains("mean 50–100 cm: 5.8 cm/s"));
-    assert!(of("report.html").contains("14.0 cm from nozzle"));
 }
 
 /// A concentration that panics when asked, as a mistake in a figure would.
@@ -269,7 +202,6 @@ fn a_figure_that_fails_is_an_error_of_that_figure_alone() {
     let dir = tempfile::tempdir().unwrap();
     let said = write_into(dir.path(), &frames(), Some(&Broken), &[source()]).unwrap_err();
     let said = said.to_string();
-    assert!(said.starts_with("cannot draw "), "{said}");
     assert!(said.ends_with("flume-crab0.png: no such place"), "{said}");
     let there = |name: &str| dir.path().join(name).is_file();
     for name in ["summary.json", "probes-crab0.png", "approach-crab0.svg", "report.html"] {

@@ -1,9 +1,9 @@
 //! The words and numbers of a report: kinds of declarations, ends of searches, title and rule, masses.
 
-use super::tests::told;
 use crate::record::Recorder;
 use crate::results::{DeclaredKind, RobotInfo, Summary, TrackTable};
 use crate::sample::{area, frames, info, plume, robots};
+use crate::sample_run::told;
 use nalgebra::Vector2;
 use rheotaxis::frame::{Frame, TimedReading};
 use rheotaxis::outcome::RunOutcome;
@@ -23,23 +23,32 @@ fn over_subregions() -> Vec<Frame> {
     run
 }
 
+/// The page of a summary alone.
+fn page(summary: &Summary) -> String {
+    super::html::page(summary, None, &[], &[], "()")
+}
+
+fn json(summary: &Summary) -> serde_json::Value {
+    serde_json::from_str(&summary.json()).unwrap()
+}
+
 #[test]
 fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
     let (summary, _) = told(&over_subregions());
-    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
-    let robot = &json["robots"][0];
-    assert_eq!(
-        (&robot["sources_declared"], &robot["up_flow_edges"], &robot["regions_timed_out"]),
-        (&0.into(), &1.into(), &1.into())
-    );
-    let edge = &robot["declarations"][0];
-    assert_eq!(
-        (&edge["kind"], &edge["name"], &edge["region_name"]),
-        (&"up_flow_edge".into(), &"edge of A".into(), &"A".into())
-    );
-    assert_eq!(robot["regions"][1]["name"], "B");
-    assert_eq!(robot["regions"][1]["state"], "timed_out");
-    let page = super::html::page(&summary, None, &[], &[], "()");
+    let robot = &json(&summary)["robots"][0];
+    for (field, value) in [("sources_declared", 0), ("up_flow_edges", 1), ("regions_timed_out", 1)] {
+        assert_eq!(robot[field], value, "{field}");
+    }
+    for (of, field, value) in [
+        (&robot["declarations"][0], "kind", "up_flow_edge"),
+        (&robot["declarations"][0], "name", "edge of A"),
+        (&robot["declarations"][0], "region_name", "A"),
+        (&robot["regions"][1], "name", "B"),
+        (&robot["regions"][1], "state", "timed_out"),
+    ] {
+        assert_eq!(of[field], value);
+    }
+    let page = page(&summary);
     for words in [
         "<th>Declared source</th><td>none",
         "<th>Up-flow edge of subregion A</th>",
@@ -55,7 +64,7 @@ fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
 #[test]
 fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
     let (summary, _) = told(&frames(400));
-    let page = super::html::page(&summary, None, &[], &[], "()");
+    let page = page(&summary);
     let top = &page[page.find("<h1>").unwrap()..page.find("<table").unwrap()];
     assert!(top.contains("<h1>A sample &lt;&amp;&gt;</h1>"), "{top}");
     assert!(top.contains("Success: a source is declared within 20 m of a true one"), "{top}");
@@ -65,11 +74,11 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
     {
         assert!(page.contains(rule), "{rule}");
     }
-    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
+    let json = json(&summary);
     assert_eq!(json["title"], "A sample <&>");
     // The map of the sample ends on the source.
-    assert_eq!(json["robots"][0]["map"]["remark"], serde_json::Value::Null);
-    assert!(json["robots"][0]["map"]["probability"].as_f64().unwrap() > 0.0);
+    let map = &json["robots"][0]["map"];
+    assert!(map["remark"].is_null() && map["probability"].as_f64().unwrap() > 0.0);
 }
 
 /// A cell that may be broken anywhere is squeezed until its words are: only prose and values of a list may be.
@@ -112,38 +121,30 @@ fn a_headline_says_how_the_run_ended() {
     let (mut summary, _) = told(&frames(400));
     summary.scenario = "duck_st".into();
     summary.run.totals.mission_s = 2000.0;
-    let ended = |s: &Summary| {
-        let all = s.headline();
-        let (who, how) = all.split_once(": ").expect("a colon");
-        assert_eq!(who, format!("duck_st, seed {}", s.seed));
-        how.to_string()
+    let sample = summary.robots[0].declarations[0].clone();
+    let declared = |kind: DeclaredKind, t_s: f64, error_m: f64| {
+        let mut one = sample.clone();
+        (one.kind, one.t_s) = (kind, t_s);
+        one.error.as_mut().expect("an error").total_m = error_m;
+        one
     };
-    let declarations = std::mem::take(&mut summary.robots[0].declarations);
-    summary.outcome = RunOutcome::NotFound;
-    assert_eq!(ended(&summary), "not found in 2000 s");
-    summary.outcome = RunOutcome::TimeOut;
-    assert_eq!(ended(&summary), "time limit reached after 2000 s");
-    summary.outcome = RunOutcome::Found;
-    assert_eq!(ended(&summary), "found after 2000 s");
-
-    let mut one = declarations[0].clone();
-    one.kind = DeclaredKind::Source;
-    one.t_s = 1234.4;
-    one.error.as_mut().expect("an error").total_m = 2.1;
-    summary.robots[0].declarations = vec![one.clone()];
-    assert_eq!(ended(&summary), "found after 1234 s, 2.1 m off");
-    summary.outcome = RunOutcome::NotFound;
-    assert_eq!(ended(&summary), "not found: declared after 1234 s, 2.1 m off");
-    let mut second = one.clone();
-    second.t_s = 1500.0;
-    second.error.as_mut().expect("an error").total_m = 0.25;
-    summary.robots[0].declarations.push(second);
-    summary.outcome = RunOutcome::Found;
-    assert_eq!(ended(&summary), "2 declarations, found after 1500 s, at most 2.1 m off");
+    let first = declared(DeclaredKind::Source, 1234.4, 2.1);
+    let second = declared(DeclaredKind::Source, 1500.0, 0.25);
     // An edge of a subregion is no source.
-    one.kind = DeclaredKind::UpFlowEdge;
-    summary.robots[0].declarations = vec![one];
-    assert_eq!(ended(&summary), "found after 2000 s");
+    let edge = declared(DeclaredKind::UpFlowEdge, 1234.4, 2.1);
+    for (outcome, declarations, how) in [
+        (RunOutcome::NotFound, vec![], "not found in 2000 s"),
+        (RunOutcome::TimeOut, vec![], "time limit reached after 2000 s"),
+        (RunOutcome::Found, vec![], "found after 2000 s"),
+        (RunOutcome::Found, vec![first.clone()], "found after 1234 s, 2.1 m off"),
+        (RunOutcome::NotFound, vec![first.clone()], "not found: declared after 1234 s, 2.1 m off"),
+        (RunOutcome::Found, vec![first, second], "2 declarations, found after 1500 s, at most 2.1 m off"),
+        (RunOutcome::Found, vec![edge], "found after 2000 s"),
+    ] {
+        summary.outcome = outcome;
+        summary.robots[0].declarations = declarations;
+        assert_eq!(summary.headline(), format!("duck_st, seed {}: {how}", summary.seed));
+    }
 }
 
 /// A sensor of another crate: its number is in table, recording, summary and page.
@@ -172,7 +173,6 @@ fn a_number_of_another_crate_is_told_everywhere() {
     let topic = b"/auv0/readings/pressure_pa";
     assert!(std::fs::read(&mcap).unwrap().windows(topic.len()).any(|bytes| bytes == topic));
     let (summary, _) = told(&run);
-    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
-    assert_eq!(json["robots"][0]["last_numbers"]["pressure_pa"], 80_198.5);
-    assert!(super::html::page(&summary, None, &[], &[], "()").contains("<th>Last pressure_pa</th><td>80198.5"));
+    assert_eq!(json(&summary)["robots"][0]["last_numbers"]["pressure_pa"], 80_198.5);
+    assert!(page(&summary).contains("<th>Last pressure_pa</th><td>80198.5"));
 }

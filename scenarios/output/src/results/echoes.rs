@@ -71,23 +71,24 @@ impl Echoes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::frames;
+    use crate::sample;
     use nalgebra::Vector3;
-    use robots::handoff::SidescanPing;
+    use world::units::Heading;
 
     #[test]
     fn straight_passes_are_kept_and_turns_are_not() {
         let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
-        let ping = SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level };
-        let mut estimate = frames(1)[0].robots[0].estimate;
+        let mut robot = sample::robot(Vector3::zeros(), Heading::from_deg(0.0));
+        robot.estimate.altitude_m = Some(2.0);
+        robot.estimate.v_ground_body.x = 2.0;
         let mut echoes = Echoes::default();
         let mut lines = 0;
         for k in 0..1000 {
             let t_s = f64::from(k) * 0.1;
-            estimate.t_s = t_s;
+            robot.estimate.t_s = t_s;
             // 30 s straight, 10 s of turning, and the same again.
-            estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
-            let frame = PingFrame { t_s, robot: "a".into(), ping: ping.clone(), estimate };
+            robot.estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
+            let frame = sample::ping(&robot, t_s, level.clone(), level.clone());
             lines += usize::from(echoes.push(&frame).is_some());
         }
         let kept: Vec<usize> = echoes.robots[0].passes().map(|p| p.rows().len()).collect();

@@ -169,26 +169,19 @@ mod tests {
     /// Along a dog-leg: 0.6 m up-stream 0.1 m beside the line, then 0.3 m on it at twice the speed.
     #[test]
     fn figures_of_a_path_drawn_by_hand() {
-        let source = SourceTruth {
-            id: "nozzle".into(),
-            position: Vector3::new(0.0, 0.0, -0.162),
-            flow: Vector2::new(0.05, 0.0),
-        };
+        let position = Vector3::new(0.0, 0.0, -0.162);
+        let source = SourceTruth { id: "nozzle".into(), position, flow: Vector2::new(0.05, 0.0) };
         let at = |t_s: f64, x: f64, y: f64, behaviour| (t_s, sample::gantry(x, y, behaviour));
+        let line = |k: f64| 0.999 - 0.03 * k;
         let mut frames = vec![
             at(0.0, 1.0, -0.4, Behaviour::Sweep),
             at(20.0, 1.0, 0.4, Behaviour::Sweep),
             at(21.0, 1.0, 0.4, Behaviour::ToBest),
         ];
-        let line = |k: f64| 0.999 - 0.03 * k;
-        frames.extend((0..20).map(|k| {
-            let k = f64::from(k);
-            at(30.0 + k, line(k), 0.1, Behaviour::StepUp)
-        }));
-        frames.extend((1..=5).map(|k| {
-            let k = f64::from(k);
-            at(49.0 + k, line(19.0) - 0.06 * k, 0.1, Behaviour::StepUp)
-        }));
+        let slow = (0..20).map(f64::from).map(|k| at(30.0 + k, line(k), 0.1, Behaviour::StepUp));
+        frames.extend(slow);
+        let fast = (1..=5).map(f64::from).map(|k| at(49.0 + k, line(19.0) - 0.06 * k, 0.1, Behaviour::StepUp));
+        frames.extend(fast);
         let mut path = GantryPath::new(&frames[0].1);
         for (t_s, g) in &frames {
             path.observe(*t_s, g);

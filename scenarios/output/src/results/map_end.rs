@@ -90,30 +90,27 @@ mod tests {
     }
 
     #[test]
-    fn it_says_when_a_map_is_sure_of_a_wrong_cell() {
+    fn it_says_when_a_map_is_sure_of_a_wrong_cell_and_nothing_else() {
         let s = source();
         // Cells of 27 by 24 m; the place is four cells away.
-        let away = s.position.xy() + Vector2::new(60.0, -85.0);
-        let end = MapEnd::from_belief(&sure_of(away, 0.99), &[declared(s.position.xy())], std::slice::from_ref(&s));
-        let m = end.off_m.unwrap();
-        assert!(m > 80.0 && end.off_cells.unwrap() >= 3.0, "{end:?}");
-        let said = end.remark.unwrap();
-        assert_eq!(
-            said,
-            format!("the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared")
-        );
-        // Declared where the map says: only the truth disagrees.
-        let end = MapEnd::from_belief(&sure_of(away, 0.99), &[declared(away)], std::slice::from_ref(&s));
-        let said = end.remark.unwrap();
-        assert!(said.contains("from the source") && !said.contains("declared"), "{said}");
-    }
-
-    #[test]
-    fn it_says_nothing_of_a_map_that_is_right_or_unsure() {
-        let s = source();
         let (here, away) = (s.position.xy(), s.position.xy() + Vector2::new(60.0, -85.0));
-        assert_eq!(MapEnd::from_belief(&sure_of(here, 0.99), &[declared(here)], std::slice::from_ref(&s)).remark, None);
-        assert_eq!(MapEnd::from_belief(&sure_of(away, 0.5), &[], &[s]).remark, None);
+        let end = |sure_at, p, at: Option<Vector2<f64>>| {
+            let declared: Vec<_> = at.map(declared).into_iter().collect();
+            MapEnd::from_belief(&sure_of(sure_at, p), &declared, std::slice::from_ref(&s))
+        };
+        let wrong = end(away, 0.99, Some(here));
+        let m = wrong.off_m.unwrap();
+        assert!(m > 80.0 && wrong.off_cells.unwrap() >= 3.0, "{wrong:?}");
+        let said = wrong.remark.unwrap();
+        for says in ["(0.990)", &format!("{m:.0} m from the source"), &format!("{m:.0} m from what was declared")] {
+            assert!(said.contains(says), "{said}");
+        }
+        // Declared where the map says: only the truth disagrees.
+        let said = end(away, 0.99, Some(away)).remark.unwrap();
+        assert!(said.contains("from the source") && !said.contains("declared"), "{said}");
+        // Of a map that is right or unsure there is nothing to say.
+        assert_eq!(end(here, 0.99, Some(here)).remark, None);
+        assert_eq!(end(away, 0.5, None).remark, None);
         assert_eq!(MapEnd::from_belief(&sure_of(away, 0.99), &[], &[]).off_m, None);
     }
 }

@@ -129,27 +129,24 @@ impl Pictures {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::{folder, frames};
+    use crate::sample::{self, folder};
     use image::{Rgb, RgbImage};
     use robots::handoff::Picture;
     use robots::sense::turned;
     use std::fs;
     use std::sync::Arc;
-    use world::frames::Pose;
 
+    /// A red picture, 30° down.
     fn taken(robot: &str, t_s: f64) -> PictureFrame {
-        PictureFrame {
-            t_s,
-            robot: robot.into(),
-            picture: Picture {
-                image: Arc::new(RgbImage::from_pixel(8, 6, Rgb([200, 30, 20]))),
-                p_BC: Vector3::new(0.5, 0.0, -0.1),
-                R_BC: turned(0.0, 30f64.to_radians()),
-                view_rad: 60f64.to_radians(),
-            },
-            truth: Pose::level(Vector3::new(1.0, 2.0, -3.0), Heading::from_deg(90.0)),
-            estimate: frames(1)[0].robots[0].estimate,
-        }
+        let of = sample::robot(Vector3::new(1.0, 2.0, -3.0), Heading::from_deg(90.0));
+        let black = sample::picture(&of, t_s);
+        let picture = Picture {
+            image: Arc::new(RgbImage::from_pixel(8, 6, Rgb([200, 30, 20]))),
+            R_BC: turned(0.0, 30f64.to_radians()),
+            view_rad: 60f64.to_radians(),
+            ..black.picture
+        };
+        PictureFrame { robot: robot.into(), picture, ..black }
     }
 
     #[test]
@@ -177,10 +174,7 @@ mod tests {
 
     #[test]
     fn a_picture_stands_in_the_page() {
-        assert!(
-            ShownPicture { file: "a.png".into(), robot: "a".into(), t_s: 0.0, jpeg: vec![255, 216] }
-                .html()
-                .contains("base64,/9g=")
-        );
+        let shown = ShownPicture { file: "a.png".into(), robot: "a".into(), t_s: 0.0, jpeg: vec![255, 216] };
+        assert!(shown.html().contains("base64,/9g="));
     }
 }

@@ -175,34 +175,13 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn plain_messages_keep_their_bytes() {
-        is(&float64(-2.5), "00000000000004c0");
-        is(&text("find"), "0500000066696e6400");
-        is(&text(""), "0100000000");
-        is(&clock(T_NS), "0100000005000000");
-    }
-
-    #[test]
-    fn stamped_messages_keep_their_bytes() {
-        is(
-            &vector3_stamped(T_NS, "auv", &p()),
-            "0100000005000000 0400000061757600 000000000000f03f 0000000000000440 00000000000008c0",
-        );
-        is(&pose_stamped(T_NS, "world", &p(), &q()), &format!("{HEADER} 00000000 {POSE}"));
-    }
-
-    #[test]
-    fn odometry_keeps_its_bytes() {
+    fn messages_keep_their_bytes() {
         let velocities = [Vector3::new(0.5, 0.0, -0.25), p()];
-        let message = odometry(T_NS, ["world", "auv"], &Pose { p_WB: p(), R_WB: q() }, velocities);
         let unknown = "00".repeat(36 * 8);
         let linear = "000000000000e03f 0000000000000000 000000000000d0bf";
         let angular = "000000000000f03f 0000000000000440 00000000000008c0";
-        is(&message, &format!("{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"));
-    }
-
-    #[test]
-    fn transforms_keep_their_bytes() {
+        let joint = |name, position, velocity, effort| Joint { name, position, velocity, effort };
+        let joints = [joint("x", 1.0, 2.0, -1.0), joint("arm", 0.5, 0.0, 4.0)];
         let children = ["a", "bcd"].map(|child| Transform {
             t_ns: T_NS,
             parent: "world".into(),
@@ -210,42 +189,43 @@ pub(super) mod tests {
             position: p(),
             attitude: q(),
         });
-        let first = format!("{HEADER} 020000006100 0000 {POSE}");
-        let second = format!("{HEADER} 0400000062636400 00000000 {POSE}");
-        is(&transforms(&children), &format!("02000000 {first} {second}"));
-    }
-
-    #[test]
-    fn cloud_keeps_its_bytes() {
-        is(
-            &point_cloud(T_NS, "map", ["x", "p"], &[[1.0, 0.5], [-2.0, 0.25]]),
-            "0100000005000000 040000006d617000 01000000 02000000 02000000 \
-             0200000078000000 00000000 07000000 01000000 \
-             0200000070000000 04000000 07000000 01000000 \
-             00000000 08000000 10000000 10000000 0000803f0000003f000000c00000803e 01",
-        );
-    }
-
-    #[test]
-    fn states_of_joints_keep_their_bytes() {
-        let joint = |name, position, velocity, effort| Joint { name, position, velocity, effort };
-        let joints = [joint("x", 1.0, 2.0, -1.0), joint("arm", 0.5, 0.0, 4.0)];
-        is(
-            &joint_state(T_NS, "world", &joints),
-            &format!(
-                "{HEADER} 02000000 0200000078000000 0400000061726d00 \
-                 02000000 00000000 000000000000f03f 000000000000e03f \
-                 02000000 00000000 0000000000000040 0000000000000000 \
-                 02000000 00000000 000000000000f0bf 0000000000001040"
+        for (message, body) in [
+            (float64(-2.5), "00000000000004c0"),
+            (text("find"), "0500000066696e6400"),
+            (text(""), "0100000000"),
+            (clock(T_NS), "0100000005000000"),
+            (vector3_stamped(T_NS, "auv", &p()), &format!("0100000005000000 0400000061757600 {angular}")),
+            (pose_stamped(T_NS, "world", &p(), &q()), &format!("{HEADER} 00000000 {POSE}")),
+            (
+                odometry(T_NS, ["world", "auv"], &Pose { p_WB: p(), R_WB: q() }, velocities),
+                &format!("{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"),
             ),
-        );
-    }
-
-    #[test]
-    fn picture_keeps_its_bytes() {
-        is(
-            &compressed_image(T_NS, "camera", "png", &[0x89, b'P', b'N']),
-            "0100000005000000 0700000063616d65726100 00 04000000706e6700 03000000 89504e",
-        );
+            (
+                transforms(&children),
+                &format!("02000000 {HEADER} 020000006100 0000 {POSE} {HEADER} 0400000062636400 00000000 {POSE}"),
+            ),
+            (
+                point_cloud(T_NS, "map", ["x", "p"], &[[1.0, 0.5], [-2.0, 0.25]]),
+                "0100000005000000 040000006d617000 01000000 02000000 02000000 \
+                 0200000078000000 00000000 07000000 01000000 \
+                 0200000070000000 04000000 07000000 01000000 \
+                 00000000 08000000 10000000 10000000 0000803f0000003f000000c00000803e 01",
+            ),
+            (
+                joint_state(T_NS, "world", &joints),
+                &format!(
+                    "{HEADER} 02000000 0200000078000000 0400000061726d00 \
+                     02000000 00000000 000000000000f03f 000000000000e03f \
+                     02000000 00000000 0000000000000040 0000000000000000 \
+                     02000000 00000000 000000000000f0bf 0000000000001040"
+                ),
+            ),
+            (
+                compressed_image(T_NS, "camera", "png", &[0x89, b'P', b'N']),
+                "0100000005000000 0700000063616d65726100 00 04000000706e6700 03000000 89504e",
+            ),
+        ] {
+            is(&message, body);
+        }
     }
 }

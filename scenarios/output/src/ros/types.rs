@@ -144,9 +144,4 @@ mod tests {
             assert_eq!(kind.hash().len(), "RIHS01_".len() + 64, "{kind:?}");
         }
     }
-
-    #[test]
-    fn names_follow_those_of_dds() {
-        assert_eq!(MessageKind::Odometry.dds_name(), "nav_msgs::msg::dds_::Odometry_");
-    }
 }

@@ -153,8 +153,7 @@ mod tests {
     use std::path::Path;
 
     fn document(scenario: &str) -> Value {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
-        let scene = Scene::from_scenario(&load(&path).unwrap()).unwrap();
+        let scene = Scene::from_scenario(&load(Path::new(scenario)).unwrap()).unwrap();
         serde_json::from_str(&scene.document(7)).unwrap()
     }
 
@@ -166,7 +165,7 @@ mod tests {
 
     #[test]
     fn the_document_holds_bed_obstacles_sources_and_layers() {
-        let scene = document("duck_survey.ron");
+        let scene = document("duck_survey");
         assert_eq!(scene["run"], "duck_survey_7");
         assert_eq!(scene["area"]["corners_m"].as_array().unwrap().len(), 4);
         let bed = numbers(&scene["bed"]["points_m"]);
@@ -185,38 +184,34 @@ mod tests {
 
     #[test]
     fn the_document_holds_shapes_joints_drives_and_sensors_of_a_robot() {
-        let scene = document("duck_survey.ron");
+        let scene = document("duck_survey");
         let robot = &scene["machines"][0];
         assert_eq!((&robot["kind"], &robot["base"]), (&json!("robot"), &Value::Null));
-        let drives = robot["drives"].as_array().unwrap();
-        let of = |actuator: &str| {
-            let drive = drives.iter().find(|d| d["actuator"] == actuator).unwrap();
-            let mut joints = robot["joints"].as_array().unwrap().iter();
-            joints.find(|j| j["name"] == drive["joint"]).unwrap()
+        let named = |list: &Value, field: &str, name: &Value| -> Value {
+            let found = list.as_array().unwrap().iter().find(|one| one[field] == *name);
+            found.unwrap_or_else(|| panic!("no {name}")).clone()
         };
-        assert_eq!(of("rudder_rad")["axis"], json!([0.0, 0.0, 1.0]));
+        let joint = |actuator: &str| {
+            let drive = named(&robot["drives"], "actuator", &json!(actuator));
+            named(&robot["joints"], "name", &drive["joint"])
+        };
+        assert_eq!(joint("rudder_rad")["axis"], json!([0.0, 0.0, 1.0]));
         // Nose down: the trailing edge goes down, so the leading edge goes up.
-        assert_eq!(of("stern_rad")["axis"], json!([0.0, -1.0, 0.0]));
-        assert_eq!(of("rpm")["kind"], "continuous");
-        let shown = |name: &str| {
-            let mut links = robot["links"].as_array().unwrap().iter();
-            let link = links.find(|l| l["name"] == name).unwrap();
-            link["shapes"].as_array().unwrap().len()
-        };
+        assert_eq!(joint("stern_rad")["axis"], json!([0.0, -1.0, 0.0]));
+        assert_eq!(joint("rpm")["kind"], "continuous");
         for link in ["base_link", "rudder", "stern_plane", "propeller"] {
-            assert!(shown(link) > 0, "{link}");
+            let shapes = named(&robot["links"], "name", &json!(link))["shapes"].as_array().unwrap().len();
+            assert!(shapes > 0, "{link}");
         }
-        let sensors = robot["sensors"].as_array().unwrap();
-        let altimeter = sensors.iter().find(|s| s["kind"] == "altimeter").unwrap();
+        let altimeter = named(&robot["sensors"], "kind", &json!("altimeter"));
         assert_eq!(altimeter["link"], robot["root"]);
-        assert!(sensors.iter().any(|s| s["kind"] == "chemical"));
-        assert_eq!(robot["threshold"], 0.04);
-        assert_eq!(robot["full_scale_v"], 5.0);
+        named(&robot["sensors"], "kind", &json!("chemical"));
+        assert_eq!((&robot["threshold"], &robot["full_scale_v"]), (&json!(0.04), &json!(5.0)));
     }
 
     #[test]
     fn the_document_holds_a_gantry_with_its_slides_and_probes() {
-        let scene = document("flume_crab.ron");
+        let scene = document("flume_crab");
         let gantry = &scene["machines"][0];
         assert_eq!(gantry["kind"], "gantry");
         assert!(gantry["base"]["position_m"].is_array());

@@ -75,7 +75,7 @@ mod tests {
     use super::super::Scene;
     use super::*;
     use nalgebra::Vector2;
-    use rheotaxis::scenario::{FolderFiles, load};
+    use rheotaxis::scenario::{FolderFiles, Loaded, load};
     use robots::vehicles::Gantry;
     use std::collections::BTreeMap;
     use std::path::Path;
@@ -87,10 +87,8 @@ mod tests {
         Names { world: MAP, own: &machine.name }
     }
 
-    fn machine(scenario: &str) -> Machine {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog").join(scenario);
-        let loaded = load(&path).unwrap();
-        Scene::from_scenario(&loaded).unwrap().machines[0].clone()
+    fn machine(loaded: &Loaded) -> Machine {
+        Scene::from_scenario(loaded).unwrap().machines.remove(0)
     }
 
     /// Pose of a frame in `map`, by the chain of its parents.
@@ -109,11 +107,10 @@ mod tests {
 
     #[test]
     fn a_gantry_s_head_and_tips_are_where_it_carries_them() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog/flume_crab.ron");
-        let loaded = load(&path).unwrap();
+        let loaded = load(Path::new("flume_crab")).unwrap();
         let block = &loaded.scenario.gantries[0];
         let gantry = Gantry::load(&block.gantry, &FolderFiles(&loaded.base_dir)).unwrap();
-        let machine = machine("flume_crab.ron");
+        let machine = machine(&loaded);
         let joints = [0.75, -0.25].map(|position_m| JointState { position_m, ..JointState::default() });
         let mut all = fixed(&machine, &names(&machine));
         all.extend(slid(5, &machine, &names(&machine), &joints.map(|j| j.position_m)));
@@ -130,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_altimeter_s_beam_looks_down() {
-        let machine = machine("harbour_3d.ron");
+        let machine = machine(&load(Path::new("harbour_3d")).unwrap());
         let mut all = fixed(&machine, &names(&machine));
         let level = Pose { p_WB: Vector3::new(1.0, 2.0, -3.0), R_WB: UnitQuaternion::identity() };
         all.push(transform(0, MAP, machine.frame(BODY), &level));

@@ -1,58 +1,42 @@
 use super::*;
-use crate::ocean::Ocean;
 use crate::outcome::RunOutcome;
-use crate::scenario::{Loaded, load_text, template};
+use crate::scenario::{FolderFiles, Loaded, check};
+use crate::testing::{changed, external, short_channel};
 use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use nalgebra::Vector2;
-use robots::handoff::{Declaration, GantryLayout, HeadGoal, Manoeuvre, MotionOrder, MoveOrder};
+use robots::handoff::{Declaration, GantryLayout, Manoeuvre, MotionOrder, MoveOrder};
 use robots::strategy::Strategy;
+use robots::track::{ExternalSpec, GantryStrategySpec};
 use robots::vehicles::Gantry;
+use world::ranges::{NonNegative, Positive};
 use world::registry::Registry;
 use world::seeds::{Seed, Stream};
 use world::units::Heading;
 
 const SEED: u64 = 3;
 
-/// A scenario of the catalogue with some of its text replaced.
-fn changed(name: &str, changes: &[(&str, &str)]) -> Loaded {
-    let mut text = template(name).expect("in the catalogue").text.to_string();
-    for (from, to) in changes {
-        assert!(text.contains(from), "{name} has no {from:?}");
-        text = text.replacen(from, to, 1);
-    }
-    load_text(&Registry::default(), "changed", &text).expect("legal")
+/// A channel of 120 s.
+fn inside() -> Loaded {
+    short_channel(&Registry::default(), 60.0, 120.0)
 }
 
-/// A channel of 120 s, and the same with a searcher outside.
-fn channels() -> [Loaded; 2] {
-    let short = ("limit_s: 1800", "limit_s: 120");
-    let plain = changed("uniform_channel", &[short]);
-    let mut outside = plain.clone();
-    let period_s = plain.scenario.time.step_s;
-    outside.scenario.robots[0].strategy = external(period_s.get());
-    [plain, outside]
+/// The same with a searcher outside, asked with this period or in each step.
+fn outside(period_s: Option<f64>) -> Loaded {
+    inside().edit(|s| s.robots[0].strategy = external(period_s.unwrap_or(s.time.step_s.get())))
 }
 
-fn external(period_s: f64) -> robots::strategy::StrategySpec {
-    robots::strategy::StrategySpec::new(robots::strategy::ExternalSpec {
-        period_s: world::ranges::Positive::new(period_s),
-        ..Default::default()
-    })
+fn assembled(loaded: &Loaded) -> Trial {
+    Trial::assemble(loaded, SEED).expect("legal")
 }
 
-/// The strategy of a scenario's robot, built anew by a user of the library.
-fn own_strategy(plain: &Loaded) -> (Box<dyn Strategy>, Stream) {
-    let trial = Trial::assemble(plain, SEED).expect("legal");
-    let ocean: &Ocean = trial.simulation.ocean();
-    let robot = &plain.scenario.robots[0];
+/// The strategy of the channel's robot, built anew by a user of the library.
+fn controller() -> impl Controller + 'static {
+    let plain = inside();
+    let trial = assembled(&plain);
+    let (ocean, robot) = (trial.simulation.ocean(), &plain.scenario.robots[0]);
     let setting = robot.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
-    let strategy = robot.strategy.build(&setting).expect("legal");
-    let rng = Stream::new(Seed::from(SEED), robot.id.as_str(), "strategy");
-    (strategy, rng)
-}
-
-fn controller(plain: &Loaded) -> impl Controller + 'static {
-    let (mut strategy, mut rng) = own_strategy(plain);
+    let mut strategy: Box<dyn Strategy> = robot.strategy.build(&setting).expect("legal");
+    let mut rng = Stream::new(Seed::from(SEED), robot.id.as_str(), "strategy");
     move |question: &Question| match &question.seen {
         QuestionContent::Robot(seen, _) => Response::Answer(Reply::from(&strategy.step(seen, &mut rng))),
         QuestionContent::Gantry(..) => panic!("a robot asks"),
@@ -72,7 +56,7 @@ impl Observer for Kept {
 }
 
 fn run(loaded: &Loaded, controller: impl Controller + 'static) -> (RunEnd, Vec<Exchange>) {
-    let mut trial = Trial::assemble(loaded, SEED).expect("legal");
+    let mut trial = assembled(loaded);
     let name = trial.controlled().first().expect("asks").clone();
     trial.control(&name, controller).expect("it asks");
     let mut kept = Kept::default();
@@ -82,9 +66,8 @@ fn run(loaded: &Loaded, controller: impl Controller + 'static) -> (RunEnd, Vec<E
 
 #[test]
 fn a_strategy_of_this_program_gives_the_same_digest_from_outside() {
-    let [plain, outside] = channels();
-    let inside = Trial::assemble(&plain, SEED).expect("legal").finish_quietly();
-    let (ended, told) = run(&outside, controller(&plain));
+    let (inside, outside) = (assembled(&inside()).finish_quietly(), outside(None));
+    let (ended, told) = run(&outside, controller());
     assert_eq!(ended.digest, inside.digest);
     assert_eq!((ended.outcome, ended.steps), (inside.outcome, inside.steps));
     assert_eq!(told.len() as u64, ended.steps, "asked in every step");
@@ -97,17 +80,27 @@ fn a_strategy_of_this_program_gives_the_same_digest_from_outside() {
         assert_eq!(consultation_json(&read).to_string(), text);
         read
     });
-    let (again, _) = run(&outside, Replay::new(read));
-    assert_eq!(again.digest, inside.digest);
+    assert_eq!(run(&outside, Replay::new(read)).0.digest, inside.digest);
+
+    // Stopping at the questions changes nothing.
+    let (mut controller, mut trial) = (controller(), assembled(&outside));
+    while let Some(question) = trial.until_asked(&mut Unwatched).first() {
+        let heard = controller.answer(question);
+        let told = trial.answer("auv0", heard.clone(), &mut Unwatched).expect("it asked");
+        assert_eq!(told.response.name(), "answered");
+        assert_eq!(trial.answer("auv0", heard, &mut Unwatched), None, "once");
+    }
+    assert_eq!(trial.ended().digest, inside.digest);
+    let counts = trial.score().searchers[0].consulted.expect("it asked");
+    assert_eq!((counts.asked, counts.answered), (ended.steps, ended.steps));
 }
 
 /// A declaration moves nothing, and the run answers for it: its digest is another.
 #[test]
 fn runs_that_differ_only_in_what_is_declared_have_different_digests() {
-    let [plain, outside] = channels();
     let declaring = |east_m: Option<f64>| {
-        let mut steers = controller(&plain);
-        let (ended, _) = run(&outside, move |question: &Question| {
+        let mut steers = controller();
+        let (ended, _) = run(&outside(None), move |question: &Question| {
             let mut heard = steers.answer(question);
             if let (200, Response::Answer(answer), Some(east_m)) = (question.number, &mut heard, east_m) {
                 let place = Vector2::new(east_m, 0.0);
@@ -126,30 +119,7 @@ fn runs_that_differ_only_in_what_is_declared_have_different_digests() {
 }
 
 #[test]
-fn stopping_at_the_questions_changes_nothing() {
-    let [plain, outside] = channels();
-    let (ended, _) = run(&outside, controller(&plain));
-    let mut controller = controller(&plain);
-    let mut trial = Trial::assemble(&outside, SEED).expect("legal");
-    loop {
-        let questions = trial.until_asked(&mut Unwatched);
-        let Some(question) = questions.first() else {
-            break;
-        };
-        let heard = controller.answer(question);
-        let told = trial.answer("auv0", heard.clone(), &mut Unwatched).expect("it asked");
-        assert_eq!(told.response.name(), "answered");
-        assert_eq!(trial.answer("auv0", heard, &mut Unwatched), None, "once");
-    }
-    assert_eq!(trial.ended().digest, ended.digest);
-    let counts = trial.score().searchers[0].consulted.expect("it asked");
-    assert_eq!((counts.asked, counts.answered), (ended.steps, ended.steps));
-}
-
-#[test]
 fn what_cannot_be_carried_out_is_nonsense_and_told() {
-    let [_, mut outside] = channels();
-    outside.scenario.robots[0].strategy = external(10.0);
     let wrong = [
         ("{\"drives\": {\"set\": [0.1]}}", "3 drives, got 1"),
         ("{\"steer\": {\"heading_rad\": 1.0, \"speed_m_s\": -1}}", "`speed_m_s` must be from 0"),
@@ -162,7 +132,7 @@ fn what_cannot_be_carried_out_is_nonsense_and_told() {
         ("[1, 2", "expected"),
     ];
     let mut next = wrong.into_iter();
-    let (_, told) = run(&outside, move |question: &Question| {
+    let (_, told) = run(&outside(Some(10.0)), move |question: &Question| {
         let (text, _) = next.next().unwrap_or(("{}", ""));
         match read_answer(text.as_bytes(), question.number, question.t_s) {
             Ok(answer) => Response::Answer(answer),
@@ -205,89 +175,70 @@ fn a_goal_is_read_as_its_manoeuvre() {
 
 #[test]
 fn nothing_that_is_not_a_number_comes_in() {
-    let [_, outside] = channels();
-    let mut trial = Trial::assemble(&outside, SEED).expect("legal");
-    trial.until_asked(&mut Unwatched);
-    let order = |speed_m_s, heading| {
-        Response::Answer(Reply {
-            order: Some(MotionOrder::Move(MoveOrder {
-                id: None,
-                manoeuvre: Manoeuvre::Steer { heading: Heading::from_rad(heading) },
-                vertical: None,
-                speed_m_s: Some(speed_m_s),
-            })),
-            ..Reply::default()
-        })
-    };
-    let told = trial.answer("auv0", order(f64::NAN, 0.0), &mut Unwatched);
-    assert_eq!(told.expect("it asked").response.name(), "nonsense");
-    trial.until_asked(&mut Unwatched);
-    let told = trial.answer("auv0", order(1.0, f64::INFINITY), &mut Unwatched);
-    assert_eq!(told.expect("it asked").response.name(), "nonsense");
+    let mut trial = assembled(&outside(None));
+    for (speed_m_s, heading) in [(f64::NAN, 0.0), (1.0, f64::INFINITY)] {
+        trial.until_asked(&mut Unwatched);
+        let order = MotionOrder::Move(MoveOrder {
+            id: None,
+            manoeuvre: Manoeuvre::Steer { heading: Heading::from_rad(heading) },
+            vertical: None,
+            speed_m_s: Some(speed_m_s),
+        });
+        let reply = Reply { order: Some(order), ..Reply::default() };
+        let told = trial.answer("auv0", Response::Answer(reply), &mut Unwatched);
+        assert_eq!(told.expect("it asked").response.name(), "nonsense");
+    }
 }
 
 #[test]
 fn nobody_controls_a_robot_that_does_not_ask() {
-    let [plain, outside] = channels();
-    let mut trial = Trial::assemble(&plain, SEED).expect("legal");
-    let refused = trial.control("auv0", |_: &Question| Response::Late);
-    assert!(refused.unwrap_err().to_string().ends_with("none has"));
-    let mut trial = Trial::assemble(&outside, SEED).expect("legal");
-    let refused = trial.control("auv1", |_: &Question| Response::Late);
-    assert!(refused.unwrap_err().to_string().ends_with("those that have: auv0"));
-    assert!(!trial.step() || trial.score().searchers[0].consulted.is_some_and(|c| c.absent == 1));
+    let (mut plain, mut asks) = (assembled(&inside()), assembled(&outside(None)));
+    for (trial, name, says) in [(&mut plain, "auv0", "none has"), (&mut asks, "auv1", "those that have: auv0")] {
+        let refused = trial.control(name, |_: &Question| Response::Late).unwrap_err().to_string();
+        assert!(refused.ends_with(says), "{refused}");
+    }
+    assert!(!asks.step() || asks.score().searchers[0].consulted.is_some_and(|c| c.absent == 1));
 }
 
 #[test]
 fn a_question_tells_what_was_sensed_since_the_last_one() {
-    let [_, mut outside] = channels();
-    outside.scenario.robots[0].strategy = external(2.0);
-    let mut trial = Trial::assemble(&outside, SEED).expect("legal");
+    let mut trial = assembled(&outside(Some(2.0)));
     trial.until_asked(&mut Unwatched);
     let questions = trial.until_asked(&mut Unwatched);
     let said = question_json(&questions[0]);
     assert_eq!((questions[0].number, questions[0].t_s), (1, 2.0));
-    let readings = said["gathered"]["readings"].as_u64().expect("a count");
-    assert!(readings > 1, "{said}");
+    assert!(said["gathered"]["readings"].as_u64().is_some_and(|n| n > 1), "{said}");
     for field in ["estimate", "guidance", "home_m", "area_m", "able"] {
         assert!(!said[field].is_null(), "{field}");
     }
 }
 
-/// A searcher of a gantry, built anew by a user of the library.
-fn own_tracker(loaded: &Loaded) -> (Box<dyn Strategy<HeadGoal>>, Stream) {
-    let block = &loaded.scenario.gantries[0];
-    let gantry = Gantry::load(&block.gantry, &crate::scenario::FolderFiles(&loaded.base_dir));
-    let layout: GantryLayout = block.layout(&gantry.expect("legal"));
-    let strategy = block.tracker.build(&layout).expect("legal");
-    (strategy, Stream::new(Seed::from(SEED), block.id.as_str(), "tracker"))
-}
-
 #[test]
 fn a_searcher_of_a_gantry_gives_the_same_digest_from_outside() {
-    let plain = changed("flume_crab", &[]);
-    let mut plain = plain;
-    plain.scenario.time.limit_s = world::ranges::Positive::new(40.0);
-    plain.scenario.time.spin_up_s = world::ranges::NonNegative::new(5.0);
-    let mut outside = plain.clone();
-    outside.scenario.gantries[0].tracker = robots::track::GantryStrategySpec::new(robots::track::ExternalSpec {
-        period_s: plain.scenario.time.step_s,
-        ..Default::default()
+    let plain = changed("flume_crab", &[]).edit(|s| {
+        s.time.limit_s = Positive::new(40.0);
+        s.time.spin_up_s = NonNegative::new(5.0);
     });
-    let inside = Trial::assemble(&plain, SEED).expect("legal").finish_quietly();
-    let (mut strategy, mut rng) = own_tracker(&plain);
+    let outside = plain.clone().edit(|s| {
+        let asked = ExternalSpec { period_s: s.time.step_s, ..Default::default() };
+        s.gantries[0].tracker = GantryStrategySpec::new(asked);
+    });
+    let block = &plain.scenario.gantries[0];
+    let gantry = Gantry::load(&block.gantry, &FolderFiles(&plain.base_dir)).expect("legal");
+    let layout: GantryLayout = block.layout(&gantry);
+    let mut strategy = block.tracker.build(&layout).expect("legal");
+    let mut rng = Stream::new(Seed::from(SEED), block.id.as_str(), "tracker");
     let (ended, _) = run(&outside, move |question: &Question| match &question.seen {
         QuestionContent::Gantry(seen, _) => Response::Answer(Reply::from(&strategy.step(seen, &mut rng))),
         QuestionContent::Robot(..) => panic!("a gantry asks"),
     });
-    assert_eq!(ended.digest, inside.digest);
+    assert_eq!(ended.digest, assembled(&plain).finish_quietly().digest);
 }
 
 #[test]
 fn nobody_can_be_asked_more_often_than_there_are_steps() {
-    let [_, mut outside] = channels();
-    outside.scenario.robots[0].strategy = external(0.001);
-    let found = crate::scenario::check(&outside.scenario, &outside.base_dir);
-    let lines: Vec<String> = (found.iter()).map(|f| format!("{}: {}", f.path, f.message)).collect();
-    assert_eq!(lines, ["robots[0].strategy.period_s: must be at least time.step_s, 0.02, got 0.001"]);
+    let outside = outside(Some(0.001));
+    let found = check(&outside.scenario, &outside.base_dir);
+    assert_eq!((found.len(), found[0].path.as_str()), (1, "robots[0].strategy.period_s"));
+    assert!(found[0].message.contains("at least time.step_s, 0.02"), "{found:?}");
 }

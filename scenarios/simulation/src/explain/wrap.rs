@@ -35,17 +35,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_are_as_long_as_they_may_be() {
-        assert_eq!(wrap("one two\n three", 7), ["one two", "three"]);
-        assert_eq!(wrap("one two three", 6), ["one", "two", "three"]);
-        assert_eq!(wrap("longer than six", 6), ["longer", "than", "six"]);
-        assert_eq!(wrap("unbreakable", 6), ["unbreakable"]);
-        assert!(wrap(" \n ", 6).is_empty());
-    }
-
-    #[test]
-    fn no_line_becomes_a_list_by_accident() {
-        assert_eq!(wrap("so many as 3. And", 10), ["so many", "as 3. And"]);
-        assert_eq!(wrap("depth - 5 m", 6), ["depth -", "5 m"]);
+    fn lines_are_as_long_as_they_may_be_and_none_becomes_a_list_by_accident() {
+        for (text, width, lines) in [
+            ("one two\n three", 7, ["one two", "three"].as_slice()),
+            ("one two three", 6, &["one", "two", "three"]),
+            ("longer than six", 6, &["longer", "than", "six"]),
+            ("unbreakable", 6, &["unbreakable"]),
+            (" \n ", 6, &[]),
+            ("so many as 3. And", 10, &["so many", "as 3. And"]),
+            ("depth - 5 m", 6, &["depth -", "5 m"]),
+        ] {
+            assert_eq!(wrap(text, width), lines);
+        }
     }
 }

@@ -1,36 +1,35 @@
 use super::*;
 use crate::extend::Extend;
 use crate::lanes::caught;
-use crate::scenario::{load_text, template};
+use crate::testing::{changed, external, short_channel};
 use bevy_ecs::prelude::{Local, Resource};
 use nalgebra::Vector2;
 use robots::handoff::{Behaviour, HeadOrder, Manoeuvre, MotionOrder, MoveOrder, Reply};
-use robots::strategy::{ExternalSpec, StrategySpec};
+use world::ranges::{NonNegative, Positive};
 use world::registry::Registry;
 use world::stage::Stage;
 use world::units::Heading;
 
-/// A minute of the channel with a searcher outside that is asked every second.
+/// Twenty seconds of the channel with a searcher outside that is asked every second.
 fn channel() -> Loaded {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20");
-    let mut loaded = load_text(&Registry::default(), "short", &text).expect("legal");
-    loaded.scenario.robots[0].strategy = StrategySpec::new(ExternalSpec::default());
-    loaded
+    short_channel(&Registry::default(), 300.0, 20.0).edit(|s| s.robots[0].strategy = external(1.0))
 }
 
 /// An answer that follows from the question alone.
 fn answer(question: &Question) -> Response {
     let heading = Heading::from_deg(40.0 * question.number as f64);
-    Response::Answer(Reply {
-        order: Some(MotionOrder::Move(MoveOrder {
-            id: None,
-            manoeuvre: Manoeuvre::Steer { heading },
-            vertical: None,
-            speed_m_s: Some(1.5),
-        })),
-        ..Reply::default()
-    })
+    let manoeuvre = Manoeuvre::Steer { heading };
+    ordered(MotionOrder::Move(MoveOrder { id: None, manoeuvre, vertical: None, speed_m_s: Some(1.5) }))
+}
+
+fn ordered(order: MotionOrder) -> Response {
+    Response::Answer(Reply { order: Some(order), ..Reply::default() })
+}
+
+/// An ocean with so many places, spun up before.
+fn shared(loaded: &Loaded, places: usize) -> Shared {
+    let kept = Shared::spin_up(loaded, 5).expect("legal");
+    Shared::new(loaded, 5, places, Some(&kept)).expect("legal")
 }
 
 /// Answers everybody until a run in a place has ended; its digest.
@@ -71,8 +70,7 @@ fn from_the_first_step_it_is_the_run_alone() {
 #[test]
 fn a_run_is_the_same_whoever_else_is_in_the_ocean() {
     let loaded = channel();
-    let kept = Shared::spin_up(&loaded, 5).expect("legal");
-    let mut shared = Shared::new(&loaded, 5, 3, Some(&kept)).expect("legal");
+    let mut shared = self::shared(&loaded, 3);
     let mut open = begin(&mut shared, 0, 11);
     for _ in 0..7 {
         for (place, question) in &open {
@@ -87,14 +85,14 @@ fn a_run_is_the_same_whoever_else_is_in_the_ocean() {
     assert!(step > 0);
     let among_others = digest(&mut shared, 2, open);
 
-    let mut alone = Shared::new(&loaded, 5, 1, Some(&kept)).expect("legal");
-    alone.wait_for(step);
-    let open = begin(&mut alone, 0, 12);
-    assert_eq!(digest(&mut alone, 0, open), among_others);
-    let mut other = Shared::new(&loaded, 5, 1, Some(&kept)).expect("legal");
-    other.wait_for(step);
-    let open = begin(&mut other, 0, 13);
-    assert_ne!(digest(&mut other, 0, open), among_others, "noise of its own");
+    let alone = |seed: u64| {
+        let mut alone = self::shared(&loaded, 1);
+        alone.wait_for(step);
+        let open = begin(&mut alone, 0, seed);
+        digest(&mut alone, 0, open)
+    };
+    assert_eq!(alone(12), among_others);
+    assert_ne!(alone(13), among_others, "noise of its own");
 }
 
 #[test]
@@ -117,9 +115,8 @@ fn a_place_is_used_again_and_unanswered_questions_count() {
 
 /// A run among three others, and alone: its digests.
 fn digests(loaded: &Loaded, robot: &str, answer: impl Fn(&Question) -> Response + Copy) -> [String; 2] {
-    let kept = Shared::spin_up(loaded, 5).expect("legal");
     [4, 1].map(|places| {
-        let mut shared = Shared::new(loaded, 5, places, Some(&kept)).expect("legal");
+        let mut shared = shared(loaded, places);
         let begun = (0..places).flat_map(|place| {
             let asked = shared.begin(place, 20 + place as u64).expect("legal");
             asked.into_iter().map(move |q| (place, q))
@@ -137,33 +134,29 @@ fn digests(loaded: &Loaded, robot: &str, answer: impl Fn(&Question) -> Response 
 
 #[test]
 fn all_that_a_robot_can_have_is_its_own() {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20").replace(
-        "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
-        "strategy: External(), map: Pomdp(grid: (along: 20, across: 6)), energy: (battery_wh: 0.5),
-             faults: [(at_s: 5, until_s: 9, what: Compass(Biased(5))), (at_s: 7, what: Fluorometer(Biased(0.5)))]",
-    );
-    let loaded = load_text(&Registry::default(), "all", &text).expect("legal");
+    let values = [
+        ("map", "Pomdp(grid: (along: 20, across: 6))"),
+        ("energy", "(battery_wh: 0.5)"),
+        ("faults", "[(at_s: 5, until_s: 9, what: Compass(Biased(5))), (at_s: 7, what: Fluorometer(Biased(0.5)))]"),
+    ];
+    let mut loaded = channel();
+    for (field, value) in values {
+        loaded = loaded.set(&format!("robots[0].{field}"), value).expect("legal");
+    }
     let [among, alone] = digests(&loaded, "auv0", answer);
     assert_eq!(among, alone);
 }
 
 #[test]
 fn gantries_share_a_flume() {
-    let text = template("flume_external").expect("in the catalogue").text;
-    let text = text.replace("spin_up_s: 60", "spin_up_s: 3").replace("limit_s: 180", "limit_s: 4");
-    let loaded = load_text(&Registry::default(), "flume", &text).expect("legal");
+    let loaded = changed("flume_external", &[]).edit(|s| {
+        s.time.spin_up_s = NonNegative::new(3.0);
+        s.time.limit_s = Positive::new(4.0);
+    });
     let [among, alone] = digests(&loaded, "crab0", |question| {
         let left = 0.1 * (question.number % 5) as f64;
-        Response::Answer(Reply {
-            order: Some(MotionOrder::Head(HeadOrder {
-                id: None,
-                target_m: Vector2::new(0.05 * question.number as f64, left),
-                speed_m_s: None,
-                behaviour: Behaviour::StepUp,
-            })),
-            ..Reply::default()
-        })
+        let target_m = Vector2::new(0.05 * question.number as f64, left);
+        ordered(MotionOrder::Head(HeadOrder { id: None, target_m, speed_m_s: None, behaviour: Behaviour::StepUp }))
     });
     assert_eq!(among, alone);
 }
@@ -197,9 +190,8 @@ fn systems_of_other_crates_keep_their_values_for_each_run() {
 #[test]
 fn a_run_that_panics_in_the_middle_of_a_tick_does_not_touch_the_others() {
     let loaded = channel();
-    let kept = Shared::spin_up(&loaded, 5).expect("legal");
     let digest_with = |panics: bool| {
-        let mut shared = Shared::new(&loaded, 5, 3, Some(&kept)).expect("legal");
+        let mut shared = self::shared(&loaded, 3);
         let mut open = begin(&mut shared, 0, 11);
         open.extend(begin(&mut shared, 1, 12));
         if panics {

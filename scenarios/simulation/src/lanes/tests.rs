@@ -4,7 +4,8 @@ use super::{LaneError, Lanes, group_by_ocean};
 use crate::error::AssembleError;
 use crate::extend::{Extend, Systems};
 use crate::outcome::RunOutcome;
-use crate::scenario::{Loaded, cost, load_text, template};
+use crate::scenario::{Loaded, cost};
+use crate::testing::short_channel;
 use crate::trial::{Event, Observer, RunEnd, Trial, Unwatched};
 use bevy_ecs::prelude::World;
 use world::clock::Clock;
@@ -15,13 +16,8 @@ use world::stage::Stage;
 
 /// A short run of a channel in which the robot starts towards `heading_deg`.
 fn channel(registry: &Registry, heading_deg: f64, limit_s: f64) -> Loaded {
-    let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 9");
-    let mut loaded = load_text(registry, "short", &text).expect("legal");
-    let robot = &mut loaded.scenario.robots[0];
-    robot.start.heading_deg = HeadingDeg::try_from(heading_deg).expect("legal");
-    loaded.scenario.time.limit_s = Positive::new(limit_s);
-    loaded
+    let heading_deg = HeadingDeg::try_from(heading_deg).expect("legal");
+    short_channel(registry, 60.0, limit_s).edit(|s| s.robots[0].start.heading_deg = heading_deg)
 }
 
 fn plain(heading_deg: f64, limit_s: f64) -> Loaded {
@@ -57,15 +53,23 @@ fn watched<O: Observer>(all: &[&Loaded], watch: impl Fn(usize) -> O) -> Vec<Resu
     let mut lanes = Lanes::default();
     for (n, loaded) in all.iter().enumerate() {
         let added = lanes.add(loaded, 7, || Ok::<_, LaneError>(Noted(n, watch(n))));
-        if let Err(error) = added {
-            ends[n] = Some(Err(error.to_string()));
-        }
+        ends[n] = added.err().map(|error| Err(error.to_string()));
     }
     lanes.run(|Noted(n, _), run| {
         let end = run.map(Trial::ended).map_err(|e| e.to_string());
         assert!(ends[n].replace(end).is_none(), "lane {n} ended twice");
     });
     ends.into_iter().map(|e| e.expect("it ended")).collect()
+}
+
+/// Lanes of these runs, which nobody watches.
+fn lanes_of(all: &[&Loaded], seed: u64) -> Lanes<Unwatched> {
+    let mut lanes = Lanes::default();
+    for loaded in all {
+        let added = lanes.add(loaded, seed, || Ok::<_, LaneError>(Unwatched));
+        added.expect("the same ocean");
+    }
+    lanes
 }
 
 /// The observer of a lane, which it names.
@@ -102,17 +106,10 @@ fn lanes_that_cannot_be_assembled_do_not_touch_the_others() {
     let panics = with(|_| panic!("no such hull"));
     let sound = plain(10.0, 9.0);
     let alone_fails = Trial::assemble(&fails, 7).err().map(|e| e.to_string());
-    for all in [[&fails, &panics, &sound], [&sound, &panics, &fails]] {
-        let ends = in_lanes(&all);
-        for (loaded, end) in all.iter().zip(ends) {
-            if std::ptr::eq(*loaded, &raw const fails) {
-                assert_eq!(end.err(), alone_fails);
-            } else if std::ptr::eq(*loaded, &raw const panics) {
-                assert_eq!(end, Err("panicked: no such hull".to_string()));
-            } else {
-                assert_eq!(end, Ok(alone(&sound)));
-            }
-        }
+    let wanted = [Err(alone_fails.expect("it fails")), Err("panicked: no such hull".to_string()), Ok(alone(&sound))];
+    for order in [[0, 1, 2], [2, 1, 0]] {
+        let ends = in_lanes(&order.map(|k| [&fails, &panics, &sound][k]));
+        assert_eq!(ends, order.map(|k| wanted[k].clone()));
     }
     assert_eq!(in_lanes(&[&fails, &panics]).len(), 2);
 }
@@ -152,16 +149,15 @@ fn an_observer_ends_its_own_lane_alone() {
         stops: false,
     });
     let stopped = |n: usize| ends[n].as_ref().expect("it has an end");
-    assert_eq!(stopped(0).outcome, RunOutcome::Interrupted);
+    assert_eq!([stopped(0).outcome, stopped(1).outcome], [RunOutcome::Interrupted; 2]);
     assert_eq!(stopped(0).steps, 0);
-    assert_eq!(stopped(1).outcome, RunOutcome::Interrupted);
     assert!((stopped(1).t_s - 3.0).abs() < 1e-9);
-    let mut same = Trial::assemble(&all[1], 7).expect("legal");
+    let assembled = || Trial::assemble(&all[1], 7).expect("legal");
+    let mut same = assembled();
     same.until(3.0);
     // The same but for the outcome, which is in the digest.
     assert_ne!(stopped(1).digest, same.ended().digest);
-    let alone_too =
-        Trial::assemble(&all[1], 7).expect("legal").run(&mut Capricious { stop_s: Some(3.0), ..Capricious::default() });
+    let alone_too = assembled().run(&mut Capricious { stop_s: Some(3.0), ..Capricious::default() });
     assert_eq!(stopped(1).digest, alone_too.digest);
     assert_eq!(ends[2], Err("panicked: the disk is full".to_string()));
     assert_eq!(ends[3], Ok(alone(&all[3])));
@@ -181,24 +177,21 @@ fn a_lane_of_another_ocean_is_refused_by_what_differs() {
     ];
     let base = plain(10.0, 9.0);
     let seed = Seed::from(7);
+    let refused = |other: &Loaded, seed: Seed| {
+        let mut lanes = lanes_of(&[&base], 7);
+        lanes.add(other, seed, || Ok::<_, LaneError>(Unwatched)).expect_err("another ocean")
+    };
     for (change, block) in changes {
         let mut other = base.clone();
         change(&mut other);
-        let mut lanes = Lanes::default();
-        let watch = || Ok::<_, LaneError>(Unwatched);
-        lanes.add(&base, seed, watch).expect("the first");
-        let refused = lanes.add(&other, seed, watch).expect_err("another ocean");
+        let refused = refused(&other, seed);
         assert!(matches!(&refused, LaneError::Unlike(what) if what == block), "{refused}");
         let runs = [(&base, seed), (&other, seed), (&base, seed)];
         assert_eq!(group_by_ocean(&runs, cost::MEMORY), [vec![0, 2], vec![1]]);
     }
-    let mut lanes = Lanes::default();
-    let watch = || Ok::<_, LaneError>(Unwatched);
-    lanes.add(&base, 7, watch).expect("the first");
-    let refused = lanes.add(&base, 8, watch).expect_err("another seed");
-    assert!(refused.to_string().contains("`seed` differs"), "{refused}");
-    let other = [(&base, seed), (&base, Seed::from(8))];
-    assert_eq!(group_by_ocean(&other, cost::MEMORY), [vec![0], vec![1]]);
+    let other = Seed::from(8);
+    assert!(refused(&base, other).to_string().contains("`seed` differs"));
+    assert_eq!(group_by_ocean(&[(&base, seed), (&base, other)], cost::MEMORY), [vec![0], vec![1]]);
 }
 
 #[test]
@@ -221,14 +214,6 @@ fn lanes_take_over_a_spin_up_and_give_theirs() -> Result<(), AssembleError> {
     let (a, b) = (plain(10.0, 9.0), plain(200.0, 6.0));
     let mut first = Trial::assemble(&a, 7)?;
     let by_trial = first.spin_up(&mut Unwatched).expect("nobody stopped it");
-    let lanes_of = |all: &[&Loaded]| {
-        let mut lanes = Lanes::default();
-        for loaded in all {
-            let added = lanes.add(loaded, 7, || Ok::<_, LaneError>(Unwatched));
-            added.expect("the same ocean");
-        }
-        lanes
-    };
     let ends = |lanes: Lanes<Unwatched>| {
         let mut digests = Vec::new();
         lanes.run(|_, run| digests.push(run.expect("it ends").ended().digest));
@@ -236,18 +221,16 @@ fn lanes_take_over_a_spin_up_and_give_theirs() -> Result<(), AssembleError> {
     };
     // The shorter one ends first.
     let expected = [alone(&b).digest, alone(&a).digest];
-    let mut taking = lanes_of(&[&a, &b]);
+    let mut taking = lanes_of(&[&a, &b], 7);
     taking.take_over(&by_trial).expect("the same ocean");
     assert_eq!(ends(taking), expected);
-    let mut giving = lanes_of(&[&a, &b]);
+    let mut giving = lanes_of(&[&a, &b], 7);
     let by_lanes = giving.spin_up().expect("nobody stopped it");
     assert_eq!(ends(giving), expected);
     let mut second = Trial::assemble(&b, 7)?;
     second.take_over(&by_lanes).expect("the same ocean");
     assert_eq!(second.run(&mut Unwatched).digest, expected[0]);
-    let mut other = Lanes::default();
-    let watch = || Ok::<_, LaneError>(Unwatched);
-    other.add(&a, 8, watch).expect("the first");
+    let mut other = lanes_of(&[&a], 8);
     assert!(other.take_over(&by_lanes).is_err());
     // Refused, it spins up itself.
     let alone_8 = Trial::assemble(&a, 8)?.finish_quietly().digest;

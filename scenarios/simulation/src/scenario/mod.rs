@@ -12,8 +12,6 @@ mod load;
 mod reader;
 mod schema;
 mod success;
-#[cfg(test)]
-mod told;
 mod version;
 
 pub use catalog::{CATALOG, Template, template};

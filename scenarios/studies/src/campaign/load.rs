@@ -83,8 +83,8 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_is_said_with_what_there_is() {
+    fn a_missing_file_is_named() {
         let said = load(&Registry::default(), Path::new("nowhere.ron")).unwrap_err().to_string();
-        assert_eq!(said, "nowhere.ron: there is no such file");
+        assert!(said.starts_with("nowhere.ron: "), "{said}");
     }
 }

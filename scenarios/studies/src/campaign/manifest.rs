@@ -278,10 +278,8 @@ mod tests {
         let campaign = load(&Registry::default(), Path::new("uniform_beta")).unwrap();
         let dir = tempfile::tempdir().unwrap();
         let good = serde_json::to_value(Manifest::new(&campaign, 4)).unwrap();
-        let said = |field: &str, value: serde_json::Value| -> String {
-            let mut odd = good.clone();
-            odd[field] = value;
-            fs::write(dir.path().join(FILE), odd.to_string()).unwrap();
+        let said = |json: &serde_json::Value| -> String {
+            fs::write(dir.path().join(FILE), json.to_string()).unwrap();
             let read = Manifest::open(dir.path()).and_then(|m| m.campaign(&Registry::default()).map(drop));
             read.unwrap_err().to_string()
         };
@@ -297,14 +295,15 @@ mod tests {
             ("scenario_hash", "00".into(), "scenario_hash says 00"),
             ("format", 3.into(), "the folder has format 3"),
         ] {
-            let said = said(field, value);
+            let mut odd = good.clone();
+            odd[field] = value;
+            let said = said(&odd);
             assert!(said.contains(says), "{field}: {said}");
         }
         // From an older program: without the field that it did not know.
         let mut old = good.clone();
         old.as_object_mut().unwrap().remove("format");
-        fs::write(dir.path().join(FILE), old.to_string()).unwrap();
-        let said = Manifest::open(dir.path()).unwrap_err().to_string();
+        let said = said(&old);
         assert!(said.contains("the folder has format 1, this program reads and writes format 2"), "{said}");
     }
 }

@@ -255,13 +255,9 @@ mod tests {
         for (k, place) in places.iter().enumerate() {
             assert_eq!(place.seed.number(), 1 + k as u64 / 2 % 3);
         }
-        let hashed = campaign(
-            &format!("{ARMS}, conditions: Grid([(\"time.limit_s\", [\"10\", \"20\"])])")
-                .replace("seeds: 3", "seeds: Hashed(seed: 1, count: 3)"),
-        );
-        let mut seeds: Vec<u64> = (0..12).map(|run| hashed.place(run).seed.number()).collect();
-        seeds.sort_unstable();
-        seeds.dedup();
+        let grid = format!("{ARMS}, conditions: Grid([(\"time.limit_s\", [\"10\", \"20\"])])");
+        let hashed = campaign(&grid.replace("seeds: 3", "seeds: Hashed(seed: 1, count: 3)"));
+        let seeds: BTreeSet<u64> = (0..12).map(|run| hashed.place(run).seed.number()).collect();
         assert_eq!(seeds.len(), 6);
         assert_eq!(c.condition_name(1), "time.limit_s=10; sources[0].rate_g_s=2");
         assert_eq!(c.condition_name(2), "time.limit_s=20; sources[0].rate_g_s=1");
@@ -297,22 +293,18 @@ mod tests {
 
     #[test]
     fn mistakes_in_an_arm_are_the_loaders_and_name_it() {
-        let said = |path: &str, value: &str| -> String {
-            let c =
-                campaign(&format!(r#"seeds: 1, arms: [(name: "good"), (name: "odd", set: [("{path}", "{value}")])]"#));
-            match c.check().unwrap_err() {
+        for (path, value, says) in [
+            ("time.limit_s", "-1", "time.limit_s: must be > 0"),
+            ("time.limits", "1", "there is no field `limits`"),
+            ("sources[0].east_m", "9000", "sources[0]"),
+            ("robots[4].id", "1", "`robots` has no element 4"),
+        ] {
+            let arms = format!(r#"[(name: "good"), (name: "odd", set: [("{path}", "{value}")])]"#);
+            let said = match campaign(&format!("seeds: 1, arms: {arms}")).check().unwrap_err() {
                 CampaignError::Scenario(e) => e.lines().join("\n"),
                 other => other.to_string(),
-            }
-        };
-        let negative = said("time.limit_s", "-1");
-        assert!(negative.starts_with("uniform_channel (arm odd):"), "{negative}");
-        assert!(negative.contains("time.limit_s: must be > 0"), "{negative}");
-        let unknown = said("time.limits", "1");
-        assert!(unknown.contains("there is no field `limits`"), "{unknown}");
-        let outside = said("sources[0].east_m", "9000");
-        assert!(outside.contains("(arm odd)") && outside.contains("sources[0]"), "{outside}");
-        let nowhere = said("robots[4].id", "1");
-        assert_eq!(nowhere, "uniform_channel (arm odd): `robots[4].id`: `robots` has no element 4");
+            };
+            assert!(said.starts_with("uniform_channel (arm odd):") && said.contains(says), "{said}");
+        }
     }
 }

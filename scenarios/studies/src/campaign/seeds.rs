@@ -112,31 +112,24 @@ mod tests {
     #[test]
     fn literal_seeds_are_consecutive_and_the_same_under_each_condition() {
         let seeds = Seeds::Literal { first: 101, count: 3 };
-        let all: Vec<u64> = (0..3).map(|k| seeds.seed(7, k)).collect();
-        assert_eq!(all, [101, 102, 103]);
-        assert_eq!(seeds.seed(0, 2), seeds.seed(1, 2));
-        assert_eq!(seeds.describe(), "seeds 101 to 103");
-    }
-
-    #[test]
-    fn hashed_seeds_are_others_under_each_condition() {
-        let seeds = Seeds::Hashed { seed: 1, count: 2 };
-        assert_eq!(seeds.seed(3, 1), key(1, "condition 3", "seed 1"));
-        assert_ne!(seeds.seed(3, 1), seeds.seed(2, 1));
+        for condition in [0, 7] {
+            assert_eq!([0, 1, 2].map(|k| seeds.seed(condition, k)), [101, 102, 103]);
+        }
     }
 
     #[test]
     fn numbers_out_of_range_are_named_with_their_range() {
-        let literal = |first, count| Seeds::Literal { first, count }.fault();
-        assert_eq!(literal(u64::MAX, 1), None);
-        assert_eq!(literal(0, MOST), None);
-        let said = literal(u64::MAX, 2).unwrap();
-        assert_eq!(said.0, "first");
-        assert!(said.1.contains("from 0 to 18446744073709551614"), "{said:?}");
-        for count in [0, MOST + 1] {
-            let said = Seeds::Hashed { seed: 1, count }.fault().unwrap();
-            assert_eq!(said.0, "count");
-            assert!(said.1.contains("from 1 to 1099511627776"), "{said:?}");
+        let (last, hashed) = (u64::MAX, |count| Seeds::Hashed { seed: 1, count });
+        for fine in [Seeds::Literal { first: last, count: 1 }, Seeds::Literal { first: 0, count: MOST }] {
+            assert_eq!(fine.fault(), None);
+        }
+        for (seeds, field, range) in [
+            (Seeds::Literal { first: last, count: 2 }, "first", "from 0 to 18446744073709551614"),
+            (hashed(0), "count", "from 1 to 1099511627776"),
+            (hashed(MOST + 1), "count", "from 1 to 1099511627776"),
+        ] {
+            let said = seeds.fault().unwrap();
+            assert!(said.0 == field && said.1.contains(range), "{said:?}");
         }
     }
 }

@@ -129,12 +129,11 @@ fn changed<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rheotaxis::scenario::{load_text, template};
-    use world::registry::Registry;
+    use rheotaxis::scenario::load;
+    use std::path::Path;
 
     fn channel() -> Loaded {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        load_text(&Registry::default(), "channel", text).expect("legal")
+        load(Path::new("uniform_channel")).expect("in the catalogue")
     }
 
     fn draw(path: &str, of: Law) -> Draw {
@@ -171,24 +170,19 @@ mod tests {
 
     #[test]
     fn what_could_be_drawn_and_is_not_legal_is_told() {
-        let loaded = channel();
-        for (of, told) in [
-            (Law::Log(0.0, 2.0), "Log needs two positive numbers"),
-            (Law::Even(3.0, 2.0), "Even needs two numbers"),
-            (Law::OneOf(Vec::new()), "OneOf needs at least one value"),
-            (Law::Log(2.0, 1e4), "visibility_m"),
+        let arms = [("a".to_string(), channel())];
+        let visibility = "optics.clarity.visibility_m";
+        for (path, of, told) in [
+            (visibility, Law::Log(0.0, 2.0), "Log needs two positive numbers"),
+            (visibility, Law::Even(3.0, 2.0), "Even needs two numbers"),
+            (visibility, Law::OneOf(Vec::new()), "OneOf needs at least one value"),
+            (visibility, Law::Log(2.0, 1e4), "visibility_m"),
+            ("robots[7].id", Law::OneOf(vec!["\"b\"".to_string()]), "robots[7].id"),
         ] {
-            let arms = [("a".to_string(), loaded.clone())];
-            let said = check(&[draw("optics.clarity.visibility_m", of)], &arms);
-            let said = said.unwrap_err();
+            let said = check(&[draw(path, of)], &arms).unwrap_err();
             assert!(said.contains(told), "{said}");
         }
-        let astray = draw("robots[7].id", Law::OneOf(vec!["\"b\"".to_string()]));
-        let arms = [("a".to_string(), loaded)];
-        let said = check(&[astray], &arms).unwrap_err();
-        assert!(said.contains("robots[7].id"), "{said}");
-        let mut other = draw("time.limit_s", Law::Even(10.0, 20.0));
-        other.arms = vec!["murky".to_string()];
+        let other = Draw { arms: vec!["murky".to_string()], ..draw("time.limit_s", Law::Even(10.0, 20.0)) };
         let said = check(&[other], &arms).unwrap_err();
         assert_eq!(said, "draw `time.limit_s`: the row has no arm `murky`");
     }

@@ -202,8 +202,11 @@ mod tests {
     use world::registry::Registry;
     use world::seeds::Key;
 
-    fn reference() -> Reference {
-        wanted(&Registry::default(), &["wp_laminar".into()], &[]).unwrap().remove(0)
+    /// The file of the row of these tests.
+    const FILE: &str = "wp_laminar.csv";
+
+    fn reference(arms: &[String]) -> Reference {
+        wanted(&Registry::default(), &["wp_laminar".into()], arms).unwrap().remove(0)
     }
 
     fn reproduced(reference: &Reference, seeds: std::ops::Range<u64>) -> RowResult {
@@ -231,16 +234,23 @@ mod tests {
         row
     }
 
+    /// A folder with the table of a row.
+    fn written(row: &RowResult) -> (tempfile::TempDir, Table) {
+        let (dir, mut table) = (tempfile::tempdir().unwrap(), Table::default());
+        table.merge(row);
+        table.write(dir.path(), row).unwrap();
+        (dir, table)
+    }
+
     #[test]
     fn a_table_is_read_as_it_was_written_and_grows() {
-        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
-        assert_eq!(Table::read(dir.path(), &reference).unwrap(), None);
-        let mut table = Table::default();
+        let reference = reference(&[]);
+        let arms = reference.arms.len();
+        assert_eq!(Table::read(tempfile::tempdir().unwrap().path(), &reference).unwrap(), None);
         let first = reproduced(&reference, 5..8);
-        table.merge(&first);
-        table.write(dir.path(), &first).unwrap();
+        let (dir, _) = written(&first);
         let mut back = Table::read(dir.path(), &reference).unwrap().unwrap();
-        assert_eq!(back.from_seed(5, 9, &reference).len(), 3 * reference.arms.len());
+        assert_eq!(back.from_seed(5, 9, &reference).len(), 3 * arms);
         assert!(back.from_seed(4, 9, &reference).is_empty());
         let one = &back.of_arms(&reference)[0];
         assert_eq!(one.declarations[0].t_s.to_bits(), (0.1_f64 + 0.2).to_bits());
@@ -248,73 +258,59 @@ mod tests {
         back.merge(&reproduced(&reference, 3..6));
         back.write(dir.path(), &first).unwrap();
         let again = Table::read(dir.path(), &reference).unwrap().unwrap();
-        assert_eq!(again.from_seed(3, 9, &reference).len(), 5 * reference.arms.len());
+        assert_eq!(again.from_seed(3, 9, &reference).len(), 5 * arms);
     }
 
     #[test]
     fn a_table_that_the_program_no_longer_gives_is_stale() {
-        let reference = reference();
-        let mut table = Table::default();
-        table.merge(&reproduced(&reference, 1..3));
+        let reference = reference(&[]);
+        let (_dir, mut table) = written(&reproduced(&reference, 1..3));
         assert_eq!(table.stale(&reference, 0), None);
-        let said = table.stale(&reference, 1).unwrap();
-        assert!(said.contains("in the table"), "{said}");
+        assert!(table.stale(&reference, 1).unwrap().contains("in the table"));
         table.hash = "another".to_string();
-        let said = table.stale(&reference, 0).unwrap();
-        assert!(said.contains("that of the table another"), "{said}");
+        assert!(table.stale(&reference, 0).unwrap().contains("that of the table another"));
     }
 
     /// A false figure is not seen by its digest.
     #[test]
     fn every_measure_of_a_run_and_of_its_declarations_is_checked() {
-        let dir = tempfile::tempdir().unwrap();
-        let reference = wanted(&Registry::default(), &["wp_laminar".into()], &["pomdp".into()]).unwrap().remove(0);
+        let reference = reference(&["pomdp".into()]);
         let stop = AtomicBool::new(false);
         let plan = Plan { n: 1, first_seed: 4, key: Key::public(), until_half_width: None, jobs: 1 };
         let begun = RowResult::begin(&reference);
         let row = reproduce(&reference, begun, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
-        let mut table = Table::default();
-        table.merge(&row);
-        table.write(dir.path(), &row).unwrap();
-        let mut table = Table::read(dir.path(), &reference).unwrap().unwrap();
+        let (dir, _) = written(&row);
+        let table = Table::read(dir.path(), &reference).unwrap().unwrap();
         assert_eq!(table.stale(&reference, 1), None);
-        let changed = |table: &mut Table, change: &dyn Fn(&mut RunRow), column: &str| {
-            let (was, runs) = (table.runs.clone(), table.runs.values_mut());
-            runs.for_each(change);
-            let said = table.stale(&reference, 1).expect(column);
+        let changes: [(&str, fn(&mut RunRow)); 3] = [
+            ("error_m", |run| run.error_m = Some(0.25)),
+            ("outcome", |run| run.outcome = "found!".into()),
+            ("number of declarations", |run| run.declarations.push(DeclarationRow::default())),
+        ];
+        for (column, change) in changes {
+            let mut changed = table.clone();
+            changed.runs.values_mut().for_each(change);
+            let said = changed.stale(&reference, 1).expect(column);
             assert!(said.contains(&format!("now has {column} ")), "{said}");
-            table.runs = was;
-        };
-        changed(&mut table, &|run| run.error_m = Some(0.25), "error_m");
-        changed(&mut table, &|run| run.outcome = "found!".into(), "outcome");
-        let none = |run: &mut RunRow| run.declarations.push(DeclarationRow::default());
-        changed(&mut table, &none, "number of declarations");
-        let text = std::fs::read_to_string(dir.path().join("wp_laminar.csv")).unwrap();
-        std::fs::write(dir.path().join("wp_laminar.csv"), text.replacen("4,", "5,", 1)).unwrap();
-        let said = Table::read(dir.path(), &reference).unwrap_err().to_string();
-        assert!(said.contains("changed after it was written"), "{said}");
+        }
     }
 
     #[test]
     fn a_broken_table_names_file_line_and_column() {
-        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
-        let row = reproduced(&reference, 1..3);
-        let mut table = Table::default();
-        table.merge(&row);
-        table.write(dir.path(), &row).unwrap();
-        let path = dir.path().join("wp_laminar.csv");
+        let reference = reference(&[]);
+        let (dir, _) = written(&reproduced(&reference, 1..3));
+        let path = dir.path().join(FILE);
         let text = std::fs::read_to_string(&path).unwrap();
-        let said = |broken: String| {
+        for (broken, names) in [
+            (text.replacen('#', "", 1), [FILE, "line 1"]),
+            (text.replacen(",1.1,", ",x,", 1), ["line 3", "error_m"]),
+            (text[..text.len() - 20].to_string(), [FILE, "line"]),
+            (text.replacen("seed_index", "seed_number", 1), ["line 2", "seed_index"]),
+            (text.replacen(",1.1,", ",1.2,", 1), [FILE, "changed after it was written"]),
+        ] {
             std::fs::write(&path, broken).unwrap();
-            Table::read(dir.path(), &reference).unwrap_err().to_string()
-        };
-        let no_head = said(text.replacen('#', "", 1));
-        assert!(no_head.contains("wp_laminar.csv") && no_head.contains("line 1"), "{no_head}");
-        let letters = said(text.replacen(",1.1,", ",x,", 1));
-        assert!(letters.contains("line 3") && letters.contains("error_m"), "{letters}");
-        let cut = said(text[..text.len() - 20].to_string());
-        assert!(cut.contains("line"), "{cut}");
-        let column = said(text.replacen("seed_index", "seed_number", 1));
-        assert!(column.contains("line 2") && column.contains("seed_index"), "{column}");
+            let said = Table::read(dir.path(), &reference).unwrap_err().to_string();
+            assert!(names.iter().all(|name| said.contains(name)), "{names:?}: {said}");
+        }
     }
 }

@@ -181,14 +181,8 @@ mod tests {
     fn no_beginning_of_a_file_gives_another_picture() {
         let whole = RgbImage::from_fn(23, 17, |x, y| Rgb([(11 * x) as u8, (15 * y) as u8, ((x * y) % 251) as u8]));
         let folder = tempfile::tempdir().unwrap();
-        for format in [
-            ImageFormat::Png,
-            ImageFormat::Jpeg,
-            ImageFormat::Bmp,
-            ImageFormat::Pnm,
-            ImageFormat::Tiff,
-            ImageFormat::WebP,
-        ] {
+        let exact = [ImageFormat::Png, ImageFormat::Bmp, ImageFormat::Pnm, ImageFormat::Tiff, ImageFormat::WebP];
+        for format in exact.into_iter().chain([ImageFormat::Jpeg]) {
             let mut bytes = Cursor::new(Vec::new());
             whole.write_to(&mut bytes, format).unwrap();
             let bytes = bytes.into_inner();
@@ -217,14 +211,15 @@ mod tests {
         let missing = folder.path().join("nowhere.png");
         assert!(said(&missing).contains("cannot read") && said(&missing).contains("nowhere.png"));
         assert!(said(folder.path()).contains("cannot read"));
-        let text = folder.path().join("text.png");
-        std::fs::write(&text, "this is no picture").unwrap();
-        assert!(said(&text).contains("not a picture"), "{}", said(&text));
-        std::fs::write(&text, b"GIF89a\x01\x00\x01\x00\x00\x00\x00;").unwrap();
-        assert!(said(&text).contains("not a picture"), "{}", said(&text));
-        std::fs::write(&text, b"P6 100000 100000 255\n").unwrap();
-        assert!(said(&text).contains("too large: 100000 x 100000"), "{}", said(&text));
-        std::fs::write(&text, b"P6 10000 10000 255\n").unwrap();
-        assert!(said(&text).contains("too large"), "{}", said(&text));
+        let file = folder.path().join("text.png");
+        for (bytes, says) in [
+            (b"this is no picture".as_slice(), "not a picture"),
+            (b"GIF89a\x01\x00\x01\x00\x00\x00\x00;", "not a picture"),
+            (b"P6 100000 100000 255\n", "too large: 100000 x 100000"),
+            (b"P6 10000 10000 255\n", "too large"),
+        ] {
+            std::fs::write(&file, bytes).unwrap();
+            assert!(said(&file).contains(says), "{}", said(&file));
+        }
     }
 }

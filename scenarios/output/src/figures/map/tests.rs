@@ -9,13 +9,11 @@ use crate::charts::palette::DECLARED;
 use crate::charts::panel::Panel;
 use crate::figures::marks;
 use crate::figures::series_panels::event;
-use crate::results::{
-    BeliefTrack, Echoes, ObstacleOutline, RunReport, SourceTruth, SummaryBuilder, SummaryEnd, Totals, TrackTable,
-};
-use crate::sample::{area, frames, info, plume, robots, scored, source, terrain};
+use crate::results::{ObstacleOutline, RunReport, SourceTruth};
+use crate::sample::{area, frames, plume, source};
+use crate::sample_run::Told;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
-use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
 use world::area::Area;
 use world::fields::Concentration;
@@ -23,44 +21,8 @@ use world::math;
 use world::units::Heading;
 
 /// A report of frames, with as much as the map needs.
-pub(super) fn reported<T>(
-    frames: &[Frame],
-    area: &Area,
-    sources: &[SourceTruth],
-    obstacles: &[ObstacleOutline],
-    of: impl FnOnce(&RunReport<'_>) -> T,
-) -> T {
-    let mut builder = SummaryBuilder::new(&info());
-    let mut table = TrackTable::in_memory(robots());
-    for f in frames {
-        builder.observe(f);
-        table.push(f).unwrap();
-    }
-    let end = SummaryEnd {
-        outcome: RunOutcome::Found,
-        error: None,
-        digest: "00ff".into(),
-        score: scored(frames),
-        totals: Totals::default(),
-    };
-    of(&RunReport {
-        pictures: &[],
-        echoes: &Echoes::default(),
-        summary: &builder.finish(&end, sources),
-        track: &table.finish(),
-        gantries: &[],
-        beliefs: &BeliefTrack::default(),
-        plume: Some(&plume()),
-        plume_film: &crate::results::PlumeFilm::default(),
-        dye: Some(&Straight),
-        area,
-        terrain: &terrain(),
-        sources,
-        interfaces: &[],
-        obstacles,
-        solids: None,
-        scenario_text: "()",
-    })
+pub(super) fn reported(frames: &[Frame], sources: &[SourceTruth]) -> Told {
+    Told { plume: Some(plume()), dye: Some(&Straight), ..Told::new(frames, sources) }
 }
 
 /// A plume down-flow of the sample's source.
@@ -107,9 +69,12 @@ fn mission() -> Vec<Frame> {
     run
 }
 
-fn two_sources() -> [SourceTruth; 2] {
-    let east = SourceTruth { id: "east".into(), position: source().position + Vector3::new(9.0, 1.0, 0.0), ..source() };
-    [source(), east]
+/// A block of 40 m, 60 m down-flow of the source, between these heights.
+fn quay(low: f64, high: f64) -> ObstacleOutline {
+    let p = source().position.xy() + source().flow.normalize() * 60.0;
+    let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]];
+    let corners = corners.map(|c| [p.x + c[0], p.y + c[1]]).to_vec();
+    ObstacleOutline { id: "quay".into(), corners, z: [low, high], permeable: false }
 }
 
 fn panel(width: f64, height: f64) -> Panel {
@@ -141,128 +106,101 @@ fn events_of_a_series_keep_off_its_key_and_each_other() {
 
 #[test]
 fn names_on_a_map_keep_off_marks_and_each_other() {
-    reported(&mission(), &area(), &two_sources(), &[], |run| {
-        let map = Panel { x: [-600.0, 600.0], y: [-600.0, 600.0], ..panel(600.0, 600.0) };
-        let mut c = Canvas::new(900.0, 700.0);
-        let track = &run.track.robots[0];
-        marks::reserve(&mut c, &map);
-        marks::marks(&mut c, &map, track);
-        marks::sources(&mut c, &map, run);
-        let before = c.taken().len();
-        marks::source_names(&mut c, &map, run);
-        marks::names(&mut c, &map, track, true);
-        // Two true sources, four subregions, a robot, two declared sources.
-        assert_eq!(c.taken().len(), before + 9);
-        assert_eq!(clashes(before, &c), []);
-        let svg = sheet(run).svg("map");
-        for words in [
-            ">A: plume to up-flow edge<",
-            ">B: timed out<",
-            ">D: source declared<",
-            ">source 2<",
-            ">plume at up-flow edge<",
-        ] {
-            assert!(svg.contains(words), "{words}");
-        }
-        // Edges are no declared sources: two diamonds, one of them again in the inset, and that of the key.
-        assert!(!svg.contains(">source 3<") && !svg.contains("source free"));
-    });
+    let east = SourceTruth { id: "east".into(), position: source().position + Vector3::new(9.0, 1.0, 0.0), ..source() };
+    let told = reported(&mission(), &[source(), east]);
+    let run = &told.report();
+    let map = Panel { x: [-600.0, 600.0], y: [-600.0, 600.0], ..panel(600.0, 600.0) };
+    let mut c = Canvas::new(900.0, 700.0);
+    let track = &run.track.robots[0];
+    marks::reserve(&mut c, &map);
+    marks::marks(&mut c, &map, track);
+    marks::sources(&mut c, &map, run);
+    let before = c.taken().len();
+    marks::source_names(&mut c, &map, run);
+    marks::names(&mut c, &map, track, true);
+    // Two true sources, four subregions, a robot, two declared sources.
+    assert_eq!(c.taken().len(), before + 9);
+    assert_eq!(clashes(before, &c), []);
+    let svg = sheet(run).svg("map");
+    for words in [
+        ">A: plume to up-flow edge<",
+        ">B: timed out<",
+        ">D: source declared<",
+        ">source 2<",
+        ">plume at up-flow edge<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+    // Edges are no declared sources: two diamonds, one of them again in the inset, and that of the key.
+    assert!(!svg.contains(">source 3<") && !svg.contains("source free"));
 }
 
 #[test]
 fn the_closer_look_is_closer_or_not_there() {
     let map = |span: f64| Panel { x: [-span, span], y: [-span, span], ..panel(660.0, 660.0) };
-    let run = frames(400);
-    reported(&run, &area(), &[source()], &[], |run| {
-        for span in [40.0, 200.0, 600.0, 5000.0] {
-            let map = map(span);
-            let look = inset(run, &map, [0.0, 0.0], 225.0);
-            // Declared 13 m off: on the smallest map, an enlarged view cannot contain both places.
-            assert_eq!(look.is_some(), span > 50.0, "{span}");
-            if let Some(look) = look {
-                assert!(look.px_per_unit() >= 1.5 * map.px_per_unit(), "{span}");
-                let s = source().position;
-                let d = run.track.robots[0].declarations[0].position;
-                for p in [[s.x, s.y], [d.x, d.y]] {
-                    let [x, y] = look.position(p);
-                    assert!((0.0..=225.0).contains(&x) && (0.0..=225.0).contains(&y));
-                }
-            }
+    let told = reported(&frames(400), &[source()]);
+    let run: &RunReport<'_> = &told.report();
+    for span in [40.0, 200.0, 600.0, 5000.0] {
+        let map = map(span);
+        let look = inset(run, &map, [0.0, 0.0], 225.0);
+        // Declared 13 m off: on the smallest map, an enlarged view cannot contain both places.
+        assert_eq!(look.is_some(), span > 50.0, "{span}");
+        let Some(look) = look else { continue };
+        assert!(look.px_per_unit() >= 1.5 * map.px_per_unit(), "{span}");
+        let (s, d) = (source().position, run.track.robots[0].declarations[0].position);
+        for p in [[s.x, s.y], [d.x, d.y]] {
+            assert!(look.position(p).iter().all(|px| (0.0..=225.0).contains(px)));
         }
-        assert!(inset(run, &map(600.0), [0.0, 0.0], 100.0).is_none());
-    });
+    }
+    assert!(inset(run, &map(600.0), [0.0, 0.0], 100.0).is_none());
 }
 
 #[test]
 fn a_sheet_fits_its_map() {
     for (length_m, width_m) in [(400.0, 100.0), (120.0, 100.0), (100.0, 300.0), (1094.0, 367.0)] {
         let area = Area { centre: Vector2::zeros(), length_m, width_m, axis: Heading::from_deg(90.0) };
-        reported(&[], &area, &[], &[], |run| {
-            let c = sheet(run);
-            let shown = c.taken();
-            let reach = shown.iter().map(|r| r.bottom).fold(0.0, f64::max);
-            // All text lies on the sheet, and none is left over.
-            assert!(reach <= c.height && c.height - reach < 60.0, "{length_m}: {reach} of {}", c.height);
-            assert!(shown.iter().all(|r| r.right <= c.width + 1.0 && r.left >= 0.0), "{length_m}");
-            if length_m > 2.0 * width_m {
-                assert!(c.height < 0.75 * c.width, "{} by {}", c.width, c.height);
-            }
-        });
+        let c = sheet(&Told { area, ..reported(&[], &[]) }.report());
+        let shown = c.taken();
+        let reach = shown.iter().map(|r| r.bottom).fold(0.0, f64::max);
+        // All text lies on the sheet, and none is left over.
+        assert!(reach <= c.height && c.height - reach < 60.0, "{length_m}: {reach} of {}", c.height);
+        assert!(shown.iter().all(|r| r.right <= c.width + 1.0 && r.left >= 0.0), "{length_m}");
+        assert!(length_m <= 2.0 * width_m || c.height < 0.75 * c.width, "{} by {}", c.width, c.height);
     }
 }
 
 #[test]
 fn a_section_is_drawn_where_the_map_cannot_show_the_way_of_the_water() {
-    let beside = |low: f64, high: f64| {
-        let p = source().position.xy() + source().flow.normalize() * 60.0;
-        let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]];
-        [ObstacleOutline {
-            id: "quay".into(),
-            corners: corners.map(|c| [p.x + c[0], p.y + c[1]]).to_vec(),
-            z: [low, high],
-            permeable: false,
-        }]
-    };
-    let drawn = |obstacles: &[ObstacleOutline]| {
-        reported(&frames(400), &area(), &[source()], obstacles, |run| {
-            sheet(run).svg("map").contains("Vertical section along the flow")
-        })
-    };
-    assert!(!drawn(&[]));
-    assert!(!drawn(&beside(-20.0, 1.0)), "from bed to surface");
-    assert!(drawn(&beside(-1.0, 1.0)), "water under it");
-    assert!(drawn(&beside(-20.0, -3.0)), "water over it");
+    let mut told = reported(&frames(400), &[source()]);
+    for (obstacles, drawn, why) in [
+        (vec![], false, "nothing in the way"),
+        (vec![quay(-20.0, 1.0)], false, "from bed to surface"),
+        (vec![quay(-1.0, 1.0)], true, "water under it"),
+        (vec![quay(-20.0, -3.0)], true, "water over it"),
+    ] {
+        told.obstacles = obstacles;
+        let svg = sheet(&told.report()).svg("map");
+        assert_eq!(svg.contains("Vertical section along the flow"), drawn, "{why}");
+    }
 }
 
 /// Where the section has the diamond of a declaration of this height: its upper corner, px.
 fn diamond_px(z_m: Option<f64>) -> f64 {
     let mut run = frames(400);
     for f in &mut run {
-        for d in &mut f.robots[0].declarations {
-            d.z_m = z_m;
-        }
+        f.robots[0].declarations.iter_mut().for_each(|d| d.z_m = z_m);
     }
-    let p = source().position.xy() + source().flow.normalize() * 60.0;
-    let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]];
-    let quay = ObstacleOutline {
-        id: "quay".into(),
-        corners: corners.map(|c| [p.x + c[0], p.y + c[1]]).to_vec(),
-        z: [-1.0, 1.0],
-        permeable: false,
-    };
-    reported(&run, &area(), &[source()], &[quay], |run| {
-        let map = Panel { x: [-700.0, 700.0], y: [-700.0, 700.0], ..panel(600.0, 600.0) };
-        let mut c = Canvas::new(800.0, 1000.0);
-        section::draw(&mut c, run, &map, 700.0).expect("a section");
-        let svg = c.svg("section");
-        let mut drawn = svg.split('<').filter(|e| e.contains(DECLARED));
-        let diamond = drawn.next().expect("the declaration");
-        assert!(drawn.next().is_none());
-        let first = diamond.split_once("M").expect("a path").1;
-        let numbers = first.split(|c: char| c != '.' && !c.is_ascii_digit());
-        let mut numbers = numbers.filter_map(|n| n.parse().ok());
-        numbers.nth(1).expect("x and y")
-    })
+    let told = Told { obstacles: vec![quay(-1.0, 1.0)], ..reported(&run, &[source()]) };
+    let map = Panel { x: [-700.0, 700.0], y: [-700.0, 700.0], ..panel(600.0, 600.0) };
+    let mut c = Canvas::new(800.0, 1000.0);
+    section::draw(&mut c, &told.report(), &map, 700.0).expect("a section");
+    let svg = c.svg("section");
+    let mut drawn = svg.split('<').filter(|e| e.contains(DECLARED));
+    let diamond = drawn.next().expect("the declaration");
+    assert!(drawn.next().is_none());
+    let first = diamond.split_once("M").expect("a path").1;
+    let numbers = first.split(|c: char| c != '.' && !c.is_ascii_digit());
+    numbers.filter_map(|n| n.parse().ok()).nth(1).expect("x and y")
 }
 
 #[test]

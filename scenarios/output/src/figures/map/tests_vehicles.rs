@@ -4,7 +4,7 @@ use super::map;
 use super::tests::reported;
 use crate::charts::palette;
 use crate::figures::vehicles::{AFTER, over_from};
-use crate::sample::{area, frames, source};
+use crate::sample::{frames, source};
 use rheotaxis::frame::Frame;
 use robots::handoff::Behaviour;
 
@@ -27,30 +27,23 @@ fn two() -> Vec<Frame> {
 
 #[test]
 fn each_of_several_vehicles_has_a_colour_and_ends_faintly() {
-    reported(&two(), &area(), &[source()], &[], |run| {
-        let svg = map(run);
-        let both = [0, 1].map(palette::vehicle);
-        for (colour, t) in both.iter().zip(&run.track.robots) {
-            // The band and its key.
-            assert!(svg.matches(colour).count() >= 2, "{colour}");
-            assert!(svg.contains(&t.info.id), "{}", t.info.id);
-        }
-        let other = &run.track.robots[1];
-        assert_eq!(over_from(other), 150);
-        assert!(svg.contains("after the end of its mission"));
-        assert!(svg.contains(&format!("opacity=\"{AFTER}\"")), "no faint end");
-    });
+    let told = reported(&two(), &[source()]);
+    let svg = map(&told.report());
+    for (k, t) in told.track.robots.iter().enumerate() {
+        // The band and its key.
+        assert!(svg.matches(palette::vehicle(k)).count() >= 2, "{k}");
+        assert!(svg.contains(&t.info.id), "{}", t.info.id);
+    }
+    assert_eq!(over_from(&told.track.robots[1]), 150);
+    assert!(svg.contains("after the end of its mission"));
+    assert!(svg.contains(&format!("opacity=\"{AFTER}\"")), "no faint end");
 }
 
 #[test]
 fn a_single_vehicle_has_no_band() {
-    reported(&frames(400), &area(), &[source()], &[], |run| {
-        let svg = map(run);
-        for k in 0..6 {
-            assert!(!svg.contains(palette::vehicle(k)));
-        }
-        assert!(!svg.contains("after the end") && !svg.contains("Vehicle, by"));
-    });
+    let svg = map(&reported(&frames(400), &[source()]).report());
+    assert!((0..6).all(|k| !svg.contains(palette::vehicle(k))));
+    assert!(!svg.contains("after the end") && !svg.contains("Vehicle, by"));
 }
 
 #[test]

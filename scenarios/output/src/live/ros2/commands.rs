@@ -184,25 +184,25 @@ mod tests {
     #[test]
     fn what_is_not_finite_or_in_another_frame_is_refused() {
         let own = "auv0/base_link";
-        let said = |frame: &str, linear: [f64; 3], angular: [f64; 3]| {
+        let said = |frame: &str, all: [f64; 6]| {
+            let [linear, angular] = [[all[0], all[1], all[2]], [all[3], all[4], all[5]]];
             sound((((0, 0), frame.to_string()), linear, angular), own)
         };
-        let ahead = [1.5, 0.0, 0.0];
+        let ahead = [1.5, 0.0, 0.0, 0.0, 0.0, 0.0];
         for frame in ["", own] {
-            assert_eq!(said(frame, ahead, [0.0; 3]), Ok([ahead, [0.0; 3]]));
+            assert_eq!(said(frame, ahead), Ok([[1.5, 0.0, 0.0], [0.0; 3]]));
         }
         for frame in ["map", "base_link", "auv1/base_link", "/auv0/base_link"] {
-            let why = said(frame, ahead, [0.0; 3]).unwrap_err();
+            let why = said(frame, ahead).unwrap_err();
             assert!(why.contains(own) && why.ends_with(&format!("got `{frame}`")));
         }
+        let names = ["linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z"];
         for (value, word) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
-            for k in 0..6 {
+            for (k, name) in names.into_iter().enumerate() {
                 let mut all = [0.0; 6];
                 all[k] = value;
-                let [linear, angular] = [[all[0], all[1], all[2]], [all[3], all[4], all[5]]];
-                let why = said(own, linear, angular).unwrap_err();
-                let name = ["linear", "angular"][k / 3].to_string() + "." + ["x", "y", "z"][k % 3];
-                assert!(why.contains(&name) && why.ends_with(word), "{why}");
+                let why = said(own, all).unwrap_err();
+                assert!(why.contains(name) && why.ends_with(word), "{why}");
             }
         }
     }

@@ -72,15 +72,6 @@ mod tests {
         NodeKey { domain: 3, session: "aac3178e146ba6f1fc6e6a4085e77f21", number: 0, name: "rheotaxis" };
 
     #[test]
-    fn topics_have_their_type_and_hash() {
-        assert_eq!(
-            topic(0, "/auv0/odom", MessageKind::Odometry),
-            "0/auv0/odom/nav_msgs::msg::dds_::Odometry_/\
-             RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0"
-        );
-    }
-
-    #[test]
     fn tokens_are_those_of_rmw_zenoh() {
         assert_eq!(NODE.token(), "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/0/NN/%/%/rheotaxis");
         assert_eq!(

@@ -1,35 +1,19 @@
 //! The data of the animation: of robots, of gantries, of nothing, and of what is not a number.
 
 use super::{film, film_script, film_section, in_page};
-use crate::report::tests::told;
-use crate::results::{BeliefTrack, Echoes, GantryInfo, GantryTrack, PlumeFilm, ProbeTables, RunReport, Track};
-use crate::sample::{area, frames, plume, source, terrain};
+use crate::results::{GantryInfo, GantryTrack, PlumeFilm, ProbeTables, Track};
+use crate::sample::{frames, plume, source};
 use crate::sample_gantry::gantry;
+use crate::sample_run::{Told, told};
 use nalgebra::Vector3;
 use rheotaxis::frame::Frame;
 use robots::handoff::Behaviour;
 use serde_json::Value;
 
-fn data(track: &Track, gantries: &[GantryTrack], plume_film: &PlumeFilm) -> Option<Value> {
-    let (summary, _) = told(&frames(2));
-    let text = film(&RunReport {
-        pictures: &[],
-        echoes: &Echoes::default(),
-        summary: &summary,
-        track,
-        gantries,
-        beliefs: &BeliefTrack::default(),
-        plume: None,
-        plume_film,
-        dye: None,
-        area: &area(),
-        terrain: &terrain(),
-        sources: &[source()],
-        interfaces: &[-2.0],
-        obstacles: &[],
-        solids: None,
-        scenario_text: "()",
-    })?;
+fn data(track: Track, gantries: Vec<GantryTrack>, plume_film: PlumeFilm) -> Option<Value> {
+    let interfaces = vec![-2.0];
+    let told = Told { track, gantries, plume_film, interfaces, ..Told::new(&frames(2), &[source()]) };
+    let text = film(&told.report())?;
     assert!(!text.contains("NaN") && !text.contains('<'));
     Some(serde_json::from_str(&text).unwrap())
 }
@@ -49,7 +33,7 @@ fn a_robot_is_where_its_track_is() {
     let (_, track) = told(&frames(400));
     let mut film = PlumeFilm::default();
     film.push(&plume());
-    let data = data(&track, &[], &film).unwrap();
+    let data = data(track.clone(), Vec::new(), film).unwrap();
     let q = data["plan"]["quantum"].as_f64().unwrap();
     let robot = &data["tracks"][0];
     let (t, u, v) = (summed(&robot["t"], 0.01), summed(&robot["u"], q), summed(&robot["v"], q));
@@ -80,7 +64,7 @@ fn what_is_not_a_number_leaves_a_gap_and_not_a_broken_page() {
     rows[7].reading = Some(f64::INFINITY);
     rows[9].altitude_m = f64::NAN;
     rows[11].believed = [f64::NAN; 2];
-    let data = data(&track, &[], &PlumeFilm::default()).unwrap();
+    let data = data(track, Vec::new(), PlumeFilm::default()).unwrap();
     let robot = &data["tracks"][0];
     assert_eq!(robot["t"].as_array().unwrap().len(), n - 1);
     assert!(robot["series"][0]["values"][6].is_null() && robot["above"][8].is_null());
@@ -94,12 +78,10 @@ fn several_robots_share_the_moments_and_one_without_rows_is_left_out() {
     for k in 0..7 {
         let mut robot = one.robots[0].clone();
         robot.info.id = format!("auv{k}");
-        if k == 6 {
-            robot.rows.clear();
-        }
         track.robots.push(robot);
     }
-    let data = data(&track, &[], &PlumeFilm::default()).unwrap();
+    track.robots[6].rows.clear();
+    let data = data(track, Vec::new(), PlumeFilm::default()).unwrap();
     let all = data["tracks"].as_array().unwrap();
     assert_eq!(all.len(), 6);
     let moments: usize = all.iter().map(|t| t["t"].as_array().unwrap().len()).sum();
@@ -118,13 +100,10 @@ fn a_gantry_is_shown_in_centimetres_down_stream_of_the_source() {
             Frame { t_s: 0.1 * f64::from(k), gantries: vec![g], ..Frame::default() }
         })
         .collect();
-    let mut tables = ProbeTables::in_memory(vec![GantryInfo {
-        id: "crab0".into(),
-        probes: vec!["a".into()],
-        ..GantryInfo::default()
-    }]);
+    let info = GantryInfo { id: "crab0".into(), probes: vec!["a".into()], ..GantryInfo::default() };
+    let mut tables = ProbeTables::in_memory(vec![info]);
     run.iter().for_each(|f| tables.push(f).unwrap());
-    let data = data(&Track::default(), &tables.finish(), &PlumeFilm::default()).unwrap();
+    let data = data(Track::default(), tables.finish(), PlumeFilm::default()).unwrap();
     let q = data["plan"]["quantum"].as_f64().unwrap();
     let gantry = &data["tracks"][0];
     let (u, v) = (summed(&gantry["u"], q), summed(&gantry["v"], q));
@@ -138,7 +117,7 @@ fn a_gantry_is_shown_in_centimetres_down_stream_of_the_source() {
 
 #[test]
 fn a_run_in_which_nothing_moved_has_no_animation() {
-    assert!(data(&Track::default(), &[], &PlumeFilm::default()).is_none());
+    assert!(data(Track::default(), Vec::new(), PlumeFilm::default()).is_none());
 }
 
 #[test]

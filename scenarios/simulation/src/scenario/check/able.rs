@@ -217,51 +217,42 @@ pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<UnplacedFault>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::told::told;
+    use crate::testing::{CHANNEL, NOTHING, told, told_once};
 
     #[test]
     fn speeds_that_no_thrust_makes_are_told() {
-        let channel = "uniform_channel";
-        assert_eq!(told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 2.0")]), [""; 0]);
-        let fast = told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 15")]);
-        assert_eq!(fast.len(), 1, "{fast:?}");
-        assert!(
-            fast[0].starts_with(
-                "robots[0].strategy.speed_m_s: 15 m/s is more than the vehicle can do: it reaches at most 2.00 m/s"
-            ),
-            "{fast:?}"
-        );
-        let start = told(channel, &[("heading_deg: 0, speed_m_s: 1.5", "heading_deg: 0, speed_m_s: 15")]);
-        assert!(start[0].starts_with("robots[0].start.speed_m_s: 15 m/s is more"), "{start:?}");
-        let limit = "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 15)";
-        let limit = told(channel, &[("estimator: DeadReckoning()", limit)]);
-        assert_eq!(limit.len(), 1, "{limit:?}");
-        assert!(limit[0].contains("at full power the vehicle makes 2.5"), "{limit:?}");
+        let strategy = "robots[0].strategy.speed_m_s";
+        assert_eq!(told(CHANNEL, &[(strategy, "2.0")]), NOTHING);
+        for (path, says) in [
+            (strategy, "15 m/s is more than the vehicle can do: it reaches at most 2.00 m/s"),
+            ("robots[0].start.speed_m_s", "15 m/s is more"),
+            ("robots[0].guidance.water_speed_limit_m_s", "at full power the vehicle makes 2.5"),
+        ] {
+            let said = told_once(CHANNEL, &[(path, "15")]);
+            assert!(said.starts_with(path) && said.contains(says), "{said}");
+        }
     }
 
     #[test]
     fn more_sources_than_declarations_are_told() {
-        let three = "(id: \"s2\", east_m: 0, north_m: 0, height_m: 2, rate_g_s: 0.02), \
-            (id: \"s3\", east_m: 100, north_m: 20, height_m: 2, rate_g_s: 0.02), (id: \"s1\"";
-        let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 20)");
+        let source = |id: &str, east_m: i32, north_m: i32| {
+            format!("(id: \"{id}\", east_m: {east_m}, north_m: {north_m}, height_m: 2, rate_g_s: 0.02)")
+        };
+        let three = format!("[{}, {}, {}]", source("s1", -150, 0), source("s2", 0, 0), source("s3", 100, 20));
+        let said = |success: &str| told(CHANNEL, &[("sources", &three), ("success", success)]);
         assert_eq!(
-            told("uniform_channel", &[("(id: \"s1\"", three), all]),
+            said("AllDeclared(within_m: 20)"),
             ["success: 3 sources are to be declared, but all strategies together make at most 1 declaration"]
         );
         // One declaration half-way is near them all.
-        let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 200)");
-        assert_eq!(told("uniform_channel", &[("(id: \"s1\"", three), all]), [""; 0]);
-        assert_eq!(told("duck_mt", &[]), [""; 0]);
+        assert_eq!(said("AllDeclared(within_m: 200)"), NOTHING);
     }
 
     #[test]
     fn a_search_for_a_plume_that_has_not_left_its_source_is_told() {
-        let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 0")]);
-        assert_eq!(
-            said,
-            ["time.spin_up_s: the plume is 0.0 m long when the mission starts: there is nothing to find yet"]
-        );
-        let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 10")]);
-        assert!(said[0].starts_with("time.spin_up_s: the plume is "), "{said:?}");
+        for (spin_up_s, says) in [("0", "the plume is 0.0 m long"), ("10", "the plume is ")] {
+            let said = told_once(CHANNEL, &[("time.spin_up_s", spin_up_s)]);
+            assert!(said.starts_with(&format!("time.spin_up_s: {says}")), "{said}");
+        }
     }
 }

@@ -39,20 +39,18 @@ pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Un
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::fault::Severity;
-    use crate::scenario::{check, parse, template};
+    use crate::scenario::check;
+    use crate::scenario::fault::Severity::{self, Error, Warning};
+    use crate::testing::{CHANNEL, changed};
     use std::path::Path;
 
     /// What is said of a second robot so far east of the first, both so far above the bed.
     fn told(apart_m: f64, altitude_m: f64) -> Vec<(Severity, String)> {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        let scenario = parse("changed", text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
-        let mut scenario = scenario;
+        let mut scenario = changed(CHANNEL, &[]).scenario;
         scenario.robots[0].start.altitude_m = Some(altitude_m.try_into().unwrap());
         let mut second = scenario.robots[0].clone();
         second.id = "auv1".to_string().try_into().unwrap();
-        let east_m = second.start.east_m.get() - apart_m;
-        second.start.east_m = east_m.try_into().unwrap();
+        second.start.east_m = (second.start.east_m.get() - apart_m).try_into().unwrap();
         scenario.robots.push(second);
         let found = check(&scenario, Path::new(""));
         found.into_iter().map(|f| (f.severity, f.message)).collect()
@@ -61,22 +59,13 @@ mod tests {
     #[test]
     fn hulls_have_room() {
         assert_eq!(told(5.0, 2.0), []);
-        assert_eq!(
-            told(1.0, 2.0),
-            [(
-                Severity::Warning,
-                "robot \"auv1\" starts 1.00 m from robots[0], \"auv0\": their hulls may touch".into()
-            )]
-        );
-        assert_eq!(
-            told(0.1, 2.0),
-            [(Severity::Error, "robot \"auv1\" starts 0.10 m from robots[0], \"auv0\": their hulls overlap".into())]
-        );
-        let low = told(5.0, 0.05);
-        assert_eq!(low.len(), 2, "{low:?}");
-        assert_eq!(
-            low[0],
-            (Severity::Warning, "robot \"auv0\" starts 0.05 m above the bed: its hull may touch it".into())
-        );
+        for (apart_m, altitude_m, severity, robots, says) in [
+            (1.0, 2.0, Warning, ["auv1"].as_slice(), "1.00 m from robots[0], \"auv0\": their hulls may touch"),
+            (0.1, 2.0, Error, &["auv1"], "0.10 m from robots[0], \"auv0\": their hulls overlap"),
+            (5.0, 0.05, Warning, &["auv0", "auv1"], "0.05 m above the bed: its hull may touch it"),
+        ] {
+            let want = robots.iter().map(|id| (severity, format!("robot \"{id}\" starts {says}")));
+            assert_eq!(told(apart_m, altitude_m), Vec::from_iter(want));
+        }
     }
 }

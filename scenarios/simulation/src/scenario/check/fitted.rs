@@ -77,115 +77,92 @@ fn needs(robot: &RobotSpec, able: Option<&Capabilities>, lacks: &dyn Fn(&str) ->
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::told::told;
-    use crate::scenario::{Scenario, Severity, check, parse, template};
+    use crate::scenario::{Scenario, Severity, check};
+    use crate::testing::{CHANNEL, changed, told};
     use robots::sense::SensorsSpec;
     use std::path::Path;
 
-    /// What is said of a scenario of the catalogue without an instrument: whether it stops a run, and path.
-    fn without(name: &str, instrument: &str, changes: &[(&str, &str)]) -> Vec<(bool, String)> {
-        let mut text = template(name).expect("in the catalogue").text.to_string();
-        for (from, to) in changes {
-            assert_eq!(text.matches(from).count(), 1, "{from}");
-            text = text.replace(from, to);
-        }
-        let mut scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
+    const SENSORS: &str = "robots[0].sensors";
+    const VERTICAL: &str = "robots[0].strategy.vertical";
+
+    /// What is said of a scenario: whether it stops a run, and path.
+    fn problems(scenario: &Scenario) -> Vec<(bool, String)> {
+        let found = check(scenario, Path::new("")).into_iter();
+        found.map(|f| (f.severity == Severity::Error, f.path)).collect()
+    }
+
+    /// What is said of a scenario of the catalogue without an instrument.
+    fn without(name: &str, instrument: &str, values: &[(&str, &str)]) -> Vec<(bool, String)> {
+        let mut scenario = changed(name, values).scenario;
         let sensors = &mut scenario.robots[0].sensors;
         assert!(sensors.has(instrument), "{name} carries no {instrument}");
         *sensors = sensors.clone().without(instrument);
         problems(&scenario)
     }
 
-    fn problems(scenario: &Scenario) -> Vec<(bool, String)> {
-        let found = check(scenario, Path::new("")).into_iter();
-        found.map(|f| (f.severity == Severity::Error, f.path)).collect()
-    }
-
-    fn error(path: &str) -> Vec<(bool, String)> {
-        vec![(true, path.to_string())]
-    }
-
-    fn warning(path: &str) -> Vec<(bool, String)> {
-        vec![(false, path.to_string())]
-    }
-
     #[test]
     fn what_is_asked_for_must_be_on_board() {
-        let moth = "moth_plus";
-        assert_eq!(without(moth, "ctd", &[]), error("robots[0].estimator.layer_aware"));
-        assert_eq!(without(moth, "ranging", &[]), error("robots[0].strategy.layers"));
-        assert_eq!(without(moth, "lbl", &[]), warning("robots[0].strategy.fixes"));
-        let survey = "robots[0].strategy.after_declaration.sidescan";
-        assert_eq!(without("duck_survey", "sidescan", &[]), error(survey));
-        let camera = error("robots[0].strategy.survey.camera");
-        assert_eq!(without("inspect_places", "camera", &[]), camera);
-    }
-
-    #[test]
-    fn a_height_needs_the_instrument_that_tells_it() {
-        let said = told("dalian_bay", &[("vertical: Depth(1.5)", "vertical: Altitude(2)")]);
-        assert_eq!(
-            said,
-            ["robots[0].strategy.vertical: robot \"auv0\" carries no altimeter: it cannot hold an altitude"]
-        );
-        let channel = "uniform_channel";
-        let vertical = "robots[0].strategy.vertical";
-        assert_eq!(without(channel, "altimeter", &[]), error(vertical));
-        let kinematic = [("Remus100()", "Kinematic()")];
-        assert_eq!(without(channel, "altimeter", &kinematic), error(vertical));
-        // What holds a depth needs that one, and only that one.
-        let deep = [("Altitude(2)", "Depth(5)")];
-        assert_eq!(without(channel, "altimeter", &deep), []);
-        assert_eq!(without(channel, "depth", &deep), error(vertical));
-        assert_eq!(without(channel, "depth", &[]), warning("robots[0].sensors"));
-        // Whoever commands it: a search within another strategy, one that stands in for an answer, a route.
-        let amp = "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))";
-        for (strategy, field) in [
-            (
-                "Subregions(vertical: Depth(5), regions: Grid(along: 2, across: 1, order: [(0, 0)]), timeout_s: 100, \
-                 search: Amp(speed_m_s: 1.5, vertical: Altitude(2)))",
-                "search.vertical",
-            ),
-            ("External(on_late: Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2))))", "on_late.vertical"),
-            ("Route(points: [(0, 0)], vertical: Altitude(2))", "vertical"),
+        let deep = [(VERTICAL, "Depth(5)")];
+        let kinematic = [("robots[0].vehicle", "Kinematic()")];
+        for (name, instrument, values, stops, path) in [
+            ("moth_plus", "ctd", [].as_slice(), true, "robots[0].estimator.layer_aware"),
+            ("moth_plus", "ranging", &[], true, "robots[0].strategy.layers"),
+            ("moth_plus", "lbl", &[], false, "robots[0].strategy.fixes"),
+            ("duck_survey", "sidescan", &[], true, "robots[0].strategy.after_declaration.sidescan"),
+            ("inspect_places", "camera", &[], true, "robots[0].strategy.survey.camera"),
+            // A height needs the instrument that tells it: what holds a depth needs that one.
+            (CHANNEL, "altimeter", &[], true, VERTICAL),
+            (CHANNEL, "altimeter", &kinematic, true, VERTICAL),
+            (CHANNEL, "depth", &deep, true, VERTICAL),
+            (CHANNEL, "depth", &[], false, SENSORS),
+            // Steering needs a heading and a place; fixes tell the place without a log.
+            (CHANNEL, "compass", &[], true, SENSORS),
+            ("inspect_places", "compass", &[], true, SENSORS),
+            (CHANNEL, "dvl", &[], false, SENSORS),
+            ("inspect_places", "dvl", &[], false, SENSORS),
+            ("dalian_bay", "dvl", &[], true, SENSORS),
+            // A glider turns at its depths, and before the bed.
+            ("glider_shelf", "depth", &[], true, SENSORS),
+            ("glider_shelf", "altimeter", &[], false, SENSORS),
+            // A blind search is a warning.
+            (CHANNEL, "fluorometer", &[], false, SENSORS),
+            (CHANNEL, "adcp", &[], false, SENSORS),
         ] {
-            let strategy = format!("strategy: {strategy}");
-            let said = without(channel, "altimeter", &[(amp, strategy.as_str())]);
-            let told: Vec<_> = said.into_iter().filter(|(stops, _)| *stops).collect();
-            assert_eq!(told, error(&format!("robots[0].strategy.{field}")));
+            assert_eq!(without(name, instrument, values), [(stops, path.to_string())], "{name} without {instrument}");
+        }
+        // A craft on the surface needs neither depth nor altitude, and what holds a depth no altimeter.
+        for (name, instrument, values) in [
+            ("surface_lake", "depth", [].as_slice()),
+            ("surface_lake", "altimeter", &[]),
+            (CHANNEL, "altimeter", &deep),
+        ] {
+            assert_eq!(without(name, instrument, values), [], "{name} without {instrument}");
+        }
+        let said = told("dalian_bay", &[(VERTICAL, "Altitude(2)")]);
+        assert_eq!(said, [format!("{VERTICAL}: robot \"auv0\" carries no altimeter: it cannot hold an altitude")]);
+    }
+
+    /// A search within another strategy, one that stands in for an answer, a route.
+    #[test]
+    fn a_height_needs_its_instrument_whoever_commands_it() {
+        let amp = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+        let regions = "regions: Grid(along: 2, across: 1, order: [(0, 0)]), timeout_s: 100";
+        for (strategy, field) in [
+            (format!("Subregions(vertical: Depth(5), {regions}, search: {amp})"), "search.vertical"),
+            (format!("External(on_late: Fallback({amp}))"), "on_late.vertical"),
+            ("Route(points: [(0, 0)], vertical: Altitude(2))".to_string(), "vertical"),
+        ] {
+            let mut told = without(CHANNEL, "altimeter", &[("robots[0].strategy", &strategy)]);
+            told.retain(|(stops, _)| *stops);
+            assert_eq!(told, [(true, format!("robots[0].strategy.{field}"))]);
         }
     }
 
     #[test]
-    fn steering_needs_a_heading_and_a_place() {
-        let sensors = || "robots[0].sensors";
-        for name in ["uniform_channel", "inspect_places"] {
-            assert_eq!(without(name, "compass", &[]), error(sensors()), "{name}");
-            // Fixes tell the place without a log.
-            assert_eq!(without(name, "dvl", &[]), warning(sensors()), "{name}");
-        }
-        assert_eq!(without("dalian_bay", "dvl", &[]), error(sensors()));
-        // A glider turns at its depths, and before the bed.
-        assert_eq!(without("glider_shelf", "depth", &[]), error(sensors()));
-        assert_eq!(without("glider_shelf", "altimeter", &[]), warning(sensors()));
-        // A craft on the surface needs neither.
-        assert_eq!(without("surface_lake", "depth", &[]), []);
-        assert_eq!(without("surface_lake", "altimeter", &[]), []);
-    }
-
-    #[test]
-    fn a_blind_search_is_a_warning() {
-        for instrument in ["fluorometer", "adcp"] {
-            assert_eq!(without("uniform_channel", instrument, &[]), warning("robots[0].sensors"));
-        }
-        // Nothing is steered by an open loop, which needs nothing.
-        assert_eq!(told("remus_dive", &[]), [""; 0]);
-        // Nor by a searcher outside this program, as far as anyone knows.
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        let text = text.replace("Amp(speed_m_s: 1.5, vertical: Altitude(2))", "External()");
-        let mut bare = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
+    fn a_searcher_that_is_not_known_to_steer_needs_nothing() {
+        // Nothing is steered by a searcher outside this program, as far as anyone knows.
+        let mut bare = changed(CHANNEL, &[("robots[0].strategy", "External()")]).scenario;
         bare.robots[0].sensors = SensorsSpec::default();
-        let all = vec![warning("robots[0].sensors"); 5];
-        assert_eq!(problems(&bare), all.concat());
+        assert_eq!(problems(&bare), vec![(false, SENSORS.to_string()); 5]);
     }
 }

@@ -126,56 +126,22 @@ pub(super) fn speeds(scenario: &Scenario, water: &Water, terrain: &Terrain, foun
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::{check, parse, template};
-    use std::path::Path;
-
-    fn told(from: &str, to: &str) -> Vec<(String, String)> {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        assert!(text.contains(from), "{from}");
-        let text = text.replacen(from, to, 1);
-        let scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
-        let found = check(&scenario, Path::new(""));
-        found.into_iter().map(|f| (f.path, f.message)).collect()
-    }
-
-    fn one(from: &str, to: &str) -> (String, String) {
-        let mut all = told(from, to);
-        assert_eq!(all.len(), 1, "{all:?}");
-        all.remove(0)
-    }
-
-    fn says(path: &str, message: &str) -> (String, String) {
-        (path.to_string(), message.to_string())
-    }
+    use crate::testing::{CHANNEL, told};
 
     #[test]
-    fn what_no_computer_could_bear() {
-        let large = told("length_m: 400, width_m: 120", "length_m: 1e9, width_m: 1e9");
-        assert!(
-            large.contains(&says("area", "its currents need a grid of 6.0e16 nodes; at most 2e7 are allowed")),
-            "{large:?}"
-        );
-        assert_eq!(
-            one("rate_hz: 5", "rate_hz: 1e12"),
-            says("sources[0].release", "releases 3.8e15 filaments in spin-up and mission; at most 5e7 are allowed")
-        );
-        let longest = told("spin_up_s: 2000", "spin_up_s: 1e18");
-        assert_eq!(longest[0], says("time.spin_up_s", "must be at most 10000000 s, got 1000000000000000000"));
-        assert_eq!(
-            one("spin_up_s: 2000", "spin_up_s: 2000, spin_up_period_s: 1e-9"),
-            says("time.spin_up_period_s", "must be at least time.step_s, 0.02, got 0.000000001")
-        );
-    }
-
-    #[test]
-    fn what_no_sea_has() {
-        assert_eq!(
-            one("Level(depth_m: 10)", "Level(depth_m: 1e6)"),
-            says("terrain", "must be at most 12000 m deep, got 1000000")
-        );
-        let (path, message) = one("speed_m_s: 0.2", "speed_m_s: 1e6");
-        assert_eq!(path, "water.currents");
-        assert!(message.starts_with("together they flow at "), "{message}");
-        assert!(message.ends_with("; at most 15 m/s are allowed"), "{message}");
+    fn what_no_computer_could_bear_and_no_sea_has_is_refused_at_its_field() {
+        for (path, value, field, says) in [
+            ("sources[0].release.rate_hz", "1e12", "sources[0].release", "3.8e15 filaments"),
+            ("sources[0].release.rate_hz", "1e12", "sources[0].release", "at most 5e7"),
+            ("time.spin_up_s", "1e18", "time.spin_up_s", "at most 10000000 s"),
+            ("time.spin_up_period_s", "1e-9", "time.spin_up_period_s", "at least time.step_s, 0.02"),
+            ("terrain.depth_m", "1e6", "terrain", "at most 12000 m deep"),
+            ("water.currents[0].speed_m_s", "1e6", "water.currents", "at most 15 m/s"),
+        ] {
+            let said = told(CHANNEL, &[(path, value)]);
+            // A long spin-up is told of its filaments, too.
+            assert!(said.len() == 1 || path == "time.spin_up_s", "{said:?}");
+            assert!(said[0].starts_with(&format!("{field}: ")) && said[0].contains(says), "{said:?}");
+        }
     }
 }

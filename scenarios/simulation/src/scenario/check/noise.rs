@@ -45,32 +45,25 @@ fn loud(path: String, noise_v: f64, above_v: f64, found: &mut Vec<UnplacedFault>
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::told::told;
+    use crate::testing::{CHANNEL, NOTHING, told, told_once};
 
     #[test]
     fn noise_that_crosses_the_threshold_is_told() {
-        let channel = |fluorometer: &str| {
-            let fitted = format!("fluorometer: ({fluorometer})");
-            told("uniform_channel", &[("fluorometer: ()", &fitted)])
-        };
+        let fluorometer = "robots[0].sensors.fluorometer";
         // Four per cent of 5 V are 0.2 V.
-        for (fluorometer, noise_v, above_v) in [
-            ("noise_v: 0.3", "0.3", "0.2000"),
-            ("noise_v: 0.07", "0.07", "0.2000"),
-            ("threshold: 0.01", "0.02", "0.0500"),
+        for (loud, noise_v, above_v) in [
+            ("(noise_v: 0.3)", "0.3", "0.2000"),
+            ("(noise_v: 0.07)", "0.07", "0.2000"),
+            ("(threshold: 0.01)", "0.02", "0.0500"),
         ] {
-            let want = format!(
-                "robots[0].sensors.fluorometer.noise_v: noise of {noise_v} V is more than a third of what the threshold \
-                 lies above clean water, {above_v} V: it detects where nothing is"
-            );
-            assert_eq!(channel(fluorometer), [want]);
+            let said = told_once(CHANNEL, &[(fluorometer, loud)]);
+            assert!(said.starts_with(&format!("{fluorometer}.noise_v: noise of {noise_v} V ")), "{said}");
+            assert!(said.contains(&format!("above clean water, {above_v} V")), "{said}");
         }
-        for fine in ["noise_v: 0.06", "threshold: 0.01, noise_v: 0.01", "threshold: 0, noise_v: 0"] {
-            assert_eq!(channel(fine), [""; 0]);
+        for fine in ["(noise_v: 0.06)", "(threshold: 0.01, noise_v: 0.01)", "(threshold: 0, noise_v: 0)"] {
+            assert_eq!(told(CHANNEL, &[(fluorometer, fine)]), NOTHING);
         }
-        let probes = "probes: (full_scale_kg_m3: 4.7";
-        let loud = format!("{probes}, noise_v: 0.01");
-        let said = told("flume_crab_paper", &[(probes, &loud)]);
+        let said = told("flume_crab_paper", &[("gantries[0].probes.noise_v", "0.01")]);
         assert!(said[0].starts_with("gantries[0].probes.noise_v: noise of 0.01 V"), "{said:?}");
     }
 }

@@ -135,97 +135,75 @@ pub(super) fn blockage(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::scenario::check;
-    use crate::scenario::load::parse;
+    use crate::testing::{CHANNEL, NOTHING, changed, told, told_once};
 
-    const CHANNEL: &str = include_str!("../../../../catalog/uniform_channel.ron");
+    const PILE: &str = "(id: \"pile\", shape: Cylinder(radius_m: 0.2, height_m: 9), east_m: 0, north_m: 0.3)";
 
-    /// What is said of the channel with these obstacles and this blockage.
-    fn said(obstacles: &str, blockage: &str) -> Vec<String> {
-        let text = CHANNEL
-            .replace("    sources: [", &format!("    obstacles: [{obstacles}],\n    sources: ["))
-            .replace("    water: (", &format!("    water: ({blockage}"));
-        let scenario = parse("channel", &text).expect("a readable scenario");
-        let found = check(&scenario, Path::new("/nowhere"));
-        found.iter().map(|f| format!("{}: {}", f.path, f.message)).collect()
+    /// The channel with these obstacles, and a grid round them if cells have a size.
+    fn values<'a>(obstacles: &'a str, cell_m: &'a str) -> Vec<(&'static str, &'a str)> {
+        let blockage = (!cell_m.is_empty()).then_some(("water.blockage.cell_m", cell_m));
+        std::iter::once(("obstacles", obstacles)).chain(blockage).collect()
     }
 
-    const PILE: &str = "shape: Cylinder(radius_m: 0.2, height_m: 9), east_m: 0, north_m: 0.3";
+    fn said(obstacles: &str, cell_m: &str) -> Vec<String> {
+        told(CHANNEL, &values(&format!("[{obstacles}]"), cell_m))
+    }
 
-    #[test]
-    fn piles_under_a_quay_may_overlap_it() {
-        let quay = "(id: \"quay\", shape: Box(size_m: (20, 20, 2)), east_m: 0, north_m: 0, \
-                    base: Depth(3))";
-        let pile = format!("(id: \"pile\", {PILE})");
-        assert_eq!(said(&format!("{quay}, {pile}"), ""), Vec::<String>::new());
+    fn said_once(obstacles: &str, cell_m: &str) -> String {
+        told_once(CHANNEL, &values(&format!("[{obstacles}]"), cell_m))
     }
 
     #[test]
-    fn a_copy_is_refused() {
-        assert_eq!(
-            said(&format!("(id: \"a\", {PILE}), (id: \"b\", {PILE})"), ""),
-            ["obstacles[1]: obstacle \"b\" fills exactly the same space as obstacles[0], \"a\""]
-        );
+    fn piles_under_a_quay_may_overlap_it_and_a_copy_is_refused() {
+        let quay = "(id: \"quay\", shape: Box(size_m: (20, 20, 2)), east_m: 0, north_m: 0, base: Depth(3))";
+        assert_eq!(said(&format!("{quay}, {PILE}"), ""), NOTHING);
+        let copy = said_once(&format!("{PILE}, {}", PILE.replace("pile", "other")), "");
+        assert!(copy.starts_with("obstacles[1]: ") && copy.ends_with("obstacles[0], \"pile\""), "{copy}");
     }
 
     #[test]
-    fn a_thin_pile_is_not_felt_by_coarse_cells() {
-        let pile = format!("(id: \"pile\", {PILE})");
-        assert_eq!(
-            said(&pile, "blockage: (cell_m: 4),"),
-            [
-                "water.blockage.cell_m: obstacle \"pile\" lies between the centres of the cells: the water does not feel it"
-            ]
-        );
-        assert_eq!(said(&pile, "blockage: (cell_m: 0.001),").len(), 1);
-    }
-
-    #[test]
-    fn a_wall_thinner_than_a_cell_is_told() {
-        let wall = |size: &str| {
-            said(
-                &format!("(id: \"wall\", shape: Box(size_m: {size}), east_m: 0, north_m: 0, heading_deg: 60)"),
-                "blockage: (cell_m: 4),",
-            )
-        };
-        let thin = "water.blockage.cell_m: obstacle \"wall\" is 0.50 m thick, less than a cell of 4 m: water flows \
-                    through it where it lies between the centres of the cells";
-        assert_eq!(wall("(0.5, 60, 9)"), [thin]);
-        assert_eq!(wall("(60, 0.5, 9)"), [thin]);
-        assert_eq!(wall("(60, 4.5, 9)"), [""; 0]);
+    fn what_is_thinner_than_a_cell_is_told() {
+        let pile = said_once(PILE, "4");
+        assert!(pile.starts_with("water.blockage.cell_m: obstacle \"pile\" lies between the centres"), "{pile}");
+        said_once(PILE, "0.001");
+        let wall =
+            |size: &str| format!("(id: \"wall\", shape: Box(size_m: {size}), east_m: 0, north_m: 0, heading_deg: 60)");
+        for thin in ["(0.5, 60, 9)", "(60, 0.5, 9)"] {
+            let said = said_once(&wall(thin), "4");
+            let thickness = "water.blockage.cell_m: obstacle \"wall\" is 0.50 m thick, less than a cell of 4 m: ";
+            assert!(said.starts_with(thickness), "{said}");
+        }
+        assert_eq!(said(&wall("(60, 4.5, 9)"), "4"), NOTHING);
     }
 
     /// The source of the channel stands where a caisson's cell reaches beyond it.
     #[test]
     fn a_source_that_no_water_comes_by_is_refused() {
-        let source = parse("channel", CHANNEL).unwrap().sources[0].clone();
-        let (east, north) = (source.east_m.get(), source.north_m.get());
-        let caisson = |away: f64| {
-            format!(
-                "(id: \"caisson\", shape: Box(size_m: (6, 6, 20)), east_m: {}, north_m: {north})",
-                east + 3.0 + away
-            )
+        let source = changed(CHANNEL, &[]).scenario.sources[0].clone();
+        let (east, north) = (source.east_m.get() + 3.0, source.north_m.get());
+        let said = |away: f64| {
+            let east = east + away;
+            let caisson =
+                format!("(id: \"caisson\", shape: Box(size_m: (6, 6, 20)), east_m: {east}, north_m: {north})");
+            said(&caisson, "5")
         };
-        let said = |away: f64| said(&caisson(away), "blockage: (cell_m: 5),");
         let shut = (1..40).map(|k| said(0.1 * f64::from(k))).find(|s| !s.is_empty());
         let shut = shut.expect("some cell reaches beyond the caisson");
         assert!(shut[0].starts_with("sources[0]: source \"") && shut[0].contains("no water comes by"), "{shut:?}");
-        assert_eq!(said(9.0), Vec::<String>::new());
+        assert_eq!(said(9.0), NOTHING);
     }
 
     #[test]
-    fn an_area_without_water_is_refused() {
+    fn an_area_without_water_and_a_missing_field_of_heights_are_refused() {
         let land = "(id: \"land\", shape: Box(size_m: (900, 900, 20)), east_m: 0, north_m: 0)";
-        let said = said(land, "blockage: (),");
-        assert_eq!(said[0], "obstacles: they fill the whole area: there is no open water in it");
-        assert!(said[1].starts_with("water.blockage: no water that could flow is left"), "{}", said[1]);
-    }
-
-    #[test]
-    fn a_missing_field_of_heights_is_named() {
         let reef = "(id: \"reef\", shape: Heightfield(file: \"reef.asc\"), east_m: 0, north_m: 0)";
-        let said = said(reef, "");
-        assert!(said[0].starts_with("obstacles[0].shape.file: /nowhere/reef.asc: No such file"), "{said:?}");
+        let (land, reef) = (said(land, "2"), said(reef, ""));
+        for (said, begins) in [
+            (&land[0], "obstacles: they fill the whole area"),
+            (&land[1], "water.blockage: no water that could flow is left"),
+            (&reef[0], "obstacles[0].shape.file: /nowhere/reef.asc: No such file"),
+        ] {
+            assert!(said.starts_with(begins), "{said}");
+        }
     }
 }

@@ -79,40 +79,36 @@ pub(super) fn resolved(scenario: &Scenario, area: &Area, terrain: &Terrain, foun
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::{check, parse, template};
-    use std::path::Path;
+    use crate::testing::{CHANNEL, NOTHING, told as told_of};
 
     /// What is told of a channel 10 m deep with an interface of this depth, thickness and wave.
     fn told(thickness_m: f64, length_m: f64, period_s: f64) -> Vec<String> {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        let from = text.find("currents: [").expect("currents");
-        let to = from + text[from..].find("],").expect("their end") + 2;
         let layered = format!(
-            "currents: [Layered(layers: [(speed_m_s: 0.2, heading_deg: 90, density_kg_m3: 1020), \
+            "[Layered(layers: [(speed_m_s: 0.2, heading_deg: 90, density_kg_m3: 1020), \
              (speed_m_s: 0.1, heading_deg: 90, density_kg_m3: 1025)], interfaces: [(depth_m: 4, \
              thickness_m: {thickness_m}, waves: [(amplitude_m: 0.2, length_m: {length_m}, period_s: {period_s}, \
-             heading_deg: 90)])])],"
+             heading_deg: 90)])])]"
         );
-        let text = format!("{}{layered}{}", &text[..from], &text[to..]);
-        let scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
-        let found = check(&scenario, Path::new(""));
-        let found = found.into_iter().map(|f| format!("{}: {}", f.path, f.message));
-        found.filter(|f| f.contains("plume's")).collect()
+        let mut said = told_of(CHANNEL, &[("water.currents", &layered)]);
+        said.retain(|line| line.contains("plume's"));
+        said
     }
 
     #[test]
     fn what_the_plume_cannot_show_is_told_with_a_cure() {
-        assert_eq!(told(1.0, 60.0, 120.0), Vec::<String>::new());
+        assert_eq!(told(1.0, 60.0, 120.0), NOTHING);
         // The grid becomes finer by itself, as far as a computer bears it.
-        assert_eq!(told(0.4, 25.0, 62.0), Vec::<String>::new());
-        let short = told(1.0, 2.0, 62.0);
-        assert!(short.len() == 1 && short[0].starts_with("water.currents[0]: its shortest internal wave, 2 m"));
-        let quick = told(1.0, 60.0, 30.0);
-        assert!(quick.len() == 1 && quick[0].starts_with("time.flow_period_s: "), "{quick:?}");
-        assert!(quick[0].ends_with("at most 2.5 s shows it"), "{quick:?}");
-        let thin = told(0.05, 60.0, 120.0);
-        assert!(thin.len() == 1 && thin[0].starts_with("water.currents[0].interfaces[0].thickness_m: "), "{thin:?}");
+        assert_eq!(told(0.4, 25.0, 62.0), NOTHING);
+        let [short, quick, thin] =
+            [[1.0, 2.0, 62.0], [1.0, 60.0, 30.0], [0.05, 60.0, 120.0]].map(|[a, b, c]| told(a, b, c));
+        for (said, begins, ends) in [
+            (&short, "water.currents[0]: its shortest internal wave, 2 m", ""),
+            (&quick, "time.flow_period_s: ", "at most 2.5 s shows it"),
+            (&thin, "water.currents[0].interfaces[0].thickness_m: ", ""),
+        ] {
+            assert!(said.len() == 1 && said[0].starts_with(begins) && said[0].ends_with(ends), "{said:?}");
+        }
         let cure: f64 = thin[0].rsplit("; ").next().unwrap().split(' ').next().unwrap().parse().unwrap();
-        assert_eq!(told(cure, 60.0, 120.0), Vec::<String>::new());
+        assert_eq!(told(cure, 60.0, 120.0), NOTHING);
     }
 }

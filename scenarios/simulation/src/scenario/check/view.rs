@@ -230,60 +230,47 @@ fn depths(place: &RobotSurroundings) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use crate::scenario::told::told as told_of;
+    use crate::testing::{CHANNEL, NOTHING, told, told_once};
 
-    /// What is said of the channel (10 m deep) with some things changed.
-    fn told(changes: &[(&str, &str)]) -> Vec<String> {
-        told_of("uniform_channel", changes)
-    }
+    const START: &str = "robots[0].start";
+    const VERTICAL: &str = "robots[0].strategy.vertical";
 
     #[test]
     fn a_start_in_a_dead_zone_is_told() {
-        let low = |altitude: &str| told(&[("altitude_m: 2, heading", altitude)]);
-        assert_eq!(low("altitude_m: 2.0, heading"), [""; 0]);
-        let said = low("altitude_m: 0.3, heading");
-        assert_eq!(said.len(), 2, "{said:?}");
-        assert!(said[0].starts_with("robots[0].start: robot \"auv0\" starts 0.2"), "{said:?}");
-        assert!(said[0].contains("nearer than the 0.30 m that its altimeter needs"), "{said:?}");
-        assert!(said[1].contains("nearer than the 0.50 m that its dvl needs"), "{said:?}");
-        let deep =
-            told(&[("Level(depth_m: 10)", "Level(depth_m: 60)"), ("altitude_m: 2, heading", "depth_m: 2, heading")]);
-        assert_eq!(deep.len(), 2, "{deep:?}");
-        assert!(deep[0].contains("farther than the 30 m that its altimeter reaches"), "{deep:?}");
+        let at = |height: &str| format!("(east_m: 150, north_m: -30, {height}, heading_deg: 0, speed_m_s: 1.5)");
+        let low = told(CHANNEL, &[(START, &at("altitude_m: 0.3"))]);
+        assert!(low[0].starts_with("robots[0].start: robot \"auv0\" starts 0.2"), "{low:?}");
+        let deep = told(CHANNEL, &[("terrain.depth_m", "60"), (START, &at("depth_m: 2"))]);
+        for (said, says) in [
+            (&low[0], "nearer than the 0.30 m that its altimeter needs"),
+            (&low[1], "nearer than the 0.50 m that its dvl needs"),
+            (&deep[0], "farther than the 30 m that its altimeter reaches"),
+        ] {
+            assert!(said.contains(says), "{said}");
+        }
+        assert_eq!([low.len(), deep.len()], [2; 2]);
     }
 
     #[test]
     fn a_height_at_which_an_instrument_is_blind_is_told() {
-        let at = |vertical: &str| told(&[("vertical: Altitude(2)", vertical)]);
-        let low = at("vertical: Altitude(0.35)");
+        let low = told(CHANNEL, &[(VERTICAL, "Altitude(0.35)")]);
         assert_eq!(low.len(), 2, "{low:?}");
-        assert!(
-            low.iter().all(|s| s.starts_with("robots[0].strategy.vertical: this keeps the vehicle 0.2")),
-            "{low:?}"
-        );
+        assert!(low.iter().all(|s| s.starts_with(&format!("{VERTICAL}: this keeps the vehicle 0.2"))), "{low:?}");
         // Half a metre below the surface the upward profiler has no room for its cell.
-        let high = at("vertical: Depth(0.5)");
-        assert_eq!(high.len(), 1, "{high:?}");
-        assert!(high[0].contains("of the") || high[0].contains("from the surface"), "{high:?}");
+        let high = told_once(CHANNEL, &[(VERTICAL, "Depth(0.5)")]);
+        assert!(high.contains("of the") || high.contains("from the surface"), "{high}");
     }
 
     #[test]
     fn heights_outside_the_water_are_told() {
-        let at = |vertical: &str| told(&[("vertical: Altitude(2)", vertical)]);
-        assert_eq!(
-            at("vertical: Altitude(30)"),
-            ["robots[0].strategy.vertical: 30 m is above the surface: the water is 10.00 m deep"]
-        );
-        assert_eq!(
-            at("vertical: Depth(11)"),
-            ["robots[0].strategy.vertical: 11 m is below the bed: the water is 10.00 m deep"]
-        );
+        assert_eq!(told(CHANNEL, &[]), NOTHING);
+        for (vertical, says) in [("Altitude(30)", "30 m is above"), ("Depth(11)", "11 m is below the bed")] {
+            let said = told_once(CHANNEL, &[(VERTICAL, vertical)]);
+            assert!(said.starts_with(&format!("{VERTICAL}: {says}")) && said.ends_with("10.00 m deep"), "{said}");
+        }
         let slope = "Slope(shoreward_heading_deg: 0, shallow_m: 4, deep_m: 20)";
-        let part = told(&[("Level(depth_m: 10)", slope), ("vertical: Altitude(2)", "vertical: Depth(6)")]);
-        assert!(
-            part.iter()
-                .any(|s| s.ends_with("6 m is below the bed in a part of the area: the water is 4.00 to 20.00 m deep")),
-            "{part:?}"
-        );
+        let part = told(CHANNEL, &[("terrain", slope), (VERTICAL, "Depth(6)")]);
+        let says = "6 m is below the bed in a part of the area: the water is 4.00 to 20.00 m deep";
+        assert!(part.iter().any(|s| s.ends_with(says)), "{part:?}");
     }
 }

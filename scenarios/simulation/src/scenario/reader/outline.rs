@@ -81,18 +81,18 @@ mod tests {
     }
 
     #[test]
-    fn paths_lead_to_their_values() {
-        assert_eq!(value("title"), r#""a ( \" b""#);
-        assert_eq!(value("robots[0].id"), "\"a\"");
-        assert_eq!(value("robots[1].start.east_m"), "1");
-        assert_eq!(value("robots[1].start.v"), "Depth(2.0)");
-        assert_eq!(value("raw"), r##"r#"x " ) y"#"##);
-        assert_eq!(value("size.2"), "3");
-    }
-
-    #[test]
-    fn a_path_the_text_lacks_leads_to_what_is_around_it() {
-        assert_eq!(value("robots[0].start.depth_m"), "(id: \"a\")");
+    fn paths_lead_to_their_values_or_to_what_is_around_them() {
+        for (path, is) in [
+            ("title", r#""a ( \" b""#),
+            ("robots[0].id", "\"a\""),
+            ("robots[1].start.east_m", "1"),
+            ("robots[1].start.v", "Depth(2.0)"),
+            ("raw", r##"r#"x " ) y"#"##),
+            ("size.2", "3"),
+            ("robots[0].start.depth_m", "(id: \"a\")"),
+        ] {
+            assert_eq!(value(path), is);
+        }
         assert!(Outline::scan(TEXT).find("").is_some());
     }
 

@@ -132,166 +132,157 @@ fn the_pond_itself_is_read() {
     assert_eq!(told, ["p:5:25: bed.depth_m: must be > 0, got 0"]);
 }
 
+/// Holds changes of the pond (`from => to`), one or several together, against the lines after them.
+#[track_caller]
+fn tells(cases: &str) {
+    let mut lines = cases.lines().map(str::trim).peekable();
+    while lines.peek().is_some() {
+        let changes: Vec<_> = std::iter::from_fn(|| lines.next_if(|line| !line.starts_with("p:"))).collect();
+        let wanted: Vec<_> = std::iter::from_fn(|| lines.next_if(|line| line.starts_with("p:"))).collect();
+        let split = changes.iter().map(|change| change.split_once(" =>").expect("a change"));
+        let split: Vec<_> = split.map(|(from, to)| (from, to.trim_start())).collect();
+        assert!(!wanted.is_empty(), "{changes:?}");
+        assert_eq!(said(&pond(&split)), wanted, "{changes:?}");
+    }
+}
+
 #[test]
 fn mistakes_of_every_kind_are_told_at_once_in_order() {
-    let text = pond(&[
-        ("\"Pond\"", "Pond"),
-        ("length_m: 10", "lenght_m: -10"),
-        ("Level(depth_m", "Levle(depth"),
-        ("n: 3", "n: 3.5"),
-        ("weight_kg: 0.5, ", ""),
-        ("tame: true", "tame: yes"),
-        ("Altitude(2)", "Altitude"),
-        ("(1, 2)", "(1, -2)"),
-        ("Down", "Down()"),
-    ]);
-    assert_eq!(
-        said(&text),
-        [
-            "p:2:12: title: expected a text in quotes, got Pond",
-            "p:3:12: area: there is no field `lenght_m` | did you mean `length_m`? fields here: length_m, width_m, heading_deg",
-            "p:3:22: area.lenght_m: must be > 0, got -10",
-            "p:4:10: bed: there is no choice `Levle` | did you mean `Level`? choices here: Level, Slope",
-            "p:4:16: bed: there is no field `depth` | did you mean `depth_m`? fields here: depth_m, rough",
-            "p:6:25: fish[0].n: must be a whole number, got 3.5 | a whole number from 0 to 4294967295",
-            "p:7:9: fish[1]: the field `weight_kg` is missing | add `weight_kg: ...`: a number, must be >= 0",
-            "p:7:33: fish[1].tame: expected true or false, got yes",
-            "p:9:12: depth: `Altitude` needs parentheses | write `Altitude(...)`",
-            "p:10:15: size.1: must be > 0, got -2",
-            "p:11:11: look: `Down` has no parentheses | write `Down`",
-        ]
+    tells(
+        "\"Pond\" => Pond
+        length_m: 10 => lenght_m: -10
+        Level(depth_m => Levle(depth
+        n: 3 => n: 3.5
+        weight_kg: 0.5, =>
+        tame: true => tame: yes
+        Altitude(2) => Altitude
+        (1, 2) => (1, -2)
+        Down => Down()
+      p:2:12: title: expected a text in quotes, got Pond
+      p:3:12: area: there is no field `lenght_m` | did you mean `length_m`? fields here: length_m, width_m, heading_deg
+      p:3:22: area.lenght_m: must be > 0, got -10
+      p:4:10: bed: there is no choice `Levle` | did you mean `Level`? choices here: Level, Slope
+      p:4:16: bed: there is no field `depth` | did you mean `depth_m`? fields here: depth_m, rough
+      p:6:25: fish[0].n: must be a whole number, got 3.5 | a whole number from 0 to 4294967295
+      p:7:9: fish[1]: the field `weight_kg` is missing | add `weight_kg: ...`: a number, must be >= 0
+      p:7:34: fish[1].tame: expected true or false, got yes
+      p:9:12: depth: `Altitude` needs parentheses | write `Altitude(...)`
+      p:10:15: size.1: must be > 0, got -2
+      p:11:11: look: `Down` has no parentheses | write `Down`",
     );
 }
 
 #[test]
 fn missing_things_are_told_with_what_to_write() {
-    let missing = |from: &str, to: &str| said(&pond(&[(from, to)]));
-    assert_eq!(
-        missing("    bed: Level(depth_m: 2),\n", ""),
-        ["p:1:1: the field `bed` is missing | add `bed: ...`: one of Level, Slope"]
+    tells(
+        "bed: Level(depth_m: 2), =>
+            p:1:1: the field `bed` is missing | add `bed: ...`: one of Level, Slope
+        area: (length_m: 10, width_m: 5), =>
+            p:1:1: the field `area` is missing | add `area: (length_m: ..., width_m: ...)`
+        Level(depth_m: 2) => Level
+            p:4:10: bed: `Level` needs parentheses | write `Level(depth_m: ...)`
+        Level(depth_m: 2) => (depth_m: 2)
+            p:4:10: bed: expected the name of a choice, got (depth_m: 2) | choices here: Level, Slope
+        Level(depth_m: 2) => Level{depth_m: -2}
+            p:4:10: bed: expected `(` after `Level`, got `{`
+            p:4:25: bed.depth_m: must be > 0, got -2
+        Altitude(2) => Altitude()
+            p:9:12: depth: expected a value in the parentheses | must be > 0",
     );
-    assert_eq!(
-        missing("    area: (length_m: 10, width_m: 5),\n", ""),
-        ["p:1:1: the field `area` is missing | add `area: (length_m: ..., width_m: ...)`"]
-    );
-    assert_eq!(
-        missing("Level(depth_m: 2)", "Level"),
-        ["p:4:10: bed: `Level` needs parentheses | write `Level(depth_m: ...)`"]
-    );
-    assert_eq!(
-        missing("Level(depth_m: 2)", "(depth_m: 2)"),
-        ["p:4:10: bed: expected the name of a choice, got (depth_m: 2) | choices here: Level, Slope"]
-    );
-    assert_eq!(
-        missing("Level(depth_m: 2)", "Level{depth_m: -2}"),
-        ["p:4:10: bed: expected `(` after `Level`, got `{`", "p:4:25: bed.depth_m: must be > 0, got -2"]
-    );
-    assert_eq!(
-        missing("Altitude(2)", "Altitude()"),
-        ["p:9:12: depth: expected a value in the parentheses | must be > 0"]
+}
+
+#[test]
+fn values_that_are_given_twice_or_not_at_all() {
+    tells(
+        "width_m: 5 => width_m: 5, width_m: 6
+            p:3:38: area: the field `width_m` is given twice
+        look: Down => look:
+            p:11:5: look: expected a value after `look:`
+        width_m: 5 => width_m: 5, 7
+            p:3:38: area: expected `name: value`, got 7 | fields here: length_m, width_m, heading_deg
+        Down => \"Down\"
+            p:11:11: look: expected the name of a choice, got \"Down\" | choices here: Up, Down",
     );
 }
 
 #[test]
 fn tuples_structures_and_lists_in_one_anothers_place() {
-    let wrong = |from: &str, to: &str| said(&pond(&[(from, to)]));
-    assert_eq!(
-        wrong("(length_m: 10, width_m: 5)", "(10, -5)"),
-        [
-            "p:3:12: area: the fields here have names | write `(length_m: 10, width_m: -5)`",
-            "p:3:16: area.1: must be > 0, got -5"
-        ]
+    tells(
+        "(length_m: 10, width_m: 5) => (10, -5)
+            p:3:12: area: the fields here have names | write `(length_m: 10, width_m: -5)`
+            p:3:16: area.1: must be > 0, got -5
+        (length_m: 10, width_m: 5) => [10, 5]
+            p:3:11: area: expected fields in parentheses, got [10, 5] | write `(length_m: ..., width_m: ...)`
+        (length_m: 10, width_m: 5) => ((length_m: 10, width_m: 0))
+            p:3:12: area: one pair of parentheses too many | write the fields in a single pair
+            p:3:36: area.0.width_m: must be > 0, got 0
+        (1, 2) => (x: 1, y: 2)
+            p:10:12: size.x: the values here have no names, got `x:` | write the values alone
+        (1, 2) => [1, 0]
+            p:10:11: size: expected 2 values in parentheses, got [1, 0] | write `( )` in place of `[ ]`
+            p:10:15: size[1]: must be > 0, got 0
+        (1, 2) => (1, 2, 3)
+            p:10:11: size: expected 2 values in parentheses, not 3, got (1, 2, 3) | write `(..., ...)`",
     );
-    assert_eq!(
-        wrong("(length_m: 10, width_m: 5)", "[10, 5]"),
-        ["p:3:11: area: expected fields in parentheses, got [10, 5] | write `(length_m: ..., width_m: ...)`"]
-    );
-    assert_eq!(
-        wrong("(length_m: 10, width_m: 5)", "((length_m: 10, width_m: 0))"),
-        [
-            "p:3:12: area: one pair of parentheses too many | write the fields in a single pair",
-            "p:3:36: area.0.width_m: must be > 0, got 0"
-        ]
-    );
-    assert_eq!(
-        wrong("(1, 2)", "(x: 1, y: 2)"),
-        ["p:10:12: size.x: the values here have no names, got `x:` | write the values alone"]
-    );
-    assert_eq!(
-        wrong("(1, 2)", "[1, 0]"),
-        [
-            "p:10:11: size: expected 2 values in parentheses, got [1, 0] | write `( )` in place of `[ ]`",
-            "p:10:15: size[1]: must be > 0, got 0"
-        ]
-    );
-    assert_eq!(
-        wrong("(1, 2)", "(1, 2, 3)"),
-        ["p:10:11: size: expected 2 values in parentheses, not 3, got (1, 2, 3) | write `(..., ...)`"]
-    );
-    let single = pond(&[]);
-    let from = single.find("[\n").expect("a list");
-    let to = single.find("    ],").expect("its end");
-    let single = format!("{}(id: \"carp\", n: -3, weight_kg: 1){}", &single[..from], &single[to + 5..]);
-    assert_eq!(
-        said(&single),
-        [
-            "p:5:11: fish: expected a list in square brackets, got (id: \"carp\", n: -3, weight_kg: 1) | write `[ ]` around it",
-            "p:5:27: fish.n: must be a whole number from 0 to 4294967295, got -3"
-        ]
-    );
+    let fish = &POND[POND.find("[\n").expect("a list")..POND.find(",\n    depth:").expect("its end")];
+    let single = "(id: \"c\", n: -3, weight_kg: 1)";
+    let told = [
+        format!("p:5:11: fish: expected a list in square brackets, got {single} | write `[ ]` around it"),
+        "p:5:24: fish.n: must be a whole number from 0 to 4294967295, got -3".to_string(),
+    ];
+    assert_eq!(said(&pond(&[(fish, single)])), told);
 }
 
 #[test]
 fn syntax_is_read_on_after_a_mistake() {
-    let text = pond(&[
-        ("width_m: 5", "width_m = 5"),
-        ("(length_m: 10,", "(length_m 10;"),
-        ("n: 3,", "n: 3"),
-        ("id: \"eel\",", "id: \"eel,"),
-        ("(1, 2)", "(1,, 0)"),
-    ]);
-    assert_eq!(
-        said(&text),
-        [
-            "p:3:12: area.length_m: expected `:` after `length_m`",
-            "p:3:23: area: expected a comma, got `;`",
-            "p:3:25: area.width_m: expected `:` after `width_m`",
-            "p:6:27: fish[0].weight_kg: expected a comma | fields and elements are separated by `,`",
-            "p:7:14: the text in quotes is not closed on its line | end it with `\"`",
-            "p:10:14: size: expected a value before this comma | remove the comma",
-            "p:10:16: size.1: must be > 0, got 0",
-        ]
+    tells(
+        "width_m: 5 => width_m = 5
+        (length_m: 10, => (length_m 10;
+        n: 3, => n: 3
+        id: \"eel\", => id: \"eel,
+        (1, 2) => (1,, 0)
+            p:3:12: area.length_m: expected `:` after `length_m`
+            p:3:23: area: expected a comma, got `;`
+            p:3:25: area.width_m: expected `:` after `width_m`
+            p:6:27: fish[0].weight_kg: expected a comma | fields and elements are separated by `,`
+            p:7:14: the text in quotes is not closed on its line | end it with `\"`
+            p:10:14: size: expected a value before this comma | remove the comma
+            p:10:16: size.1: must be > 0, got 0",
     );
 }
 
 #[test]
 fn brackets_that_do_not_match_are_told_where_they_are() {
-    let wrong = |from: &str, to: &str| said(&pond(&[(from, to), ("(1, 2)", "(1, 0)")]));
-    let size = "p:10:15: size.1: must be > 0, got 0";
-    assert_eq!(
-        wrong("width_m: 5)", "width_m: 5"),
-        ["p:3:11: area: this `(` is not closed | a `)` is missing before line 4", size]
+    tells(
+        "width_m: 5) => width_m: 5
+        (1, 2) => (1, 0)
+            p:3:11: area: this `(` is not closed | a `)` is missing before line 4
+            p:10:15: size.1: must be > 0, got 0
+        width_m: 5) => width_m: 5))
+        (1, 2) => (1, 0)
+            p:3:37: this `)` is one too many | the scenario continues after it: remove it
+            p:10:15: size.1: must be > 0, got 0
+        weight_kg: 1.5) => weight_kg: 1.5
+        (1, 2) => (1, 0)
+            p:6:9: fish[0]: this `(` is not closed | a `)` is missing before line 7
+            p:10:15: size.1: must be > 0, got 0",
     );
-    assert_eq!(
-        wrong("width_m: 5)", "width_m: 5))"),
-        ["p:3:37: this `)` is one too many | the scenario continues after it: remove it", size]
-    );
-    assert_eq!(
-        wrong("weight_kg: 1.5)", "weight_kg: 1.5"),
-        ["p:6:9: fish[0]: this `(` is not closed | a `)` is missing before line 7", size]
-    );
-    let closed = wrong("Altitude(2)", "Altitude(2]");
+    let closed = said(&pond(&[("Altitude(2)", "Altitude(2]"), ("(1, 2)", "(1, 0)")]));
     assert!(closed[0].starts_with("p:9:2"), "{closed:?}");
-    assert_eq!(closed[1..], [size]);
+    assert_eq!(closed[1..], ["p:10:15: size.1: must be > 0, got 0"]);
 }
 
 #[test]
 fn meaning_is_told_where_the_form_is_right() {
-    let high = ("Altitude(2)", "Altitude(3)");
-    let wrong = [high, ("\"Pond\"", "\"Pond of ponds\"")];
-    assert_eq!(said(&pond(&wrong)), ["p:2:5: title: is too long", "p:9:5: depth: is above the surface"]);
-    let form = "p:6:25: fish[0].n: must be a whole number from 0 to 4294967295, got -3";
-    assert_eq!(said(&pond(&[high, ("n: 3", "n: -3")])), [form]);
+    tells(
+        "Altitude(2) => Altitude(3)
+        \"Pond\" => \"Pond of ponds\"
+            p:2:5: title: is too long
+            p:9:5: depth: is above the surface
+        Altitude(2) => Altitude(3)
+        n: 3 => n: -3
+            p:6:25: fish[0].n: must be a whole number from 0 to 4294967295, got -3",
+    );
 }
 
 #[test]
@@ -324,21 +315,6 @@ fn long_texts_are_refused() {
     for text in texts {
         assert!(!said(&text).is_empty(), "{}", &text[..20]);
     }
-}
-
-#[test]
-fn values_that_are_given_twice_or_not_at_all() {
-    assert_eq!(
-        said(&pond(&[("width_m: 5", "width_m: 5, width_m: 6"), ("look: Down", "look: ")])),
-        ["p:3:38: area: the field `width_m` is given twice", "p:11:5: look: expected a value after `look:`"]
-    );
-    assert_eq!(
-        said(&pond(&[("width_m: 5", "width_m: 5, 7"), ("Down", "\"Down\"")])),
-        [
-            "p:3:38: area: expected `name: value`, got 7 | fields here: length_m, width_m, heading_deg",
-            "p:11:11: look: expected the name of a choice, got \"Down\" | choices here: Up, Down"
-        ]
-    );
 }
 
 /// Whatever stands in a text, it is refused with a place and without a panic.

@@ -42,71 +42,100 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
     runs.map(one).collect()
 }
 
-/// A folder of blocks of 8 runs with its manifest.
-fn folder() -> (tempfile::TempDir, Manifest) {
-    let dir = tempfile::tempdir().unwrap();
-    let manifest = Manifest::new(&campaign(), 8);
-    manifest.write(dir.path()).unwrap();
-    (dir, manifest)
+/// A folder of blocks of 8 runs with its manifest, and the campaign.
+struct Blocks {
+    dir: tempfile::TempDir,
+    manifest: Manifest,
+    campaign: Campaign,
+}
+
+impl Blocks {
+    fn new() -> Self {
+        let (dir, campaign) = (tempfile::tempdir().unwrap(), campaign());
+        let manifest = Manifest::new(&campaign, 8);
+        manifest.write(dir.path()).unwrap();
+        Self { dir, manifest, campaign }
+    }
+
+    fn path(&self) -> &Path {
+        self.dir.path()
+    }
+
+    fn rows(&self, runs: Range<u64>) -> Vec<RunRow> {
+        rows(&self.campaign, runs)
+    }
+
+    fn state(&self, block: u64) -> BlockState {
+        read_block(self.path(), &self.manifest, block)
+    }
+
+    /// What is said of the first block, which is not whole.
+    fn broken(&self) -> String {
+        match self.state(0) {
+            BlockState::Broken(error) => error.to_string(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn write(&self, block: u64, rows: &[RunRow]) {
+        write_block(self.path(), block, rows).unwrap();
+    }
+
+    fn add(&self, block: u64, rows: &[RunRow]) {
+        add_to_block(self.path(), &self.manifest, block, rows).unwrap();
+    }
 }
 
 #[test]
 fn a_block_grows_row_by_row_and_never_shrinks() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let dir = dir.path();
-    let state = || read_block(dir, &manifest, 1);
-    assert!(matches!(state(), BlockState::Missing));
-    add_to_block(dir, &manifest, 1, &rows(&campaign, 10..12)).unwrap();
-    assert!(matches!(state(), BlockState::Part(there) if there == rows(&campaign, 10..12)));
-    add_to_block(dir, &manifest, 1, &rows(&campaign, 8..11)).unwrap();
-    assert!(matches!(state(), BlockState::Part(there) if there == rows(&campaign, 8..12)));
-    write_block(dir, 1, &rows(&campaign, 8..16)).unwrap();
-    add_to_block(dir, &manifest, 1, &rows(&campaign, 8..9)).unwrap();
-    assert!(matches!(state(), BlockState::Done(there) if there == rows(&campaign, 8..16)));
+    let blocks = Blocks::new();
+    let rows = |runs| blocks.rows(runs);
+    assert!(matches!(blocks.state(1), BlockState::Missing));
+    blocks.add(1, &rows(10..12));
+    assert!(matches!(blocks.state(1), BlockState::Part(there) if there == rows(10..12)));
+    blocks.add(1, &rows(8..11));
+    assert!(matches!(blocks.state(1), BlockState::Part(there) if there == rows(8..12)));
+    blocks.write(1, &rows(8..16));
+    blocks.add(1, &rows(8..9));
+    assert!(matches!(blocks.state(1), BlockState::Done(there) if there == rows(8..16)));
     // All readers treat the rows of a partial block as any others.
-    write_block(dir, 0, &rows(&campaign, 2..4)).unwrap();
-    let all = [rows(&campaign, 2..4), rows(&campaign, 8..16)].concat();
-    assert_eq!(read_rows(dir).unwrap(), all);
-    assert_eq!(merge(&Registry::default(), dir, &dir.join("all.parquet"), None).unwrap().rows, 10);
+    blocks.write(0, &rows(2..4));
+    assert_eq!(read_rows(blocks.path()).unwrap(), [rows(2..4), rows(8..16)].concat());
+    let merged = merge(&Registry::default(), blocks.path(), &blocks.path().join("all.parquet"), None);
+    assert_eq!(merged.unwrap().rows, 10);
     // Rows of another block, or no rows at all, are no part of this one.
-    for odd in [rows(&campaign, 0..2), rows(&campaign, 14..18), Vec::new()] {
-        write_block(dir, 1, &odd).unwrap();
-        assert!(matches!(state(), BlockState::Broken(_)), "{odd:?}");
+    for odd in [rows(0..2), rows(14..18), Vec::new()] {
+        blocks.write(1, &odd);
+        assert!(matches!(blocks.state(1), BlockState::Broken(_)), "{odd:?}");
     }
 }
 
 #[test]
 fn what_is_read_follows_from_what_is_there_not_from_what_is_planned() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let dir = dir.path();
+    let blocks = Blocks::new();
     for block in [4, 0] {
-        write_block(dir, block, &rows(&campaign, manifest.runs_of(block))).unwrap();
+        blocks.write(block, &blocks.rows(blocks.manifest.runs_of(block)));
     }
     for name in ["part-1.parquet", "part-000002.parquet.tmp", "part-000099.parquet"] {
-        fs::write(dir.join(name), "").unwrap();
+        fs::write(blocks.path().join(name), "").unwrap();
     }
-    assert_eq!(present(dir, &manifest).unwrap(), [0, 4]);
-    let many = Manifest { runs: 1 << 40, block: 1, ..manifest };
-    assert_eq!(present(dir, &many).unwrap(), [0, 4, 99]);
+    assert_eq!(present(blocks.path(), &blocks.manifest).unwrap(), [0, 4]);
+    let many = Manifest { runs: 1 << 40, block: 1, ..blocks.manifest.clone() };
+    assert_eq!(present(blocks.path(), &many).unwrap(), [0, 4, 99]);
 }
 
 #[cfg(unix)]
 #[test]
 fn what_is_no_regular_file_is_said_and_never_waited_for_nor_replaced() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let path = block_path(dir.path(), 0);
-    let pipe = std::process::Command::new("mkfifo").arg(&path).status();
+    let blocks = Blocks::new();
+    let pipe = std::process::Command::new("mkfifo").arg(block_path(blocks.path(), 0)).status();
     if !pipe.is_ok_and(|s| s.success()) {
         return;
     }
     for _ in 0..2 {
-        let BlockState::Broken(said) = read_block(dir.path(), &manifest, 0) else {
-            panic!("a pipe is no block");
-        };
-        let said = said.to_string();
-        assert!(said.contains("part-000000.parquet is not whole: it is a pipe, not a file"), "{said}");
-        let write = write_block(dir.path(), 0, &rows(&campaign, 0..8));
-        assert!(write.unwrap_err().to_string().contains("it is a pipe, and only a regular file is replaced"));
+        assert!(blocks.broken().contains("part-000000.parquet is not whole: it is a pipe"));
+        let write = write_block(blocks.path(), 0, &blocks.rows(0..8));
+        assert!(write.unwrap_err().to_string().contains("it is a pipe"));
     }
 }
 
@@ -139,24 +168,22 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     odd
 }
 
-/// Writes a new file: one that is replaced in place is waited for by some file systems.
-fn anew(path: &Path, bytes: &[u8]) {
-    fs::remove_file(path).unwrap();
-    fs::write(path, bytes).unwrap();
-}
+type Damage = fn(&[u8], &mut Stream) -> Vec<u8>;
 
 /// Reads `n` blocks of which one file is damaged. Returns how many are reported as not whole; the others are unchanged.
-fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let (dir, path) = (dir.path(), damage(dir.path(), 0));
-    let good = rows(&campaign, 0..8);
-    write_block(dir, 0, &good).unwrap();
+fn survives(path: fn(&Path, u64) -> PathBuf, n: u64, seed: u64, damage: Damage) -> u64 {
+    let blocks = Blocks::new();
+    let path = path(blocks.path(), 0);
+    let good = blocks.rows(0..8);
+    blocks.write(0, &good);
     let bytes = fs::read(&path).unwrap();
     let mut draw = Stream::new(seed, "damage", "of blocks");
     let mut broken = 0;
     for k in 0..n {
-        anew(&path, &damaged(&bytes, &mut draw));
-        match read_block(dir, &manifest, 0) {
+        // One that is replaced in place is waited for by some file systems.
+        fs::remove_file(&path).unwrap();
+        fs::write(&path, damage(&bytes, &mut draw)).unwrap();
+        match blocks.state(0) {
             BlockState::Broken(said) => {
                 let name = path.file_name().unwrap().to_str().unwrap();
                 assert!(said.to_string().contains(name), "{said}");
@@ -174,86 +201,67 @@ fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
 fn damaged_blocks_are_not_whole() {
     let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
     let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(400);
-    assert!(survives(block_path, n, 1) >= n * 99 / 100);
-    assert!(survives(declarations_path, n, 2) >= n * 99 / 100);
+    assert!(survives(block_path, n, 1, damaged) >= n * 99 / 100);
+    assert!(survives(declarations_path, n, 2, damaged) >= n * 99 / 100);
 }
 
 /// Bytes whose seal fits them all the same: as if the program had written nonsense.
 #[test]
 fn damage_under_a_seal_is_an_answer_and_no_panic() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let dir = dir.path();
-    let good = rows(&campaign, 0..8);
-    for path in [block_path(dir, 0), declarations_path(dir, 0)] {
-        write_block(dir, 0, &good).unwrap();
-        let bytes = fs::read(&path).unwrap();
-        let mut draw = Stream::new(3, "damage", "under seals");
-        let mut broken = 0;
-        for k in 0..400 {
-            let head = 4 + seal::room().len();
-            let mut odd = [&bytes[..4], &seal::room()].concat();
-            odd.extend(damaged(&bytes[head..], &mut draw));
-            seal::close(&mut odd);
-            anew(&path, &odd);
-            match read_block(dir, &manifest, 0) {
-                BlockState::Broken(_) => broken += 1,
-                BlockState::Done(there) => assert_eq!(there, good, "damage {k}"),
-                BlockState::Part(_) | BlockState::Missing => panic!("damage {k} is no part"),
-            }
-        }
+    let sealed: Damage = |bytes, draw| {
+        let head = 4 + seal::room().len();
+        let mut odd = [&bytes[..4], &seal::room(), &damaged(&bytes[head..], draw)].concat();
+        seal::close(&mut odd);
+        odd
+    };
+    for path in [block_path, declarations_path] {
         // About a tenth changes only what is not read, such as the statistics of columns.
-        assert!(broken >= 320, "{broken} at {}", path.display());
+        let broken = survives(path, 400, 3, sealed);
+        assert!(broken >= 320, "{broken}");
     }
 }
 
 #[test]
 fn a_kill_between_the_two_files_loses_no_row() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let dir = dir.path();
-    let (some, more) = (rows(&campaign, 8..12), rows(&campaign, 8..16));
+    let blocks = Blocks::new();
+    let (some, more) = (blocks.rows(8..12), blocks.rows(8..16));
     assert!(some.iter().any(|r| r.declarations.len() == 2));
-    write_block(dir, 1, &some).unwrap();
-    let before = fs::read(block_path(dir, 1)).unwrap();
+    blocks.write(1, &some);
+    let before = fs::read(block_path(blocks.path(), 1)).unwrap();
     // The declarations of all eight runs are written, the rows of the last four are not.
-    write_block(dir, 1, &more).unwrap();
-    fs::write(block_path(dir, 1), before).unwrap();
-    assert!(matches!(read_block(dir, &manifest, 1), BlockState::Part(there) if there == some));
-    add_to_block(dir, &manifest, 1, &more).unwrap();
-    assert!(matches!(read_block(dir, &manifest, 1), BlockState::Done(there) if there == more));
+    blocks.write(1, &more);
+    fs::write(block_path(blocks.path(), 1), before).unwrap();
+    assert!(matches!(blocks.state(1), BlockState::Part(there) if there == some));
+    blocks.add(1, &more);
+    assert!(matches!(blocks.state(1), BlockState::Done(there) if there == more));
 }
 
 #[test]
 fn rows_without_their_declarations_are_not_whole() {
-    let ((dir, manifest), campaign) = (folder(), campaign());
-    let dir = dir.path();
-    let good = rows(&campaign, 0..8);
-    let said = || match read_block(dir, &manifest, 0) {
-        BlockState::Broken(error) => error.to_string(),
-        other => panic!("{other:?}"),
-    };
-    write_block(dir, 0, &good).unwrap();
-    let sound = fs::read(block_path(dir, 0)).unwrap();
-    fs::remove_file(declarations_path(dir, 0)).unwrap();
-    let missing = said();
+    let blocks = Blocks::new();
+    let good = blocks.rows(0..8);
+    blocks.write(0, &good);
+    let sound = fs::read(block_path(blocks.path(), 0)).unwrap();
+    fs::remove_file(declarations_path(blocks.path(), 0)).unwrap();
+    let missing = blocks.broken();
     assert!(missing.ends_with("declarations-000000.parquet is not whole: it does not exist"), "{missing}");
     // Those of other rows: sound in themselves, but one is missing.
     let mut other = good.clone();
     other[2].declarations.pop();
-    write_block(dir, 0, &other).unwrap();
-    fs::write(block_path(dir, 0), sound).unwrap();
-    let wrong = said();
+    blocks.write(0, &other);
+    fs::write(block_path(blocks.path(), 0), sound).unwrap();
+    let wrong = blocks.broken();
     assert!(wrong.contains("its rows and declarations are not those"), "{wrong}");
-    write_block(dir, 0, &good).unwrap();
-    assert!(matches!(read_block(dir, &manifest, 0), BlockState::Done(there) if there == good));
+    blocks.write(0, &good);
+    assert!(matches!(blocks.state(0), BlockState::Done(there) if there == good));
 }
 
 #[test]
 fn a_merge_has_a_line_for_every_declaration() {
-    let ((dir, _), campaign) = (folder(), campaign());
-    let dir = dir.path();
-    let all = rows(&campaign, 0..16);
-    write_block(dir, 0, &all[..8]).unwrap();
-    write_block(dir, 1, &all[8..]).unwrap();
+    let blocks = Blocks::new();
+    let (dir, all) = (blocks.path(), blocks.rows(0..16));
+    blocks.write(0, &all[..8]);
+    blocks.write(1, &all[8..]);
     let csv = dir.join("all.csv");
     let merged = merge(&Registry::default(), dir, &dir.join("all.parquet"), Some(&csv)).unwrap();
     let declarations: Vec<_> = all.iter().flat_map(|r| r.declarations.clone()).collect();

@@ -4,7 +4,6 @@ use super::sample::row;
 use super::*;
 use crate::campaign::RunRow;
 use std::fs;
-use std::path::Path;
 
 fn arm(name: &str, seeds: u64, error: impl Fn(u64) -> Option<(f64, f64)>) -> Vec<RunRow> {
     let one = |k| RunRow { arm: name.to_string(), ..row(k, error(k)) };
@@ -30,21 +29,55 @@ fn about(planned: u64) -> About<'static> {
     }
 }
 
-/// No file of the folder contains NaN or infinity as a number.
-fn sound(dir: &Path) {
-    for file in fs::read_dir(dir).unwrap() {
-        let path = file.unwrap().path();
-        if path.extension().is_some_and(|e| e == "png") {
-            assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
-            continue;
+/// A report in a folder of its own.
+struct Made {
+    dir: tempfile::TempDir,
+    text: String,
+}
+
+impl Made {
+    /// Writes a report of rows, of which no file contains NaN or infinity as a number.
+    #[track_caller]
+    fn new(about: &About<'_>, rows: &[RunRow]) -> Self {
+        let dir = tempfile::tempdir().unwrap();
+        let text = write(dir.path(), about, rows).unwrap().text;
+        let made = Self { dir, text };
+        for name in made.names() {
+            if name.ends_with(".png") {
+                assert!(fs::read(made.dir.path().join(&name)).unwrap().starts_with(b"\x89PNG"));
+                continue;
+            }
+            let text = made.file(&name);
+            assert!(!text.contains("NaN") && !text.contains("inf,"), "{name}");
+            if name.ends_with(".csv") {
+                let mut commas = text.lines().map(|l| l.matches(',').count());
+                let first = commas.next().unwrap();
+                assert!(commas.all(|n| n == first), "{name}: {text}");
+            }
         }
-        let text = fs::read_to_string(&path).unwrap();
-        assert!(!text.contains("NaN") && !text.contains("inf,"), "{}", path.display());
-        if path.extension().is_some_and(|e| e == "csv") {
-            let mut commas = text.lines().map(|l| l.matches(',').count());
-            let first = commas.next().unwrap();
-            assert!(commas.all(|n| n == first), "{}: {text}", path.display());
-        }
+        made
+    }
+
+    fn names(&self) -> Vec<String> {
+        let files = fs::read_dir(self.dir.path()).unwrap();
+        files.map(|f| f.unwrap().file_name().into_string().unwrap()).collect()
+    }
+
+    fn file(&self, name: &str) -> String {
+        fs::read_to_string(self.dir.path().join(name)).unwrap()
+    }
+
+    fn page(&self) -> String {
+        self.file("report.html")
+    }
+
+    /// The fields of a comparison of two arms by something, after these three.
+    fn compared(&self, arms: &str, by: &str) -> Vec<String> {
+        let pairs = self.file("differences.csv");
+        let begin = format!("{arms},{by},");
+        let line =
+            pairs.lines().find_map(|l| l.strip_prefix(&begin)).unwrap_or_else(|| panic!("no {begin} in {pairs}"));
+        line.split(',').map(str::to_string).collect()
     }
 }
 
@@ -53,44 +86,39 @@ fn says_which_arm_is_better_and_by_how_much() {
     let near = arm("near", 40, |k| Some((5.0 + (k % 7) as f64, 1.0)));
     let far = arm("far", 40, |k| (k % 2 == 0).then_some((25.0 + (k % 5) as f64, 1.0)));
     let mut rows = [near, far].concat();
-    let dir = tempfile::tempdir().unwrap();
-    let written = write(dir.path(), &about(80), &rows).unwrap();
-    sound(dir.path());
-    assert_eq!(written.files.len(), 4 + 8 + 1);
-    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
-    let of = |by: &str| -> Vec<String> {
-        let line = pairs.lines().find(|l| l.starts_with(&format!("near,far,{by},")));
-        line.unwrap().split(',').map(str::to_string).collect()
-    };
-    let success = of("success");
-    assert_eq!((success[3].as_str(), success[4].as_str()), ("40", "0.5"));
-    assert_eq!(success[7], "better");
-    assert_eq!((of("error")[3].as_str(), of("error")[7].as_str()), ("20", "better"));
-    assert_eq!(of("path")[7], "not separable at this n");
-    assert!(
-        written.text.contains("success, %")
-            && written.text.contains("100.0 ")
-            && written.text.contains("80 runs, seeds 1 to 40;"),
-        "{}",
-        written.text
-    );
-    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-    assert!(html.contains("<h1>c&lt;1&gt;</h1>") && html.matches("<svg").count() == 4);
+    let made = Made::new(&about(80), &rows);
+    // Tables, figures, the page, and the list of these files.
+    assert_eq!(made.names().len(), 4 + 8 + 1 + 1);
     // Restricted time: `far` succeeds in half of its runs; the others count as the limit.
-    let restricted = of("restricted time");
-    assert_eq!((restricted[3].as_str(), restricted[7].as_str()), ("40", "better"));
-    assert!(written.text.contains("20 of 40 pairs: both declared"), "{}", written.text);
-    assert!(written.text.contains("40 of 40 pairs; no success counts as 1500 s"), "{}", written.text);
+    for (by, n, verdict) in [
+        ("success", "40", "better"),
+        ("error", "20", "better"),
+        ("path", "40", "not separable at this n"),
+        ("restricted time", "40", "better"),
+    ] {
+        let compared = made.compared("near,far", by);
+        assert_eq!([&compared[0], &compared[4]], [n, verdict], "{by}");
+    }
+    assert_eq!(made.compared("near,far", "success")[1], "0.5");
+    for says in [
+        "success, %",
+        "100.0 ",
+        "80 runs, seeds 1 to 40;",
+        "20 of 40 pairs: both declared",
+        "no success counts as 1500 s",
+    ] {
+        assert!(made.text.contains(says), "{says}: {}", made.text);
+    }
+    let page = made.page();
+    assert!(page.contains("<h1>c&lt;1&gt;</h1>") && page.matches("<svg").count() == 4);
 
     // Blocks come in any order: the numbers do not change, and the arms are in the order asked for.
     rows.reverse();
-    let other = tempfile::tempdir().unwrap();
     let names = ["near".to_string(), "far".to_string()];
-    let asked = About { arms: &names, ..about(80) };
-    assert_eq!(write(other.path(), &asked, &rows).unwrap().text, written.text);
+    let other = Made::new(&About { arms: &names, ..about(80) }, &rows);
+    assert_eq!(other.text, made.text);
     for file in ["arms.csv", "differences.csv", "errors.csv", "not_yet_declared.csv"] {
-        let text = |d: &Path| fs::read_to_string(d.join(file)).unwrap();
-        assert_eq!(text(dir.path()), text(other.path()), "{file}");
+        assert_eq!(made.file(file), other.file(file), "{file}");
     }
 }
 
@@ -102,63 +130,22 @@ fn an_arm_that_fails_more_and_looks_faster_is_warned_of() {
     for r in &mut hasty {
         r.declared_s = r.declared_s.map(|t| t - 100.0);
     }
-    let dir = tempfile::tempdir().unwrap();
-    let about = About { limit_s: Some(2000.0), ..about(80) };
-    let written = write(dir.path(), &about, &[hasty, sure].concat()).unwrap();
-    sound(dir.path());
-    let says = "Warning: hasty looks faster than sure by the time to declaration: that rests on the 20 of 40 \
-        pairs where both declared; but it fails more (20 against 40 of 40 succeed). Go by the restricted time: by that \
-        sure is better.";
-    assert!(written.text.contains(says), "{}", written.text);
-    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
-    assert!(pairs.contains("hasty,sure,time to declaration,20,-100,-100,-100,better,"), "{pairs}");
-    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-    assert!(html.contains("Warning: hasty looks faster"));
-}
-
-#[test]
-fn the_page_has_the_campaigns_title_and_what_each_arm_sets() {
-    let rows = [arm("a", 6, |_| Some((1.0, 1.0))), arm("b", 6, |_| None)].concat();
-    let (arms, sets) =
-        (["a".to_string(), "b".to_string()], ["robots[0].map=Hmm()".to_string(), "as it is".to_string()]);
-    let dir = tempfile::tempdir().unwrap();
-    let about = About { title: "Two maps & no more", arms: &arms, sets: &sets, ..about(12) };
-    let written = write(dir.path(), &about, &rows).unwrap();
-    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-    for says in [
-        "<title>Two maps &amp; no more</title>",
-        "<h1>Two maps &amp; no more</h1>",
-        "<td>a</td><td>robots[0].map=Hmm()</td>",
-        "seeds 1 to 40",
-    ] {
-        assert!(html.contains(says), "{says}: {html}");
+    let made = Made::new(&About { limit_s: Some(2000.0), ..about(80) }, &[hasty, sure].concat());
+    for says in ["Warning: hasty looks faster than sure", "(20 against 40 of 40 succeed)", "by that sure is better"] {
+        assert!(made.text.contains(says), "{says}: {}", made.text);
     }
-    assert!(written.text.starts_with("Two maps & no more\n"), "{}", written.text);
-    assert!(written.text.contains("arm a: robots[0].map=Hmm()"), "{}", written.text);
+    let compared = made.compared("hasty,sure", "time to declaration");
+    assert_eq!(compared[..5], ["20", "-100", "-100", "-100", "better"]);
+    assert!(made.page().contains("Warning: hasty looks faster"));
 }
 
 #[test]
 fn few_values_have_no_interval() {
     let rows = [arm("a", 4, |_| Some((1.0, 1.0))), arm("b", 4, |_| Some((2.0, 1.0)))].concat();
-    let dir = tempfile::tempdir().unwrap();
-    let written = write(dir.path(), &about(8), &rows).unwrap();
-    sound(dir.path());
-    assert!(written.text.matches("too few (n = 4)").count() >= 2 * 6 + 2 + 4, "{}", written.text);
-    let csv = fs::read_to_string(dir.path().join("arms.csv")).unwrap();
+    let made = Made::new(&about(8), &rows);
+    assert!(made.text.matches("too few (n = 4)").count() >= 2 * 6 + 2 + 4, "{}", made.text);
+    let csv = made.file("arms.csv");
     assert!(csv.contains("a,path median,4,,1801.5,,\n"), "{csv}");
-}
-
-#[test]
-fn success_is_shown_for_each_condition() {
-    let mut rows = arm("a", 10, |_| Some((1.0, 1.0)));
-    for r in &mut rows {
-        r.condition = format!("water.speed={}", r.seed_index % 2);
-    }
-    let dir = tempfile::tempdir().unwrap();
-    write(dir.path(), &about(10), &rows).unwrap();
-    let text = fs::read_to_string(dir.path().join("conditions.csv")).unwrap();
-    assert_eq!(text.lines().count(), 3);
-    assert!(text.contains("water.speed=1,a,5,5,1,"), "{text}");
 }
 
 #[test]
@@ -178,12 +165,10 @@ fn nothing_one_run_and_only_failures_make_a_report_too() {
         arm("a", 30, |_| Some((2.0, 0.0))),
     ];
     for rows in cases {
-        let dir = tempfile::tempdir().unwrap();
-        let written = write(dir.path(), &about(100), &rows).unwrap();
-        sound(dir.path());
-        assert!(written.text.contains("a part of the campaign"));
+        let text = Made::new(&about(100), &rows).text;
+        assert!(text.contains("a part of the campaign"));
         let failures = rows.iter().any(|r| r.error.is_some());
-        assert_eq!(written.text.contains("First failure: run 0: no water"), failures);
+        assert_eq!(text.contains("First failure: run 0: no water"), failures);
     }
 }
 
@@ -205,48 +190,46 @@ fn altered(arm_name: &str, alter: impl Fn(&mut RunRow)) -> Vec<RunRow> {
 
 #[test]
 fn each_arm_is_compared_with_the_one_that_is_asked_for() {
-    let rows = [altered("a", |_| {}), altered("b", |r| r.travelled_m += 10.0), altered("c", |r| r.travelled_m += 30.0)]
-        .concat();
-    let dir = tempfile::tempdir().unwrap();
-    let about = About { against: Some("b"), ..about(36) };
-    let written = write(dir.path(), &about, &rows).unwrap();
-    sound(dir.path());
-    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
-    let compared: Vec<&str> =
-        (pairs.lines().skip(1)).filter(|l| l.contains(",path,")).map(|l| l.split_once(",path,").unwrap().0).collect();
-    assert_eq!(compared, ["a,b", "c,b"]);
-    assert!(pairs.contains("a,b,path,12,-10,-10,-10,better,"), "{pairs}");
-    assert!(pairs.contains("c,b,path,12,20,20,20,worse,"), "{pairs}");
-    assert!(!written.text.contains("NaN"));
-    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-    assert!(html.contains("Each arm is compared with b."));
+    let longer = |name: &str, by_m: f64| altered(name, |r| r.travelled_m += by_m);
+    let rows = [longer("a", 0.0), longer("b", 10.0), longer("c", 30.0)].concat();
+    let made = Made::new(&About { against: Some("b"), ..about(36) }, &rows);
+    assert_eq!(made.file("differences.csv").matches(",path,").count(), 2);
+    assert_eq!(made.compared("a,b", "path")[..5], ["12", "-10", "-10", "-10", "better"]);
+    assert_eq!(made.compared("c,b", "path")[..5], ["12", "20", "20", "20", "worse"]);
+    assert!(made.page().contains("Each arm is compared with b."));
 }
 
 #[test]
-fn the_report_says_what_a_success_is_and_what_is_pooled() {
+fn the_report_says_what_arms_set_what_a_success_is_and_what_is_pooled() {
     let mut rows = altered("a", |_| {});
-    let rule = ["a source is declared within 40 m of a true one".to_string()];
-    let about = About { success: &rule, ..about(12) };
-    let said = |rows: &[RunRow], about: &About<'_>| {
-        let dir = tempfile::tempdir().unwrap();
-        let text = write(dir.path(), about, rows).unwrap().text;
-        let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-        (text, html)
-    };
-    let (text, html) = said(&rows, &about);
-    for page in [&text, &html] {
-        assert!(page.contains("Success: a source is declared within 40 m of a true one."), "{page}");
-        assert!(!page.contains("Pooled"), "{page}");
+    let rules = ["a source is declared within 40 m of a true one", "all sources are declared"].map(str::to_string);
+    let (arms, sets) = (["a".to_string()], ["robots[0].map=Hmm()".to_string()]);
+    let about = About { title: "One map & no more", arms: &arms, sets: &sets, success: &rules[..1], ..about(12) };
+    let one = Made::new(&about, &rows);
+    assert!(
+        one.text.starts_with("One map & no more\n") && one.text.contains("arm a: robots[0].map=Hmm()"),
+        "{}",
+        one.text
+    );
+    let page = one.page();
+    for says in ["<title>One map &amp; no more</title>", "<td>a</td><td>robots[0].map=Hmm()</td>", "seeds 1 to 40"] {
+        assert!(page.contains(says), "{says}: {page}");
     }
     for r in &mut rows {
         r.condition = format!("water.speed={}", r.seed_index % 3);
     }
-    let two = [rule[0].clone(), "all sources are declared".to_string()];
-    let differs = About { success: &two, ..about };
-    let (text, html) = said(&rows, &differs);
-    for page in [&text, &html] {
-        assert!(page.contains("within 40 m of a true one; or all sources are declared"), "{page}");
-        assert!(page.contains("Pooled: each figure of an arm is over all 3 conditions"), "{page}");
+    let three = Made::new(&About { success: &rules, ..about }, &rows);
+    let conditions = three.file("conditions.csv");
+    assert!(conditions.lines().count() == 4 && conditions.contains("water.speed=1,a,4,4,1,"), "{conditions}");
+    for (made, success, pooled) in [
+        (&one, "Success: a source is declared within 40 m of a true one.", false),
+        (&three, "within 40 m of a true one; or all sources are declared", true),
+    ] {
+        for said in [&made.text, &made.page()] {
+            assert!(said.contains(success), "{said}");
+            assert_eq!(said.contains("Pooled: each figure of an arm is over all 3 conditions"), pooled, "{said}");
+            assert_eq!(said.contains("Pooled"), pooled, "{said}");
+        }
     }
 }
 
@@ -258,18 +241,14 @@ fn no_cell_mixes_units_and_no_line_is_wider_than_the_terminal() {
         altered("far", |r| r.error_m = Some(0.8 + 0.1 * r.seed_index as f64)),
     ]
     .concat();
-    let dir = tempfile::tempdir().unwrap();
-    let wide = write(dir.path(), &about(24), &rows).unwrap().text;
-    assert!(wide.contains("median, m"), "{wide}");
-    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
-    for cell in html.split("<td>").skip(1).map(|c| c.split('<').next().unwrap()) {
-        let words: Vec<&str> = cell.split(' ').collect();
-        let units = words.iter().filter(|w| ["m", "cm", "s", "%"].contains(w));
+    let wide = Made::new(&about(24), &rows);
+    assert!(wide.text.contains("median, m"), "{}", wide.text);
+    for cell in wide.page().split("<td>").skip(1).map(|c| c.split('<').next().unwrap()) {
+        let units = cell.split(' ').filter(|w| ["m", "cm", "s", "%"].contains(w));
         assert!(units.count() == 0 || cell.contains("pairs"), "{cell}");
     }
     for columns in [100, 80, 40] {
-        let narrow = About { columns: Some(columns), ..about(24) };
-        let text = write(dir.path(), &narrow, &rows).unwrap().text;
+        let text = Made::new(&About { columns: Some(columns), ..about(24) }, &rows).text;
         for line in text.lines() {
             assert!(line.chars().count() <= columns, "{columns}: {line}");
         }

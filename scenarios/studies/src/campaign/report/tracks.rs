@@ -145,17 +145,11 @@ mod tests {
     #[test]
     fn successes_come_first_then_errors_then_missions() {
         // Successes in the order 1, 2, 4; then 5 with the lesser error before 3; then 0 without a declaration.
-        let rows = [
-            row(0, None),
-            row(1, Some((5.0, 0.0))),
-            row(2, Some((30.0, 0.0))),
-            row(3, Some((90.0, 0.0))),
-            row(4, Some((1.0, 0.0))),
-            row(5, Some((60.0, 0.0))),
-        ];
+        let errors = [None, Some(5.0), Some(30.0), Some(90.0), Some(1.0), Some(60.0)];
+        let rows: Vec<RunRow> = (0..).zip(errors).map(|(k, m)| row(k, m.map(|m| (m, 0.0)))).collect();
         let three = runs(&picks(&[], &rows));
         assert_eq!(three, [(Rank::Best, 1), (Rank::Median, 5), (Rank::Worst, 0)]);
-        let mut other_way: Vec<_> = rows.to_vec();
+        let mut other_way = rows.clone();
         other_way.reverse();
         assert_eq!(runs(&picks(&[], &other_way)), three);
         // The worst is the wrong declaration that is farthest off, when all have declared.

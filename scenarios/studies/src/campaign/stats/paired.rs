@@ -127,12 +127,8 @@ mod tests {
     use super::*;
 
     fn shares(both: usize, first: usize, second: usize, neither: usize) -> Vec<(bool, bool)> {
-        let of = |n, pair| std::iter::repeat_n(pair, n);
-        of(both, (true, true))
-            .chain(of(first, (true, false)))
-            .chain(of(second, (false, true)))
-            .chain(of(neither, (false, false)))
-            .collect()
+        let all = [((true, true), both), ((true, false), first), ((false, true), second), ((false, false), neither)];
+        all.into_iter().flat_map(|(pair, n)| std::iter::repeat_n(pair, n)).collect()
     }
 
     /// 53 and 8 discordant of 300: ((53.5 - 8.5)/302) ± 1.96 · sqrt(62/302 - d²) / sqrt(302).

@@ -140,18 +140,20 @@ impl Walls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rheotaxis::scenario::{load_text, template};
+    use rheotaxis::scenario::load;
     use std::cell::Cell;
-    use world::registry::Registry;
+    use std::path::Path;
+    use world::ranges::{NonNegative, Positive};
 
     /// Two arms of a channel, the second of which ends later.
     fn arms() -> [(String, Loaded); 2] {
-        let text = template("uniform_channel").expect("in the catalogue").text;
-        [3, 4].map(|limit_s| {
-            let times = format!("spin_up_s: 30, limit_s: {limit_s}");
-            let text = text.replace("spin_up_s: 2000, limit_s: 1800", &times);
-            let loaded = load_text(&Registry::default(), "short", &text);
-            (format!("{limit_s} s"), loaded.expect("legal"))
+        let channel = load(Path::new("uniform_channel")).expect("in the catalogue");
+        [3.0, 4.0].map(|limit_s| {
+            let short = channel.clone().edit(|s| {
+                s.time.spin_up_s = NonNegative::new(30.0);
+                s.time.limit_s = Positive::new(limit_s);
+            });
+            (format!("{limit_s} s"), short)
         })
     }
 
