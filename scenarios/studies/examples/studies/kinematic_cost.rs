@@ -18,11 +18,8 @@ use world::fields::Concentration;
 use world::frames::Truth;
 
 /// Steps of a tenth of a second, in which no instrument reads faster.
-const TENTHS: [(&str, &str); 3] = [
-    ("robots[0].sensors.compass.rate_hz", "10"),
-    ("robots[0].sensors.depth.rate_hz", "10"),
-    ("time.step_s", "0.1"),
-];
+const TENTHS: [(&str, &str); 3] =
+    [("robots[0].sensors.compass.rate_hz", "10"), ("robots[0].sensors.depth.rate_hz", "10"), ("time.step_s", "0.1")];
 /// Steps of a fifth of a second, in which no instrument reads faster.
 const FIFTHS: [(&str, &str); 4] = [
     ("robots[0].sensors.fluorometer.rate_hz", "5"),
