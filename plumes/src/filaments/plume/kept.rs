@@ -108,11 +108,7 @@ fn keep(store: &Store, to: &mut Writer) {
     to.write_list(number);
     to.write_list(born_s);
     if let Some(rise) = rise {
-        let numbers = |e: &Element| {
-            let Element { shared_m3, own_m3, momentum_m4_s, passed_m4_s2 } = *e;
-            [shared_m3, own_m3, momentum_m4_s, passed_m4_s2]
-        };
-        to.write_list(&rise.elements.iter().flat_map(numbers).collect::<Vec<f64>>());
+        to.write_list(&rise.elements.iter().flat_map(Element::numbers).collect::<Vec<f64>>());
         to.write_list(&rise.grown_m2);
     }
     if let Some(labels) = labels {
@@ -132,9 +128,9 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
     store.number = from.exactly(n)?;
     store.born_s = from.exactly(n)?;
     if let Some(rise) = &mut store.rise {
-        let numbers: Vec<f64> = from.exactly(4 * n)?;
-        let element = |v: &[f64]| Element { shared_m3: v[0], own_m3: v[1], momentum_m4_s: v[2], passed_m4_s2: v[3] };
-        rise.elements = numbers.chunks_exact(4).map(element).collect::<Vec<_>>().into();
+        let numbers: Vec<f64> = from.exactly(Element::NUMBERS * n)?;
+        let (numbers, _) = numbers.as_chunks();
+        rise.elements = numbers.iter().copied().map(Element::from_numbers).collect::<Vec<_>>().into();
         rise.grown_m2 = from.exactly(n)?.into();
     }
     if let Some(labels) = &mut store.labels {

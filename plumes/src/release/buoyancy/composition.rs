@@ -19,12 +19,13 @@ use world::ranges::{Finite, NonNegative, Positive};
 pub struct CompositionSpec {
     /// What is dissolved in it.
     pub solutes: Vec<DissolvedSpec>,
-    /// A further solute, of which there is as much as makes the release as dense as the water around.
+    /// A further solute, of which there is as much as makes the release as dense as the water around, if it is as warm
+    /// as that.
     pub neutral_with: Option<Solute>,
     /// Practical salinity of the water that it is made with; 0 is fresh water.
     #[serde(with = "world::limits::salinity")]
     pub salinity: NonNegative,
-    /// Temperature of the release, °C.
+    /// Temperature of the release, °C; a release that is warmer than the water around is lighter at once.
     #[serde(with = "world::limits::water_c")]
     pub temperature_c: Finite,
     /// Temperature of the water around, °C. Its salinity follows from its density.
@@ -92,7 +93,7 @@ impl CompositionSpec {
             solutes: self.solutes.iter().map(|s| (s.what, s.g_l.get())).collect(),
             water_g: 0.0,
             salinity: self.salinity.get(),
-            temperature_c: self.temperature_c.get(),
+            temperature_c: around_c,
         };
         for (n, spec) in self.solutes.iter().enumerate() {
             let most = spec.what.most_g_l();
@@ -112,6 +113,8 @@ impl CompositionSpec {
         if let Some(solute) = self.neutral_with {
             litre.make_neutral(solute, density_kg_m3)?;
         }
+        // Weighed out beside the flume, it may be released warmer or colder.
+        litre.temperature_c = self.temperature_c.get();
         if !litre.fill() {
             let problem =
                 "the solutes alone fill more than a litre: their volumes must leave room for water".to_owned();

@@ -56,7 +56,7 @@ impl Rise {
             thread: Thread {
                 volume_m3: volume_m3_s / rate_hz,
                 rate_hz,
-                least_m_s: volume_m3_s / (std::f64::consts::PI * radius_m * radius_m),
+                outflow_m_s: volume_m3_s / (std::f64::consts::PI * radius_m * radius_m),
                 curve,
             },
             profile: Profile::still(bed_m),

@@ -8,9 +8,13 @@
 //! compiled for each version of `path`. An element takes the same steps, to the same bits, beside any others.
 
 use super::cube_root::cube_roots;
-use super::element::{ACROSS, ALONG, Around, Element, SHARED, Thread};
+use super::element::{
+    ACROSS, ALONG, Around, DIFFUSIVITY_M2_S, Element, JET, LAMINAR, REACH, SHARED, STRAIN, Thread, VISCOSITY_M2_S,
+};
+use crate::release::Curve;
 use crate::simd::dispatch::InstructionSet;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
+use world::math;
 
 /// Largest part by which a scale changes in a step of the integration.
 const PART: f64 = 0.1;
@@ -27,24 +31,27 @@ struct AmbientLanes<const N: usize> {
     largest: [f64; N],
 }
 
-/// Some elements; see [`Element`].
+/// Some elements: each number of an [`Element`] side by side.
 #[derive(Clone, Copy)]
 struct ElementLanes<const N: usize> {
     shared: [f64; N],
+    core: [f64; N],
     own: [f64; N],
     momentum: [f64; N],
     passed: [f64; N],
+    thinned: [f64; N],
+    mixed: [f64; N],
 }
 
-/// Rates of change of some elements, their radii and how fast these grow.
+/// Rates of change of some elements.
 struct RateLanes<const N: usize> {
+    /// Speeds at which they rise.
     rise: [f64; N],
-    shared: [f64; N],
-    own: [f64; N],
-    force: [f64; N],
-    passed: [f64; N],
-    radius: [f64; N],
-    growth: [f64; N],
+    of: ElementLanes<N>,
+    /// The fastest rates at which any number of an element changes by itself, 1/s.
+    fastest: [f64; N],
+    /// Accelerations over the radii, 1/s².
+    lift: [f64; N],
 }
 
 /// Elements that rise, each from its height `z_m` for its time.
@@ -71,7 +78,7 @@ impl<const N: usize> RisingLanes<N> {
         while left_s.iter().any(|left| *left > 0.0) {
             let around = AmbientLanes::gather(&z, &at);
             let here = thread.rates(&e, &around);
-            let longest_s = here.longest_s(&e, &around);
+            let longest_s = here.longest_s(&around);
             let (mut step_s, mut half_s) = ([0.0; N], [0.0; N]);
             for l in 0..N {
                 step_s[l] = longest_s[l].max(dt_s[l] / MOST_STEPS).min(left_s[l]);
@@ -86,10 +93,7 @@ impl<const N: usize> RisingLanes<N> {
             for l in 0..N {
                 // One that has arrived stays as it is, whatever its rates.
                 if left_s[l] > 0.0 {
-                    e.shared[l] = next.shared[l];
-                    e.own[l] = next.own[l];
-                    e.momentum[l] = next.momentum[l];
-                    e.passed[l] = next.passed[l];
+                    e.replace(l, &next);
                     z[l] += step_s[l] * middle.rise[l];
                     left_s[l] -= step_s[l];
                     // What is left of rounding is no step.
@@ -123,9 +127,12 @@ impl<const N: usize> ElementLanes<N> {
     fn gather(some: &[Element; N]) -> Self {
         Self {
             shared: some.map(|e| e.shared_m3),
+            core: some.map(|e| e.core_m3),
             own: some.map(|e| e.own_m3),
             momentum: some.map(|e| e.momentum_m4_s),
             passed: some.map(|e| e.passed_m4_s2),
+            thinned: some.map(|e| e.thinned),
+            mixed: some.map(|e| e.mixed),
         }
     }
 
@@ -133,10 +140,25 @@ impl<const N: usize> ElementLanes<N> {
     fn apart(&self) -> [Element; N] {
         std::array::from_fn(|l| Element {
             shared_m3: self.shared[l],
+            core_m3: self.core[l],
             own_m3: self.own[l],
             momentum_m4_s: self.momentum[l],
             passed_m4_s2: self.passed[l],
+            thinned: self.thinned[l],
+            mixed: self.mixed[l],
         })
+    }
+
+    /// Takes one over from others, within its bounds: momentum is in no less than the core, and a sheet remains one.
+    #[inline(always)]
+    fn replace(&mut self, l: usize, other: &Self) {
+        self.core[l] = other.core[l];
+        self.shared[l] = other.shared[l].max(other.core[l]);
+        self.own[l] = other.own[l];
+        self.momentum[l] = other.momentum[l];
+        self.passed[l] = other.passed[l];
+        self.thinned[l] = other.thinned[l].max(1e-12);
+        self.mixed[l] = other.mixed[l].min(Curve::MIXED);
     }
 
     /// After times, s.
@@ -144,10 +166,22 @@ impl<const N: usize> ElementLanes<N> {
     fn on(&self, rates: &RateLanes<N>, dt_s: &[f64; N]) -> Self {
         let mut to = *self;
         for (l, dt_s) in dt_s.iter().enumerate() {
-            to.shared[l] += dt_s * rates.shared[l];
-            to.own[l] += dt_s * rates.own[l];
-            to.momentum[l] += dt_s * rates.force[l];
-            to.passed[l] += dt_s * rates.passed[l];
+            to.shared[l] += dt_s * rates.of.shared[l];
+            to.core[l] += dt_s * rates.of.core[l];
+            to.own[l] += dt_s * rates.of.own[l];
+            to.momentum[l] += dt_s * rates.of.momentum[l];
+            to.passed[l] += dt_s * rates.of.passed[l];
+            to.thinned[l] += dt_s * rates.of.thinned[l];
+            to.mixed[l] += dt_s * rates.of.mixed[l];
+        }
+        to.with_bounds()
+    }
+
+    #[inline(always)]
+    fn with_bounds(self) -> Self {
+        let mut to = self;
+        for l in 0..N {
+            to.replace(l, &self);
         }
         to
     }
@@ -156,40 +190,67 @@ impl<const N: usize> ElementLanes<N> {
 impl Thread {
     #[inline(always)]
     fn rates<const N: usize>(&self, e: &ElementLanes<N>, around: &AmbientLanes<N>) -> RateLanes<N> {
-        let mut new = RateLanes {
-            rise: [0.0; N],
-            shared: [0.0; N],
-            own: [0.0; N],
-            force: [0.0; N],
-            passed: [0.0; N],
-            radius: [0.0; N],
-            growth: [0.0; N],
-        };
-        let [mut own_m_s, mut own_r, mut round, mut stirring, mut dilution] = [[0.0; N]; 5];
+        let [mut ahead, mut drawn, mut rise, mut turbulent, mut lift] = [[0.0; N]; 5];
+        let [mut radius, mut core_radius, mut own_radius, mut through] = [[0.0; N]; 4];
+        let [mut stirring, mut core_stirring, mut reach] = [[0.0; N]; 3];
         for l in 0..N {
-            let (u, w) = (around.speed[l], e.momentum[l] / e.shared[l]);
-            let drawn = self.drawn_m_s(u, w);
-            let length = drawn / self.rate_hz;
-            let r = (e.shared[l] * self.rate_hz / (PI * drawn)).sqrt();
-            own_r[l] = (e.own[l] * self.rate_hz / (PI * drawn)).sqrt();
-            own_m_s[l] = (ALONG * w * w + ACROSS * u * w.abs()) / drawn;
-            round[l] = TAU * length;
-            stirring[l] = around.dissipation[l] * r.min(around.largest[l]);
-            dilution[l] = e.shared[l] / self.volume_m3;
-            (new.rise[l], new.radius[l]) = (w, r);
+            reach[l] = e.shared[l] / e.core[l];
+            lift[l] = e.mixed[l];
+        }
+        // What is not vector code.
+        for l in 0..N {
+            reach[l] = 1.0 + REACH * math::ln(reach[l]);
+            lift[l] = self.curve.at(lift[l]);
+        }
+        for l in 0..N {
+            let w = e.momentum[l] / e.shared[l];
+            (ahead[l], drawn[l]) = self.ahead_and_drawn_m_s(e.shared[l], around.speed[l], w);
+            let disc = self.rate_hz / (PI * drawn[l]);
+            radius[l] = (e.core[l] * reach[l] * disc).sqrt();
+            core_radius[l] = (e.core[l] * disc).sqrt();
+            own_radius[l] = (e.own[l] * disc).sqrt();
+            through[l] = (ahead[l] * ahead[l] + w * w).sqrt();
+            turbulent[l] = (through[l] * core_radius[l] / (LAMINAR * VISCOSITY_M2_S) - 1.0).clamp(0.0, 1.0);
+            stirring[l] = around.dissipation[l] * radius[l].min(around.largest[l]);
+            core_stirring[l] = around.dissipation[l] * core_radius[l].min(around.largest[l]);
+            rise[l] = w;
         }
         cube_roots(&mut stirring);
-        // What is not vector code.
-        for dilution in &mut dilution {
-            *dilution = self.curve.at(*dilution);
-        }
+        cube_roots(&mut core_stirring);
+        let changes = self.curve.changes();
+        let sheet_m2 = self.sheet_m2();
+        let mut new = RateLanes { rise, of: *e, fastest: [0.0; N], lift: [0.0; N] };
         for l in 0..N {
-            let stirred_m_s = SHARED * stirring[l];
-            new.shared[l] = round[l] * new.radius[l] * (own_m_s[l] + stirred_m_s);
-            new.own[l] = round[l] * own_r[l] * own_m_s[l];
-            new.force[l] = self.volume_m3 * dilution[l] + e.passed[l];
-            new.passed[l] = -around.n2[l] * e.momentum[l];
-            new.growth[l] = own_m_s[l] + stirred_m_s;
+            let (u, w) = (around.speed[l], rise[l]);
+            let by_itself = JET * ahead[l] * (u + ahead[l]) + ALONG * w * w + ACROSS * u * w.abs();
+            let own_m_s = turbulent[l] * by_itself / drawn[l];
+            // Within the finest eddies the water is only strained.
+            let strained = (around.dissipation[l] / (15.0 * VISCOSITY_M2_S)).sqrt();
+            let stirred = |rooted: f64, r: f64| SHARED * rooted.min(r * strained);
+            let growth = own_m_s + stirred(stirring[l], radius[l]) + 4.0 * VISCOSITY_M2_S / radius[l];
+            let core_growth = own_m_s + stirred(core_stirring[l], core_radius[l]);
+            let spreading = 2.0 * growth / radius[l];
+            let core_spreading = 2.0 * core_growth / core_radius[l];
+            let force = self.volume_m3 * lift[l] + e.passed[l];
+            let still = e.momentum[l] == 0.0;
+            let fresh = if still { 0.0 } else { (force / e.momentum[l]).max(0.0) };
+            let gathering = if still {
+                0.5 * (spreading - core_spreading).max(0.0)
+            } else {
+                fresh * (e.shared[l] / e.core[l] - 1.0)
+            };
+            let own_dissipation = turbulent[l] * through[l] * through[l] * through[l] / core_radius[l];
+            let strain = STRAIN * ((around.dissipation[l] + own_dissipation) / VISCOSITY_M2_S).sqrt();
+            let thinning = if changes && e.mixed[l] < Curve::MIXED { strain } else { 0.0 };
+            new.of.shared[l] = e.shared[l] * (spreading - gathering);
+            new.of.core[l] = e.core[l] * core_spreading;
+            new.of.own[l] = e.own[l] * 2.0 * own_m_s / own_radius[l];
+            new.of.momentum[l] = force;
+            new.of.passed[l] = -around.n2[l] * e.momentum[l];
+            new.of.thinned[l] = -2.0 * thinning * e.thinned[l];
+            new.of.mixed[l] = if changes { DIFFUSIVITY_M2_S / (sheet_m2 * e.thinned[l]) } else { 0.0 };
+            new.lift[l] = force.abs() / (e.shared[l] * radius[l]);
+            new.fastest[l] = (0.5 * spreading).max(gathering).max(fresh).max(0.5 * core_spreading).max(2.0 * thinning);
         }
         new
     }
@@ -198,14 +259,11 @@ impl Thread {
 impl<const N: usize> RateLanes<N> {
     /// Longest steps in which no scale of an element changes much, s.
     #[inline(always)]
-    fn longest_s(&self, e: &ElementLanes<N>, around: &AmbientLanes<N>) -> [f64; N] {
+    fn longest_s(&self, around: &AmbientLanes<N>) -> [f64; N] {
         let mut longest_s = [0.0; N];
         for (l, longest_s) in longest_s.iter_mut().enumerate() {
-            let lift = self.force[l].abs() / e.shared[l];
-            *longest_s = PART
-                * (self.radius[l] / self.growth[l])
-                    .min((self.radius[l] / lift).sqrt())
-                    .min(1.0 / around.n2[l].abs().sqrt());
+            *longest_s =
+                PART * (1.0 / self.fastest[l]).min(1.0 / self.lift[l].sqrt()).min(1.0 / around.n2[l].abs().sqrt());
         }
         longest_s
     }
