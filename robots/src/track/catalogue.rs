@@ -29,7 +29,7 @@ pub const UNITS: &[Entry] = &[
     },
     Entry {
         name: "predictor",
-        what: "spike characteristics predictor from 2-10 s of memory: Mean or Trend",
+        what: "spike characteristics predictor from 2-10 s of memory: their mean",
         source: "Webster et al. 2012, section 4",
     },
     Entry {
@@ -67,24 +67,14 @@ pub const READINGS: &[Entry] = &[
         source: "\"'Average' means time average over the period since the previous step\"",
     },
     Entry {
-        name: "history.since",
-        what: "Decision, or Arrival: whether spikes met in motion count",
-        source: "\"the period since the previous step\"",
-    },
-    Entry {
         name: "history.centre_weight",
         what: "2, from just above 1: weight of the centre probe",
         source: "\"the center probe has greater weighting for this function compared to the other probes\"",
     },
     Entry {
-        name: "predictor",
-        what: "Mean or Trend, of 5 s: what is expected of the next step",
+        name: "predictor.memory_s",
+        what: "5 s, from 2 to 10: of which time the mean is expected of the next step",
         source: "\"short-term (2-10 s) memory data to predict the characteristics of a one-step-ahead measurement\"",
-    },
-    Entry {
-        name: "advance.signed",
-        what: "true, or false: whether more than predicted is an error",
-        source: "\"prediction error (i.e. predicted value minus the average spike magnitude)\"",
     },
     Entry {
         name: "contrast.of",
@@ -95,11 +85,6 @@ pub const READINGS: &[Entry] = &[
         name: "sweep.best",
         what: "Peak, or Centroid: where a sweep leads back to",
         source: "\"the identified location of the greatest peak concentration\"",
-    },
-    Entry {
-        name: "threshold.over, threshold.each_probe",
-        what: "AboveFloor or Accepted; true or false: which spikes the running average has",
-        source: "\"half of a running average of the spike concentration values\"",
     },
     Entry {
         name: "stop.window_s, stop.count",

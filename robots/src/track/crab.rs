@@ -130,9 +130,6 @@ impl Strategy<HeadGoal> for CrabTracker {
             self.analyse(scan, joints);
         }
         let at = self.command.progress(t, joints);
-        if at.rest_s.is_some() {
-            self.history.arrive();
-        }
         let step = self.history.record(t);
         self.working.magnitude_v = step.mean_v;
         self.working.predicted_v = step.predicted_v;

@@ -85,7 +85,7 @@ impl Curve {
 /// Mean of the lift over the mass of a slab of unit thickness that has diffused for a time.
 fn mean_over_sheet(by_dilution: &LiftByDilution, mixed: f64) -> f64 {
     // Half of it, by the midpoint rule. What lies farther out is less than a millionth.
-    const CELLS: usize = 4000;
+    const CELLS: usize = 400;
     let spread = 2.0 * mixed.sqrt();
     let cell = (0.5 + 4.0 * spread) / CELLS as f64;
     let (mut mass, mut sum) = (0.0, 0.0);

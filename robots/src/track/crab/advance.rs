@@ -5,8 +5,8 @@
 //! up-stream, in a binary fashion (`Gated`).
 //!
 //! *Parameters*: `StepRule`: present magnitude over the previous one `ratio`, 1 (0.9 and 1.1 were tried in the
-//! paper); prediction error `prediction_error`, a share of the prediction, 0.02; whether that error has a sign,
-//! `signed`, true: the paper defines it as "predicted value minus the average spike magnitude" and takes a large one
+//! paper); prediction error `prediction_error`, a share of the prediction, 0.02. That error has a sign:
+//! the paper defines it as "predicted value minus the average spike magnitude" and takes a large one
 //! for a perceived loss, so that a magnitude above the prediction is no error. `Gated`: least number of spikes in the
 //! step, `spikes`, 1; where the next step is measured from, `from`, `Head`: the head's own place, as in the paper. That
 //! leads nearly two steps beyond a spike that was met early in a step. From `Spike`, the most up-stream spike of this
@@ -43,9 +43,6 @@ pub struct StepRule {
     /// Otherwise the prediction error must be below this share of the prediction.
     #[default(NonNegative::new(0.02))]
     pub prediction_error: NonNegative,
-    /// Whether more than predicted counts as no error.
-    #[default(true)]
-    pub signed: bool,
 }
 
 /// Parameters of the gate.
@@ -85,11 +82,8 @@ impl AdvanceSpec {
             Self::StepRule(_) if step.spikes == 0 => false,
             Self::StepRule(p) => {
                 let more = step.previous_v.is_none_or(|before| step.mean_v > p.ratio.get() * before);
-                more || step.predicted_v.is_some_and(|predicted| {
-                    let error = predicted - step.mean_v;
-                    let error = if p.signed { error } else { error.abs() };
-                    error < p.prediction_error.get() * predicted
-                })
+                let lost = |predicted: f64| predicted - step.mean_v >= p.prediction_error.get() * predicted;
+                more || step.predicted_v.is_some_and(|predicted| !lost(predicted))
             }
         }
     }
@@ -120,8 +114,6 @@ mod tests {
         assert!(!rule.allows(&step(0, 0.0, 0.0, 0.0)), "nothing");
         let first = StepRecord { spikes: 1, mean_v: 0.1, ..Default::default() };
         assert!(rule.allows(&first));
-        let both = AdvanceSpec::StepRule(StepRule { signed: false, ..Default::default() });
-        assert!(!both.allows(&step(3, 0.97, 1.0, 0.5)));
     }
 
     #[test]

@@ -93,7 +93,6 @@ proptest! {
     #[test]
     fn arbitrary_signals_leave_the_head_in_its_travel(seed in 0..1000u64, arm in 0..3usize) {
         let spec = [CrabSpec::default(), CrabSpec::adaptive(), CrabSpec {
-            predictor: PredictorSpec::Trend(Trend::default()),
             history: over_spikes(),
             advance: AdvanceSpec::Gated(Gated::default()),
             ..CrabSpec::adaptive()

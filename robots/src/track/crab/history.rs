@@ -6,8 +6,7 @@
 //!
 //! *Parameters*: weight of a spike of the centre probe relative to one of a steering probe, `centre_weight` (not
 //! published), 2: the least whole number that is "greater", with which the one centre probe counts as much as the two
-//! sides together; start of the average, `since`, `Decision`: the paper's words, so that spikes met in motion count;
-//! `Arrival` takes only those at rest.
+//! sides together. It begins with the decision that began the step, so that spikes met in motion count.
 //!
 //! What the average runs over, `over`, `Time`: "'Average' means time average over the period since the previous step",
 //! the sum of magnitudes in a second; `Spikes`, their mean, compares magnitudes alone, so that how often spikes come
@@ -21,15 +20,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use world::ranges::Positive;
-
-/// Where a step's average begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Since {
-    /// With the decision that began the step.
-    Decision,
-    /// When the head came to rest.
-    Arrival,
-}
 
 /// Over what a step's magnitude is averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -47,9 +37,6 @@ pub struct HistorySpec {
     /// Weight of a centre probe's spike; a steering probe's is 1.
     #[default(Positive::new(2.0))]
     pub centre_weight: Positive,
-    /// Where a step's average begins.
-    #[default(Since::Decision)]
-    pub since: Since,
     /// Over what it is taken.
     #[default(Over::Time)]
     pub over: Over,
@@ -62,7 +49,6 @@ pub struct History {
     left: usize,
     right: usize,
     began_s: f64,
-    arrived: bool,
     tallies: [Tally; MAX_PROBES],
     foremost_m: Option<f64>,
     previous_v: Option<f64>,
@@ -85,14 +71,6 @@ impl History {
         self.tallies[spike.probe].add(spike.magnitude_v);
         let forward_m = spike.place_m.x;
         self.foremost_m = Some(self.foremost_m.map_or(forward_m, |m| m.max(forward_m)));
-    }
-
-    /// The head has come to rest.
-    pub fn arrive(&mut self) {
-        if !self.arrived && self.spec.since == Since::Arrival {
-            (self.tallies, self.foremost_m) = Default::default();
-        }
-        self.arrived = true;
     }
 
     /// The period up to `t_s`.
@@ -134,7 +112,6 @@ impl History {
 
     fn begin(&mut self, t_s: f64, predicted_v: Option<f64>) {
         self.began_s = t_s;
-        self.arrived = false;
         (self.tallies, self.foremost_m) = Default::default();
         self.predicted_v = predicted_v;
     }
@@ -162,20 +139,6 @@ mod tests {
     }
 
     #[test]
-    fn the_average_may_begin_at_rest() {
-        for (since, mean) in [(Since::Decision, 2.0), (Since::Arrival, 3.0)] {
-            let spec = HistorySpec { since, over: Over::Spikes, ..Default::default() };
-            let mut h = History::new(&spec, 0, 1);
-            h.forget(0.0, None);
-            h.add(&spike(0.5, 0, 1.0));
-            h.arrive();
-            h.add(&spike(2.0, 0, 3.0));
-            h.arrive();
-            assert_eq!(h.record(3.0).mean_v, mean, "{since:?}");
-        }
-    }
-
-    #[test]
     fn the_average_may_run_over_time() {
         let mut h = History::new(&HistorySpec::default(), 0, 1);
         h.forget(1.0, None);
@@ -195,7 +158,6 @@ mod tests {
             s.place_m.x = forward_m;
             h.add(&s);
         }
-        h.arrive();
         assert_eq!(h.record(4.0).foremost_m, Some(0.7));
         h.next(4.0, None);
         assert_eq!(h.record(5.0).foremost_m, None);

@@ -3,7 +3,7 @@
 use super::advance::{self, AdvanceSpec};
 use super::builder::{KEPT, SweepSpec};
 use super::decide::{AtEnd, Rules};
-use super::history::{HistorySpec, Over};
+use super::history::HistorySpec;
 use super::pace::{self, PaceSpec};
 use super::predictor::PredictorSpec;
 use super::steer::{self, ContrastSpec};
@@ -86,11 +86,6 @@ impl CrabSpec {
             let all = along[1] - along[0];
             most("travel_m", travel_m.get(), all, "travel along the stream in m")?;
         }
-        require(
-            self.history.over != Over::Time || !matches!(self.predictor, PredictorSpec::Trend(_)),
-            "tracker.Crab.predictor",
-            "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean",
-        )?;
         let span = self.sweep.span_m.get();
         most("sweep.span_m", span, width, "travel across the stream in m")?;
         let [max_f, max_l] = layout.max_speed_m_s;
@@ -172,8 +167,6 @@ mod tests {
             refused(|s| s.speed = PaceSpec::Adaptive(fast)),
             "tracker.Crab.speed.most_m_s: must be at most 0.15, the gantry's speed along the stream in m/s, got 0.2"
         );
-        let trend = refused(|s| s.predictor = PredictorSpec::Trend(Default::default()));
-        assert!(trend.starts_with("tracker.Crab.predictor: Trend predicts"), "{trend}");
         let turned = stop::Experience { least_hz: Positive::new(9.0), ..Default::default() };
         assert!(refused(|s| s.stop = StopSpec::Experience(turned)).contains("must not exceed most_hz"));
     }

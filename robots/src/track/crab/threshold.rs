@@ -4,10 +4,10 @@
 //! 2011a (J. Exp. Biol. 214:1498), who give each animal a threshold of its own.
 //!
 //! *Parameters*: `HalfMean`: floor `floor_v`, V, -4.98; share of the average `share`, 1/2; memory of the average
-//! `memory_s` (not published), 10 s, the upper end of the paper's short-term memory; which spikes are averaged,
-//! `over` (not published), those above the floor: the floor is applied first and "thereafter" the average is formed,
-//! and an average of accepted spikes alone would never come down in weaker water; whether each probe has its own
-//! average, `each_probe` (not published), true: the paper's Fig. 8 judges one record by its own threshold. `Level`: a
+//! `memory_s` (not published), 10 s, the upper end of the paper's short-term memory. Averaged are
+//! all spikes above the floor: it is applied first and "thereafter" the average is formed, and an average of accepted
+//! spikes alone would never come down in weaker water. Each probe has its own average: the paper's Fig. 8 judges one
+//! record by its own threshold. `Level`: a
 //! constant `level_v`, for comparison.
 //!
 //! *Deviations*: the running average decays with time (e-fold in `memory_s`), not with the number of spikes: an old
@@ -45,21 +45,6 @@ pub struct HalfMean {
     /// Time constant with which the average decays, s.
     #[default(Positive::new(10.0))]
     pub memory_s: Positive,
-    /// Which local maxima are averaged.
-    #[default(Averaged::AboveFloor)]
-    pub over: Averaged,
-    /// Whether each probe has its own average; otherwise all share one.
-    #[default(true)]
-    pub each_probe: bool,
-}
-
-/// Which local maxima enter the average.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Averaged {
-    /// All above the floor.
-    AboveFloor,
-    /// Only those above the threshold itself.
-    Accepted,
 }
 
 /// Parameters of the constant level.
@@ -98,7 +83,7 @@ impl ThresholdAnalyser {
         match &self.spec {
             ThresholdSpec::Level(p) => p.level_v.get() - self.bottom_v,
             ThresholdSpec::HalfMean(p) => {
-                let r = &self.running[if p.each_probe { probe } else { 0 }];
+                let r = &self.running[probe];
                 let floor = p.floor_v.get() - self.bottom_v;
                 if r.weight > 0.0 { floor.max(p.share.get() * r.sum_v / r.weight) } else { floor }
             }
@@ -109,12 +94,8 @@ impl ThresholdAnalyser {
     pub fn accepts(&mut self, top: &Spike) -> bool {
         let accepted = top.magnitude_v > self.above_v(top.probe);
         if let ThresholdSpec::HalfMean(p) = &self.spec {
-            let enters = match p.over {
-                Averaged::Accepted => accepted,
-                Averaged::AboveFloor => top.magnitude_v > p.floor_v.get() - self.bottom_v,
-            };
-            if enters {
-                let r = &mut self.running[if p.each_probe { top.probe } else { 0 }];
+            if top.magnitude_v > p.floor_v.get() - self.bottom_v {
+                let r = &mut self.running[top.probe];
                 let fade = math::exp(-(top.t_s - r.t_s).max(0.0) / p.memory_s.get());
                 *r = Running { t_s: top.t_s, weight: r.weight * fade + 1.0, sum_v: r.sum_v * fade + top.magnitude_v };
             }
@@ -148,18 +129,6 @@ mod tests {
     }
 
     #[test]
-    fn an_average_of_accepted_spikes_does_not_come_down() {
-        let mut a = with(|p| p.over = Averaged::Accepted);
-        assert!(a.accepts(&spike(0.0, 0, 1.0)));
-        for k in 1..100 {
-            assert!(!a.accepts(&spike(f64::from(k), 0, 0.4)));
-        }
-        let mut b = with(|_| {});
-        assert!(b.accepts(&spike(0.0, 0, 1.0)));
-        assert!((1..100).any(|k| b.accepts(&spike(f64::from(k), 0, 0.4))));
-    }
-
-    #[test]
     fn it_forgets_in_its_memory() {
         let mut a = with(|p| p.memory_s = Positive::new(2.0));
         a.accepts(&spike(0.0, 0, 4.0));
@@ -169,10 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn probes_may_share_one_average_and_a_level_stays() {
-        let mut a = with(|p| p.each_probe = false);
-        a.accepts(&spike(0.0, 2, 1.0));
-        assert!((a.above_v(0) - 0.5).abs() < 1e-12);
+    fn a_level_stays() {
         let mut level = ThresholdAnalyser::new(&ThresholdSpec::Level(Level::default()), -5.0);
         assert!(level.accepts(&spike(0.0, 0, 3.0)));
         assert!((level.above_v(0) - 0.02).abs() < 1e-12);

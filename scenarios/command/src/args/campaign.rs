@@ -43,6 +43,9 @@ pub enum CampaignCommand {
     /// Compare the arms: tables, figures and a page.
     #[command(long_about = REPORT_ABOUT)]
     Report(ReportArgs),
+    /// Weigh drawn arms by the figures that a paper prints.
+    #[command(long_about = IDENTIFY_ABOUT)]
+    Identify(IdentifyArgs),
     /// Repeat one run, with all the files that `rheotaxis run` writes.
     #[command(long_about = RERUN_ABOUT)]
     Rerun(RerunArgs),
@@ -133,6 +136,20 @@ pub struct MergeArgs {
     pub csv: bool,
 }
 
+/// Arguments of `campaign identify`.
+#[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
+pub struct IdentifyArgs {
+    /// Folder of the campaign that draws the arms, and of the rounds after it.
+    #[arg(value_name = "DIR", required = true)]
+    pub dirs: Vec<PathBuf>,
+    /// Row with the paper's figures, by its name or file [default: that of the first campaign's name].
+    #[arg(long, value_name = "ROW")]
+    pub figures: Option<PathBuf>,
+    /// Folder for the results.
+    #[arg(long, short, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
 /// Arguments of `campaign rerun`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
 #[command(after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or an error; \
@@ -174,6 +191,19 @@ pub(super) const CAMPAIGN_ABOUT: &str = "A campaign runs variants of a scenario 
 /// What the help of this command begins with.
 pub(super) const RERUN_ABOUT: &str = "Repeats one run of a campaign and writes the files that `rheotaxis run` writes. Its digest must be \
         the one in the row.";
+
+/// What the help of this command begins with.
+pub(super) const IDENTIFY_ABOUT: &str = "Which of a campaign's drawn arms (`drawn_arms`) give the figures that a paper prints? Each draw is weighed by how \
+        likely the paper's figures are where its runs are the truth (approximate Bayesian computation with the \
+        figures' own sampling errors). The figures are those of the first arm of a row of `rheotaxis reproduce` that \
+        say how well they are known.\n\n\
+        A first round of a few seeds leaves most draws out. `next.ron` is the campaign of the others, on the seeds \
+        that follow; run it, then name both folders:\n\n  \
+        rheotaxis campaign run crab_identify --out round1\n  \
+        rheotaxis campaign identify round1 --out found1\n  \
+        rheotaxis campaign run found1/next.ron --out round2\n  \
+        rheotaxis campaign identify round1 round2 --out found\n\n\
+        It writes IDENTIFICATION.md, draws.csv, next.ron and a picture of all pairs of unknowns.";
 
 /// What the help of this command begins with.
 pub(super) const REPORT_ABOUT: &str = "Compares the arms of a campaign, even if it is not complete. The report has:\n\n\

@@ -64,7 +64,7 @@ pub(crate) fn run(registry: &Registry, args: &ReproduceArgs) -> Result<Exit, Fai
 }
 
 /// The command as it was typed.
-fn command() -> String {
+pub(super) fn command() -> String {
     let typed = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
     std::iter::once("rheotaxis".to_owned()).chain(typed).collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,7 @@
 //! The runs of a campaign: their number, their seeds and their scenarios.
 
 use super::error::CampaignError;
-use super::spec::{Arm, CampaignSpec, Conditions, Draw};
+use super::spec::{Arm, CampaignSpec, Conditions};
 use super::threads::with_threads;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
@@ -9,8 +9,7 @@ use rheotaxis::scenario::{Loaded, set_value};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
 use std::path::Path;
-use world::math;
-use world::seeds::{Key, Seed, Stream};
+use world::seeds::{Key, Seed};
 
 /// A campaign, read and laid out.
 #[derive(Clone, Debug)]
@@ -115,13 +114,7 @@ impl Campaign {
                 set.reverse();
                 set
             }
-            Conditions::Random(random) => (random.draw.iter())
-                .map(|(path, draw)| {
-                    let entity = format!("condition {condition}");
-                    let u = Stream::new(random.seed.unwrap_or(1), &entity, path).uniform();
-                    (path.clone(), drawn(draw, u))
-                })
-                .collect(),
+            Conditions::Random(random) => random.set("condition", condition),
         }
     }
 
@@ -198,18 +191,6 @@ impl Campaign {
             })
             .min_by_key(|(i, _)| *i);
         first.map_or(Ok(()), |(_, error)| Err(error))
-    }
-}
-
-/// The value at `u` in [0, 1) of a distribution.
-fn drawn(draw: &Draw, u: f64) -> String {
-    match draw {
-        Draw::Uniform(a, b) => (a + (b - a) * u).to_string(),
-        Draw::LogUniform(a, b) => {
-            let (a, b) = (math::ln(*a), math::ln(*b));
-            math::exp(a + (b - a) * u).to_string()
-        }
-        Draw::Choice(values) => values[(u * values.len() as f64) as usize].clone(),
     }
 }
 

@@ -5,10 +5,15 @@ use rheotaxis::explain::FileKind;
 use rheotaxis::scenario::{Outline, ScenarioError, UnplacedFault, Version, read, version_first};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::math;
 use world::registry::Registry;
+use world::seeds::Stream;
 
 /// The half width that an interval of a share must be narrower than to say anything.
 const WIDEST: f64 = 0.5;
+
+/// Arms that may be drawn: those of a seed run side by side.
+const MOST_ARMS: u64 = 10_000;
 
 /// Campaign files, for `rheotaxis explain`.
 pub const FILE: FileKind =
@@ -31,7 +36,11 @@ pub struct CampaignSpec {
     #[serde(default)]
     pub until: Option<Until>,
     /// The things compared, at least one.
+    #[serde(default)]
     pub arms: Vec<Arm>,
+    /// Further arms, drawn at random and called `draw 1`, `draw 2`, ...
+    #[serde(default)]
+    pub drawn_arms: Option<RandomDraws>,
     /// The conditions under which they are compared.
     #[serde(default)]
     pub conditions: Conditions,
@@ -74,14 +83,14 @@ pub enum Conditions {
     /// Every combination of these values; the last path changes fastest.
     Grid(Vec<(String, Vec<String>)>),
     /// Drawn at random.
-    Random(RandomConditions),
+    Random(RandomDraws),
 }
 
-/// Conditions drawn at random.
+/// Conditions or arms drawn at random.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RandomConditions {
-    /// Number of conditions.
+pub struct RandomDraws {
+    /// Number of them.
     #[schemars(extend("minimum" = 1, "maximum" = MOST))]
     pub n: u64,
     /// Seed of the random values; 1 by default.
@@ -109,7 +118,11 @@ impl CampaignSpec {
     /// If it is not a campaign, with the place.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
         version_first(name, text, &Outline::scan(text))?;
-        read(&Registry::default(), name, text, Self::check)
+        let mut spec: Self = read(&Registry::default(), name, text, Self::check)?;
+        if let Some(drawn) = &spec.drawn_arms {
+            spec.arms.extend((0..drawn.n).map(|k| Arm { name: format!("draw {}", k + 1), set: drawn.set("arm", k) }));
+        }
+        Ok(spec)
     }
 
     /// Number of runs.
@@ -145,7 +158,7 @@ impl CampaignSpec {
             let got = until.half_width;
             wrong("until.half_width", format!("must be above 0 and below {WIDEST}, got {got}"));
         }
-        if self.arms.is_empty() {
+        if self.arms.is_empty() && self.drawn_arms.is_none() {
             wrong("arms", "there must be at least one arm".to_string());
         }
         for (i, arm) in self.arms.iter().enumerate() {
@@ -168,18 +181,16 @@ impl CampaignSpec {
                 axes.iter().map(|(path, _)| path).collect()
             }
             Conditions::Random(random) => {
-                if !(1..=MOST).contains(&random.n) {
-                    let got = random.n;
-                    wrong("conditions.n", format!("must be from 1 to {MOST}, got {got}"));
-                }
-                for (i, (_, draw)) in random.draw.iter().enumerate() {
-                    if let Err(problem) = draw.check() {
-                        wrong(&format!("conditions.draw[{i}]"), problem);
-                    }
-                }
-                random.draw.iter().map(|(path, _)| path).collect()
+                random.check("conditions", MOST, &mut wrong);
+                random.paths().collect()
             }
         };
+        if let Some(drawn) = &self.drawn_arms {
+            drawn.check("drawn_arms", MOST_ARMS, &mut wrong);
+            for path in drawn.paths().filter(|path| varied.contains(path)) {
+                wrong("drawn_arms.draw", format!("`{path}` is set by the conditions too"));
+            }
+        }
         for (i, arm) in self.arms.iter().enumerate() {
             for (path, _) in &arm.set {
                 if varied.contains(&path) {
@@ -187,8 +198,8 @@ impl CampaignSpec {
                 }
             }
         }
-        let runs =
-            (self.n_conditions()).checked_mul(self.seeds.count()).and_then(|n| n.checked_mul(self.arms.len() as u64));
+        let n_arms = (self.arms.len() as u64).saturating_add(self.drawn_arms.as_ref().map_or(0, |drawn| drawn.n));
+        let runs = (self.n_conditions()).checked_mul(self.seeds.count()).and_then(|n| n.checked_mul(n_arms));
         if runs.is_none_or(|n| n > MOST) {
             wrong("seeds", format!("the campaign has more than {MOST} runs (arms x conditions x seeds)"));
         }
@@ -196,7 +207,46 @@ impl CampaignSpec {
     }
 }
 
+impl RandomDraws {
+    /// The paths that vary.
+    fn paths(&self) -> impl Iterator<Item = &String> {
+        self.draw.iter().map(|(path, _)| path)
+    }
+
+    /// The paths and values of the `k`-th condition or arm, as `what` says.
+    pub(super) fn set(&self, what: &str, k: u64) -> Vec<(String, String)> {
+        let drawn = |(path, draw): &(String, Draw)| {
+            let u = Stream::new(self.seed.unwrap_or(1), &format!("{what} {k}"), path).uniform();
+            (path.clone(), draw.value(u))
+        };
+        self.draw.iter().map(drawn).collect()
+    }
+
+    fn check(&self, field: &str, most: u64, wrong: &mut impl FnMut(&str, String)) {
+        if !(1..=most).contains(&self.n) {
+            wrong(&format!("{field}.n"), format!("must be from 1 to {most}, got {}", self.n));
+        }
+        for (i, (_, draw)) in self.draw.iter().enumerate() {
+            if let Err(problem) = draw.check() {
+                wrong(&format!("{field}.draw[{i}]"), problem);
+            }
+        }
+    }
+}
+
 impl Draw {
+    /// The value at `u` in [0, 1).
+    fn value(&self, u: f64) -> String {
+        match self {
+            Draw::Uniform(a, b) => (a + (b - a) * u).to_string(),
+            Draw::LogUniform(a, b) => {
+                let (a, b) = (math::ln(*a), math::ln(*b));
+                math::exp(a + (b - a) * u).to_string()
+            }
+            Draw::Choice(values) => values[(u * values.len() as f64) as usize].clone(),
+        }
+    }
+
     fn check(&self) -> Result<(), String> {
         match self {
             Draw::Uniform(a, b) if !(a.is_finite() && b.is_finite() && a < b) => {

@@ -68,7 +68,8 @@ fn one(figure: &Figure, ours: Estimate) -> FigureComparison {
         (Some(paper), Some(interval)) => {
             let value = paper.value();
             let single = matches!(paper, Paper::Run(_));
-            if interval.contains(value) {
+            let enough = matches!(paper, Paper::AtLeast(..)) && interval.high >= value;
+            if interval.contains(value) || enough {
                 Standing::Inside
             } else if papers_interval.is_some_and(|p| p.low <= interval.high && interval.low <= p.high) {
                 Standing::Meets
@@ -117,6 +118,8 @@ mod tests {
         // A figure over many runs is not excused by the spread of single runs.
         assert_eq!(standing(Some(Paper::Value(13.0)), i, s), Standing::Outside);
         assert_eq!(standing(None, i, s), Standing::None);
+        assert_eq!(standing(Some(Paper::AtLeast(4.0, 17)), i, s), Standing::Inside);
+        assert_eq!(standing(Some(Paper::AtLeast(9.5, 17)), i, s), Standing::Outside);
         assert_eq!(standing(Some(Paper::Run(7.0)), None, s), Standing::None);
         // 7 of 8 is 53 to 98 %.
         let count = Some(Paper::Count(7, 8));

@@ -2,8 +2,10 @@
 
 mod compare;
 mod draw;
+mod joint;
 mod kept;
 mod measure;
+mod published;
 mod quantity;
 mod row;
 mod run;
@@ -11,8 +13,10 @@ mod time_left;
 mod write;
 
 pub use compare::{FigureComparison, Standing, compare};
+pub use joint::{Joint, joint};
 pub use kept::Table;
 pub use measure::{Measure, RunEvent};
+pub use published::Published;
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};
 pub use run::{Plan, RowResult, reproduce};

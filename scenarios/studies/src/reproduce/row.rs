@@ -85,13 +85,19 @@ pub enum Paper {
     Count(u64, u64),
     /// So few of so few that it is no share: one run that did or did not.
     RunCount(u64, u64),
+    /// A mean and its standard error.
+    Measured(f64, f64),
+    /// A mean over so many runs.
+    MeanOf(f64, u64),
+    /// A mean over so many runs that is only said to be at least this.
+    AtLeast(f64, u64),
 }
 
 impl Paper {
     /// As a number in the quantity's unit.
     pub fn value(self) -> f64 {
         match self {
-            Paper::Value(v) | Paper::Run(v) => v,
+            Paper::Value(v) | Paper::Run(v) | Paper::Measured(v, _) | Paper::MeanOf(v, _) | Paper::AtLeast(v, _) => v,
             Paper::Count(k, n) | Paper::RunCount(k, n) => k as f64 / n as f64,
         }
     }
@@ -99,6 +105,8 @@ impl Paper {
     fn is_sound(self) -> bool {
         match self {
             Paper::Value(v) | Paper::Run(v) => v.is_finite(),
+            Paper::Measured(v, error) => v.is_finite() && error.is_finite() && error > 0.0,
+            Paper::MeanOf(v, n) | Paper::AtLeast(v, n) => v.is_finite() && n > 0,
             Paper::Count(k, n) | Paper::RunCount(k, n) => n > 0 && k <= n,
         }
     }
@@ -320,7 +328,8 @@ fn faults(row: &Row) -> Vec<UnplacedFault> {
             wrong(&format!("figures[{i}].quantity"), problem);
         }
         if let Some(paper) = f.paper.filter(|paper| !paper.is_sound()) {
-            let problem = format!("must be finite, a count at most its total, and the total > 0, got {paper:?}");
+            let problem =
+                format!("must be finite, a count at most its total, and an error or a total above 0, got {paper:?}");
             wrong(&format!("figures[{i}].paper"), problem);
         }
     }

@@ -1,6 +1,8 @@
 //! The reproduction table on the screen and in REPRODUCTION.md, and its runs as CSV.
 
 use super::compare::{FigureComparison, Standing};
+use super::joint::joint;
+use super::published::Published;
 use super::row::Paper;
 use super::run::RowResult;
 use crate::campaign::as_csv;
@@ -34,7 +36,9 @@ fn cells(c: &FigureComparison) -> [String; 6] {
         (i, _) => range(c.ours.n, i, |i| unit.show_interval(i)),
     };
     let mut paper = match c.figure.paper {
-        Some(Paper::Value(v)) => unit.show(v),
+        Some(Paper::Value(v) | Paper::MeanOf(v, _)) => unit.show(v),
+        Some(Paper::Measured(v, error)) => format!("{} +- {}", unit.show(v), unit.show(error)),
+        Some(Paper::AtLeast(v, _)) => format!("at least {}", unit.show(v)),
         Some(Paper::Run(v)) => format!("{}, one run", unit.show(v)),
         Some(Paper::Count(k, n)) => format!("{k}/{n} = {}", unit.show(k as f64 / n as f64)),
         Some(Paper::RunCount(k, n)) => format!("{k} of {n}"),
@@ -61,6 +65,25 @@ fn runs_line(r: &RowResult) -> String {
     line
 }
 
+/// For each arm of whose published figures the errors are known: whether all of them come out together.
+fn together(r: &RowResult) -> Vec<String> {
+    let of = |arm: &str| {
+        let figures = Published::of(&r.row.figures, Some(arm));
+        let runs: Vec<_> = r.runs.iter().filter(|run| run.arm == arm).cloned().collect();
+        let found = joint(&figures, &runs).filter(|_| figures.len() > 1)?;
+        let apart = figures.iter().zip(&found.above).map(|(f, z)| format!("{} {z:+.1}", f.name));
+        Some(format!(
+            "{arm}: the paper's {} figures together are {} the region of 95 % of papers about such runs (squared              distance {:.1}; farther: {:.2} % of papers). Standard errors above ours: {}.",
+            figures.len(),
+            if found.is_inside() { "inside" } else { "outside" },
+            found.squared,
+            100.0 * found.farther,
+            apart.collect::<Vec<_>>().join("; ")
+        ))
+    };
+    r.row.arms.iter().filter_map(|arm| of(&arm.name)).collect()
+}
+
 /// The first error of a failed run, for people.
 fn first_error(r: &RowResult) -> Option<String> {
     let bad = r.runs.iter().find(|x| x.error.is_some())?;
@@ -74,6 +97,9 @@ pub fn table(r: &RowResult, columns: Option<usize>) -> String {
     let runs = line(&format!("{} [{}]", runs_line(r), r.row.source));
     writeln!(out, "\n{runs}\n").expect(TEXT);
     out.push_str(&figures(r).text(columns));
+    for words in together(r) {
+        writeln!(out, "\n{}", line(&words)).expect(TEXT);
+    }
     let maps = maps(r);
     if !maps.is_empty() {
         out.push('\n');
@@ -161,6 +187,9 @@ fn markdown(all: &[RowResult], command: &str) -> String {
         writeln!(out, "{}", figures(r).markdown()).expect(TEXT);
         for c in r.figures.iter().filter(|c| !c.figure.note.is_empty()) {
             writeln!(out, "- {}: {}.", c.figure.name, c.figure.note).expect(TEXT);
+        }
+        for words in together(r) {
+            writeln!(out, "- {words}").expect(TEXT);
         }
         let maps = maps(r);
         if !maps.is_empty() {

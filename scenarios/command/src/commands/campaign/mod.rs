@@ -1,5 +1,6 @@
 //! `rheotaxis campaign`: plans and runs campaigns, shows their status, merges, reports and repeats runs.
 
+mod identify;
 mod plan;
 mod report;
 
@@ -15,6 +16,7 @@ use crate::run_observer::RunObserver;
 use crate::say;
 use crate::say::count;
 use crate::stop;
+use identify::identify_draws;
 use output::shown::printable;
 use plan::plan;
 use report::report;
@@ -33,6 +35,7 @@ pub(crate) fn campaign(registry: &Registry, command: &CampaignCommand) -> Result
         CampaignCommand::Status(args) => status(registry, args),
         CampaignCommand::Merge(args) => merge_rows(registry, args),
         CampaignCommand::Report(args) => report(registry, args),
+        CampaignCommand::Identify(args) => identify_draws(registry, args),
         CampaignCommand::Rerun(args) => rerun(registry, args),
     }
 }

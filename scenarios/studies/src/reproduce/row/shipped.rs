@@ -10,7 +10,7 @@ macro_rules! row {
 pub(super) const ROWS: &[(&str, &str)] = &[
     row!("crab"),
     row!("crab_arms"),
-    row!("crab_readings"),
+    row!("crab_identify"),
     row!("eyes"),
     row!("duck_st"),
     row!("dalian_bay"),

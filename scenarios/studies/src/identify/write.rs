@@ -1,0 +1,121 @@
+//! What was identified, for people and for programs.
+
+use super::marginal::After;
+use super::pairs::pairs;
+use super::{Identification, WeightedDraw, next_round};
+use crate::campaign::CampaignSpec;
+use crate::campaign::Draw as Prior;
+use crate::campaign::report::{Table, TableColumn};
+use output::files::{PendingFiles, ReportError, begin_folder, csv_number};
+use std::path::{Path, PathBuf};
+
+/// Draws that the text shows.
+const SHOWN: usize = 10;
+/// Seeds of the next round.
+const NEXT: u64 = 20;
+
+/// The tables as text for a terminal, or as Markdown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IdentificationText {
+    /// For a terminal.
+    Plain,
+    /// For a page.
+    Markdown,
+}
+
+/// What was identified in words and tables.
+pub fn text(found: &Identification, title: &str, form: IdentificationText) -> String {
+    let shown = |table: &Table| match form {
+        IdentificationText::Plain => table.text(None),
+        IdentificationText::Markdown => table.markdown(),
+    };
+    let runs: usize = found.draws.iter().map(|d| d.draw.runs.len()).sum();
+    format!(
+        "{title}\n\n{} draws, {runs} runs; their weight is that of {:.1} draws that say the same.\n\n{}\n{}",
+        found.draws.len(),
+        found.effective,
+        shown(&unknowns(found)),
+        shown(&likeliest(found)),
+    )
+}
+
+fn unknowns(found: &Identification) -> Table {
+    let rows = found.marginals.iter().map(|m| {
+        let before = match &m.unknown.prior {
+            Prior::Uniform(a, b) => format!("{a} to {b}"),
+            Prior::LogUniform(a, b) => format!("{a} to {b}, in the logarithm"),
+            Prior::Choice(all) => all.join(", "),
+        };
+        let after = match &m.after {
+            After::Number(median, i) => format!("{median:.4} ({:.4} to {:.4})", i.low, i.high),
+            After::Choice(all) => {
+                let each = all.iter().map(|(value, weight, _)| format!("{value}: {:.1} %", 100.0 * weight));
+                each.collect::<Vec<_>>().join(", ")
+            }
+        };
+        [m.unknown.path.clone(), before, after]
+    });
+    let columns: [TableColumn<'_, [String; 3]>; 3] = [
+        ("unknown", &|r| r[0].clone()),
+        ("before", &|r| r[1].clone()),
+        ("after: median (95 %), or share of the weight", &|r| r[2].clone()),
+    ];
+    Table::of(rows, &columns)
+}
+
+fn likeliest(found: &Identification) -> Table {
+    let mut heads: Vec<String> = vec!["draw".into(), "weight".into(), "runs".into()];
+    heads.extend(found.figures.iter().map(|f| f.name.clone()));
+    let row = |d: &WeightedDraw| {
+        let mut cells = vec![d.draw.name.clone(), format!("{:.2} %", 100.0 * d.weight), d.draw.runs.len().to_string()];
+        cells.extend(found.figures.iter().zip(&d.figures).map(|(f, (ours, _))| {
+            let unit = f.figure.quantity.unit();
+            ours.map_or("-".to_string(), |v| unit.scale([v]).show(v))
+        }));
+        cells
+    };
+    let mut papers = vec!["the paper".to_string(), String::new(), String::new()];
+    papers.extend(found.figures.iter().map(|f| {
+        let (value, _) = f.value_and_error(0.0);
+        let shown = f.figure.quantity.unit().scale([value]).show(value);
+        if f.is_bound() { format!("at least {shown}") } else { shown }
+    }));
+    let rows: Vec<Vec<String>> = found.draws.iter().take(SHOWN).map(row).chain([papers]).collect();
+    Table { head: heads, rows }
+}
+
+/// Writes `IDENTIFICATION.md`, `draws.csv`, `pairs.svg` and `.png`, and the campaign of the next round, `next.ron`.
+///
+/// # Errors
+/// If the folder or a file cannot be written.
+pub fn write(
+    dir: &Path,
+    found: &Identification,
+    last: &CampaignSpec,
+    command: &str,
+) -> Result<Vec<PathBuf>, ReportError> {
+    let folder = begin_folder(dir, "campaign identify")?;
+    let mut files = PendingFiles::new(&folder);
+    let page = text(found, &format!("# {}", last.title), IdentificationText::Markdown);
+    files.write("IDENTIFICATION.md", format!("{page}\nBy `{command}`.\n\n![pairs](pairs.svg)\n").as_bytes());
+    files.write("draws.csv", draws(found).as_bytes());
+    files.figure("pairs", &pairs(found));
+    if let Some(next) = next_round(found, last, NEXT) {
+        files.write("next.ron", next.as_bytes());
+    }
+    files.done()
+}
+
+fn draws(found: &Identification) -> String {
+    let mut heads = ["draw", "weight", "ln_likelihood", "runs"].map(str::to_string).to_vec();
+    heads.extend(found.marginals.iter().map(|m| m.unknown.path.clone()));
+    heads.extend(found.figures.iter().map(|f| f.name.replace(',', ";")));
+    let row = |d: &WeightedDraw| {
+        let numbers = [d.weight.to_string(), d.ln_likelihood.to_string(), d.draw.runs.len().to_string()];
+        let mut cells = [vec![d.draw.name.clone()], numbers.to_vec()].concat();
+        cells.extend(found.marginals.iter().map(|m| d.draw.value(&m.unknown.path).unwrap_or_default().to_string()));
+        cells.extend(d.figures.iter().map(|(ours, _)| csv_number(*ours)));
+        cells
+    };
+    Table { head: heads, rows: found.draws.iter().map(row).collect() }.csv()
+}
