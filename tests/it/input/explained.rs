@@ -49,7 +49,7 @@ fn campaigns_vehicles_and_tables_are_explained_as_a_scenario_is() {
         ("", "rheotaxis explain campaign"),
         ("robots[0].strategy.reacquire", "Bowtie"),
         ("vehicle.hydrodynamics", "volume_m3"),
-        ("campaign", "\n  arms[]: list of (…); must be given\n"),
+        ("campaign", "\n  arms[]: list of (…); default []\n"),
         ("campaign.until.half_width", "value    number, > 0 to < 0.5\n"),
         ("campaign.seeds", "\n  number(whole number, 1 to 1.099511627776e12)\n"),
         ("campaign.seeds.Literal", "\n  first: whole number, >= 0; must be given\n"),
