@@ -191,6 +191,8 @@ limits! {
     filament_m: 1e-5, 1000.0, "m", Positive;
     /// Growth of a filament's squared size, m²/s.
     growth_m2_s: 0.0, 1000.0, "m2/s", NonNegative;
+    /// Distance between the outermost probes of a head, m.
+    span_m: 1e-3, 10.0, "m", Positive;
     /// Diameter of a nozzle, m.
     nozzle_m: 1e-5, 10.0, "m", Positive;
     /// Speed of the fluid that leaves a nozzle, m/s.

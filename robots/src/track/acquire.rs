@@ -6,7 +6,8 @@
 //!
 //! *Deviations*: from here on, signals are counted from the bottom of the range (-5 V in clean water), so that ratios
 //! of signals are ratios of concentrations; the paper does not say how it forms 30 % of a voltage that may be
-//! negative. The steering probes are the leftmost and the rightmost, whatever their names.
+//! negative. The steering probes are the leftmost and the rightmost, whatever their names. A single probe is both, so
+//! that nothing is ever stronger on one side.
 
 use super::data::{Sample, Spike};
 use crate::error::{RobotError, require};
@@ -31,14 +32,11 @@ impl Acquisition {
     /// The unit of a machine.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] if the machine has no two probes that are apart across the stream, or too many probes.
+    /// [`RobotError::Invalid`] if of several probes no two are apart across the stream, or there are too many.
     pub fn new(layout: &GantryLayout) -> Result<Self, RobotError> {
         let must = |holds: bool, problem: String| require(holds, "tracker.probes", problem);
         let n = layout.probes.len();
-        must(
-            (2..=MAX_PROBES).contains(&n),
-            format!("bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}"),
-        )?;
+        must((1..=MAX_PROBES).contains(&n), format!("a tracker needs 1 to {MAX_PROBES} probes; the head has {n}"))?;
         let offsets_m: Vec<_> = layout.probes.iter().map(|p| p.offset_m.xy()).collect();
         let (mut left, mut right) = (0, 0);
         for (i, o) in offsets_m.iter().enumerate() {
@@ -50,7 +48,7 @@ impl Acquisition {
             }
         }
         must(
-            offsets_m[left].y - offsets_m[right].y >= APART_M,
+            n == 1 || offsets_m[left].y - offsets_m[right].y >= APART_M,
             "no two probes are apart across the stream: bilateral steering needs a left and a right one".into(),
         )?;
         Ok(Self { range_v: layout.range_v, offsets_m, left, right })
@@ -107,11 +105,14 @@ mod tests {
     }
 
     #[test]
-    fn a_head_without_two_sides_is_refused() {
+    fn a_single_probe_is_both_sides_and_several_must_be_apart() {
         let mut one = layout();
         one.probes.truncate(1);
-        let e = Acquisition::new(&one).expect_err("one").to_string();
-        assert_eq!(e, "tracker.probes: bilateral steering needs 2 to 8 probes; the head has 1");
+        let a = Acquisition::new(&one).expect("a centre");
+        assert_eq!((a.left, a.right), (0, 0));
+        one.probes.clear();
+        let e = Acquisition::new(&one).expect_err("none").to_string();
+        assert_eq!(e, "tracker.probes: a tracker needs 1 to 8 probes; the head has 0");
         let mut line = layout();
         for p in &mut line.probes {
             p.offset_m = Vector3::new(0.0, 0.0, p.offset_m.z);

@@ -19,7 +19,7 @@ kind! {
 pub const UNITS: &[Entry] = &[
     Entry {
         name: "sweep",
-        what: "relative position/data builder: the place of the strongest smell in a full sweep, Peak or Centroid",
+        what: "relative position/data builder: the place of the strongest smell in a full sweep",
         source: "Webster et al. 2012, sections 4 and 5",
     },
     Entry {
@@ -75,16 +75,6 @@ pub const READINGS: &[Entry] = &[
         name: "predictor.memory_s",
         what: "5 s, from 2 to 10: of which time the mean is expected of the next step",
         source: "\"short-term (2-10 s) memory data to predict the characteristics of a one-step-ahead measurement\"",
-    },
-    Entry {
-        name: "contrast.of",
-        what: "MeanPeak, or GreatestPeak: what is compared between the sides",
-        source: "\"a minimum percentage difference in peak concentration\"",
-    },
-    Entry {
-        name: "sweep.best",
-        what: "Peak, or Centroid: where a sweep leads back to",
-        source: "\"the identified location of the greatest peak concentration\"",
     },
     Entry {
         name: "stop.window_s, stop.count",

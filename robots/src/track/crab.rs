@@ -86,7 +86,7 @@ impl CrabTracker {
             spikes: SpikeAnalyser::default(),
             threshold: ThresholdAnalyser::new(&spec.threshold, bottom_v),
             predictor: Predictor::new(&spec.predictor, spec.history.over),
-            map: DataBuilder::new(spec.sweep.best),
+            map: DataBuilder::default(),
             history: History::new(&spec.history, acquisition.left, acquisition.right),
             decision: DecisionUnit::new(rules, StopRule::new(&spec.stop)),
             command: MotionCommand::new(layout),

@@ -40,8 +40,6 @@ pub struct Tally {
     pub sum_v: f64,
     /// Sum of their squares, V².
     pub squares_v2: f64,
-    /// The greatest, V.
-    pub greatest_v: f64,
 }
 
 impl Tally {
@@ -50,7 +48,6 @@ impl Tally {
         self.count += 1;
         self.sum_v += magnitude_v;
         self.squares_v2 += magnitude_v * magnitude_v;
-        self.greatest_v = self.greatest_v.max(magnitude_v);
     }
 
     /// The sum of this tally and another one.
@@ -59,7 +56,6 @@ impl Tally {
             count: self.count + other.count,
             sum_v: self.sum_v + other.sum_v,
             squares_v2: self.squares_v2 + other.squares_v2,
-            greatest_v: self.greatest_v.max(other.greatest_v),
         }
     }
 
@@ -86,6 +82,4 @@ pub struct StepRecord {
     pub left: Tally,
     /// The rightmost probe's spikes.
     pub right: Tally,
-    /// The most up-stream place of a spike (forward), m.
-    pub foremost_m: Option<f64>,
 }

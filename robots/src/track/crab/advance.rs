@@ -8,9 +8,7 @@
 //! paper); prediction error `prediction_error`, a share of the prediction, 0.02. That error has a sign:
 //! the paper defines it as "predicted value minus the average spike magnitude" and takes a large one
 //! for a perceived loss, so that a magnitude above the prediction is no error. `Gated`: least number of spikes in the
-//! step, `spikes`, 1; where the next step is measured from, `from`, `Head`: the head's own place, as in the paper. That
-//! leads nearly two steps beyond a spike that was met early in a step. From `Spike`, the most up-stream spike of this
-//! step, it is never more than one step beyond.
+//! step, `spikes`, 1.
 //!
 //! *Deviations*: "exceeds" is taken strictly, so that no signal never exceeds no signal. The first step after a sweep
 //! has no previous one; it allows another step if it has any spike. `Gated` is not in the paper's tracker.
@@ -52,29 +50,9 @@ pub struct Gated {
     /// Least number of spikes in the step.
     #[default(NonZeroUsize::MIN)]
     pub spikes: NonZeroUsize,
-    /// Where the next step is measured from.
-    #[default(StepFrom::Head)]
-    pub from: StepFrom,
-}
-
-/// Where a step up-stream is measured from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum StepFrom {
-    /// The head's place.
-    Head,
-    /// The most up-stream place of a spike in the step before, if that is less far than the head.
-    Spike,
 }
 
 impl AdvanceSpec {
-    /// Where the next step up-stream is measured from (forward), m, with the head at `here_m` after this step.
-    pub fn from_m(&self, here_m: f64, step: &StepRecord) -> f64 {
-        match (self, step.foremost_m) {
-            (Self::Gated(Gated { from: StepFrom::Spike, .. }), Some(spike_m)) => spike_m.min(here_m),
-            _ => here_m,
-        }
-    }
-
     /// Whether the step allows another one up-stream.
     pub fn allows(&self, step: &StepRecord) -> bool {
         match self {
@@ -121,18 +99,5 @@ mod tests {
         let gate = AdvanceSpec::Gated(Gated::default());
         assert!(gate.allows(&step(1, 0.1, 1.0, 1.0)));
         assert!(!gate.allows(&step(0, 0.0, 1.0, 1.0)));
-    }
-
-    #[test]
-    fn a_gated_step_is_measured_from_the_most_up_stream_spike() {
-        let met_at = |m| StepRecord { foremost_m: m, ..step(1, 0.1, 1.0, 1.0) };
-        let gate = AdvanceSpec::Gated(Gated { from: StepFrom::Spike, ..Gated::default() });
-        assert_eq!(gate.from_m(0.5, &met_at(Some(0.4))), 0.4);
-        // A probe may be ahead of the head.
-        assert_eq!(gate.from_m(0.5, &met_at(Some(0.6))), 0.5);
-        assert_eq!(gate.from_m(0.5, &met_at(None)), 0.5);
-        for rule in [AdvanceSpec::Gated(Gated::default()), AdvanceSpec::default()] {
-            assert_eq!(rule.from_m(0.5, &met_at(Some(0.4))), 0.5);
-        }
     }
 }

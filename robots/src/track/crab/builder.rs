@@ -5,9 +5,7 @@
 //! 5: the tracker "returns to the identified location of the greatest peak concentration".
 //!
 //! *Parameters*: `SweepSpec`: length of a sweep `span_m`, m (not published), 0.6: 3 cm/s times the 20 s that it
-//! takes; place `best`, `Peak` (the paper's) or `Centroid`, the mean place of the sweep's spikes weighted by
-//! magnitude, which one stray filament cannot move far; empty sweeps in a row before giving up `empty_sweeps` (not
-//! published), 3.
+//! takes; empty sweeps in a row before giving up `empty_sweeps` (not published), 3.
 //!
 //! *Deviations*: the place of a spike is that of its probe's tip, not the middle of the head. The sweep runs over the
 //! middle of the travel, from left to right. Of the long-term memory, only what the decision unit needs is kept: the
@@ -31,52 +29,30 @@ pub struct SweepSpec {
     /// Length across the stream, m.
     #[default(Positive::new(0.6))]
     pub span_m: Positive,
-    /// What counts as its best place.
-    #[default(Best::Peak)]
-    pub best: Best,
     /// Empty sweeps in a row before giving up.
     #[default(NonZeroUsize::new(3).expect("3 is not zero"))]
     pub empty_sweeps: NonZeroUsize,
 }
 
-/// What counts as the best place of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Best {
-    /// That of the greatest spike.
-    Peak,
-    /// The mean place of all spikes, weighted by magnitude.
-    Centroid,
-}
-
 /// The unit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct DataBuilder {
-    best: Best,
-    /// Spikes of the sweep: number, sum of magnitudes, sum of magnitude times place across, the greatest.
+    /// Spikes of the sweep: their number, and the greatest.
     spikes: usize,
-    sum: f64,
-    moment: f64,
     greatest: Option<Spike>,
     /// Places of the most up-stream spikes, most up-stream first.
     up_stream: Vec<Vector2<f64>>,
 }
 
 impl DataBuilder {
-    /// An empty map.
-    pub fn new(best: Best) -> Self {
-        Self { best, spikes: 0, sum: 0.0, moment: 0.0, greatest: None, up_stream: Vec::with_capacity(KEPT + 1) }
-    }
-
     /// A sweep begins.
     pub fn begin_sweep(&mut self) {
-        (self.spikes, self.sum, self.moment, self.greatest) = (0, 0.0, 0.0, None);
+        (self.spikes, self.greatest) = (0, None);
     }
 
     /// Takes a spike.
     pub fn add(&mut self, spike: &Spike) {
         self.spikes += 1;
-        self.sum += spike.magnitude_v;
-        self.moment += spike.magnitude_v * spike.place_m.y;
         if self.greatest.is_none_or(|g| spike.magnitude_v > g.magnitude_v) {
             self.greatest = Some(*spike);
         }
@@ -94,11 +70,7 @@ impl DataBuilder {
 
     /// The place across the stream with the strongest smell of the sweep, m; `None` without any spike.
     pub fn best_left_m(&self) -> Option<f64> {
-        let greatest = self.greatest?;
-        Some(match self.best {
-            Best::Peak => greatest.place_m.y,
-            Best::Centroid => self.moment / self.sum,
-        })
+        self.greatest.map(|spike| spike.place_m.y)
     }
 
     /// Middle across the stream of the `n` most up-stream spikes, m; `None` if there are fewer.
@@ -119,22 +91,19 @@ mod tests {
 
     #[test]
     fn the_best_place_of_a_sweep() {
-        for (best, want) in [(Best::Peak, 0.2), (Best::Centroid, 0.05)] {
-            let mut b = DataBuilder::new(best);
-            b.add(&at(0.0, -0.3, 99.0));
-            b.begin_sweep();
-            assert_eq!((b.best_left_m(), b.sweep_spikes()), (None, 0));
-            for (y, m) in [(0.0, 1.0), (0.2, 1.5), (-0.1, 1.0), (0.0, 0.5)] {
-                b.add(&at(0.0, y, m));
-            }
-            assert!((b.best_left_m().expect("spikes") - want).abs() < 1e-12);
-            assert_eq!(b.sweep_spikes(), 4);
+        let mut b = DataBuilder::default();
+        b.add(&at(0.0, -0.3, 99.0));
+        b.begin_sweep();
+        assert_eq!((b.best_left_m(), b.sweep_spikes()), (None, 0));
+        for (y, m) in [(0.0, 1.0), (0.2, 1.5), (-0.1, 1.0), (0.0, 0.5)] {
+            b.add(&at(0.0, y, m));
         }
+        assert_eq!((b.best_left_m(), b.sweep_spikes()), (Some(0.2), 4));
     }
 
     #[test]
     fn the_most_up_stream_places_stay() {
-        let mut b = DataBuilder::new(Best::Peak);
+        let mut b = DataBuilder::default();
         for k in 0..100 {
             let x = f64::from(k * 37 % 100) / 100.0;
             b.add(&at(x, 1.0 - x, 1.0));

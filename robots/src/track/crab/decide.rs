@@ -177,8 +177,7 @@ impl DecisionUnit {
             TrackPhase::Sweeping if rest => Some(self.swept(at, step, map)),
             TrackPhase::ToBest if rest => {
                 self.stop.swept();
-                let from_m = at.here_m.x;
-                Some((self.up(at.here_m, from_m, 0.0, step.spikes), Memory::Forget))
+                Some((self.up(at.here_m, 0.0, step.spikes), Memory::Forget))
             }
             TrackPhase::Last if rest => Some(self.end(true)),
             TrackPhase::Step { up } if self.rules.pace.over(at.rest_s, at.to_go_s, step.spikes) => {
@@ -260,9 +259,7 @@ impl DecisionUnit {
             self.followed = true;
             // Beside an obstacle the contrast would lead back to it.
             let side = if self.dodge.is_some() { 0.0 } else { pull.side };
-            let from_m = self.rules.advance.from_m(at.here_m.x, step);
-            let ask = self.up(at.here_m, from_m, side, step.spikes);
-            return (ask, Memory::Next);
+            return (self.up(at.here_m, side, step.spikes), Memory::Next);
         }
         let cast = match self.cast {
             None => Cast { home_left_m: at.here_m.y, side: first_side(&pull, rng), second: false },
@@ -285,13 +282,13 @@ impl DecisionUnit {
         Some((Ask::Go(Behaviour::ToBest, place, speed), Memory::Keep))
     }
 
-    /// A step up-stream, measured from `from_m` (forward).
-    fn up(&mut self, here: Vector2<f64>, from_m: f64, side: f64, spikes: usize) -> Ask {
+    /// A step up-stream.
+    fn up(&mut self, here: Vector2<f64>, side: f64, spikes: usize) -> Ask {
         if self.rules.end_m - here.x < STILL_M {
             return self.end(self.rules.at_end == AtEnd::Stops).0;
         }
         self.phase = TrackPhase::Step { up: true };
-        let place = Vector2::new(from_m + self.rules.step_m.x, here.y + side * self.rules.step_m.y);
+        let place = Vector2::new(here.x + self.rules.step_m.x, here.y + side * self.rules.step_m.y);
         let speed = self.rules.pace.speed_m_s(spikes);
         Ask::Go(Behaviour::StepUp, place, speed)
     }

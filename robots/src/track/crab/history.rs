@@ -50,7 +50,6 @@ pub struct History {
     right: usize,
     began_s: f64,
     tallies: [Tally; MAX_PROBES],
-    foremost_m: Option<f64>,
     previous_v: Option<f64>,
     predicted_v: Option<f64>,
 }
@@ -69,8 +68,6 @@ impl History {
     /// Takes a spike.
     pub fn add(&mut self, spike: &Spike) {
         self.tallies[spike.probe].add(spike.magnitude_v);
-        let forward_m = spike.place_m.x;
-        self.foremost_m = Some(self.foremost_m.map_or(forward_m, |m| m.max(forward_m)));
     }
 
     /// The period up to `t_s`.
@@ -94,7 +91,6 @@ impl History {
             predicted_v: self.predicted_v,
             left: self.tallies[self.left],
             right: self.tallies[self.right],
-            foremost_m: self.foremost_m,
         }
     }
 
@@ -112,7 +108,7 @@ impl History {
 
     fn begin(&mut self, t_s: f64, predicted_v: Option<f64>) {
         self.began_s = t_s;
-        (self.tallies, self.foremost_m) = Default::default();
+        self.tallies = Default::default();
         self.predicted_v = predicted_v;
     }
 }
@@ -146,20 +142,5 @@ mod tests {
         h.add(&spike(2.0, 2, 4.0));
         assert_eq!(h.record(4.0).mean_v, 9.0 / 3.0);
         assert_eq!(h.record(5.5).mean_v, 9.0 / 4.5, "silence lowers it");
-    }
-
-    #[test]
-    fn the_most_up_stream_spike_is_that_of_the_step() {
-        let mut h = History::new(&HistorySpec::default(), 0, 1);
-        h.forget(0.0, None);
-        assert_eq!(h.record(1.0).foremost_m, None);
-        for (t, forward_m) in [(1.0, -0.3), (2.0, 0.7), (3.0, 0.4)] {
-            let mut s = spike(t, 0, 1.0);
-            s.place_m.x = forward_m;
-            h.add(&s);
-        }
-        assert_eq!(h.record(4.0).foremost_m, Some(0.7));
-        h.next(4.0, None);
-        assert_eq!(h.record(5.0).foremost_m, None);
     }
 }

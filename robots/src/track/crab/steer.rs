@@ -3,8 +3,7 @@
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`Fixed`: minimum percentage difference in
 //! peak concentration, 30 %) and section 7 (adaptive specification of the contrast threshold is its future work).
 //!
-//! *Parameters*: `Fixed`: least contrast `threshold`, 0.3; quantity `of` which the contrast is formed: `MeanPeak`,
-//! the mean of the step's spike magnitudes, or `GreatestPeak`; the paper says "peak concentration" and, of the step,
+//! *Parameters*: `Fixed`: least contrast `threshold`, 0.3, of the mean of the step's spike magnitudes: the paper says "peak concentration" and, of the step,
 //! "average recorded peak", hence the mean. `Adaptive`: the difference in standard errors `errors`, 1.5: more than a
 //! lone spike (1) or two equal ones on one side (1.41) can give, so that at least three that agree are needed to
 //! steer.
@@ -39,18 +38,6 @@ pub struct Fixed {
     /// Least difference, as a share of the larger side.
     #[default(Fraction::new(0.3))]
     pub threshold: Fraction,
-    /// What is compared.
-    #[default(Peak::MeanPeak)]
-    pub of: Peak,
-}
-
-/// What represents a side's peak concentration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-pub enum Peak {
-    /// Mean magnitude of the step's spikes.
-    MeanPeak,
-    /// The greatest of them.
-    GreatestPeak,
 }
 
 /// Parameters of the adaptive threshold.
@@ -81,8 +68,7 @@ impl ContrastSpec {
     /// The pull of a step's spikes.
     pub fn pull(&self, step: &StepRecord) -> Pull {
         let of = |t: &Tally| match self {
-            Self::Fixed(p) if p.of == Peak::MeanPeak => t.mean_v(),
-            Self::Fixed(_) => t.greatest_v,
+            Self::Fixed(_) => t.mean_v(),
             Self::Adaptive(_) => t.sum_v,
         };
         let (left, right) = (of(&step.left), of(&step.right));
@@ -123,9 +109,7 @@ mod tests {
         assert_eq!(rule.pull(&step(&[0.6], &[1.0])).side, -1.0);
         assert_eq!(rule.pull(&step(&[], &[0.1])), Pull { contrast: -1.0, side: -1.0 });
         assert_eq!(rule.pull(&step(&[], &[])), Pull::default());
-        let greatest = ContrastSpec::Fixed(Fixed { of: Peak::GreatestPeak, ..Default::default() });
-        assert_eq!(greatest.pull(&step(&[2.0, 2.0], &[1.0, 1.6])).side, 0.0);
-        let always = ContrastSpec::Fixed(Fixed { threshold: Fraction::new(0.0), ..Default::default() });
+        let always = ContrastSpec::Fixed(Fixed { threshold: Fraction::new(0.0) });
         assert_eq!(always.pull(&step(&[1.0], &[1.0])).side, 0.0, "no side is greater");
     }
 

@@ -12,7 +12,7 @@
 
 use super::super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use super::drive::AxisLimits;
-use crate::error::{RobotError, ensure};
+use crate::error::{RobotError, ensure, require};
 use crate::handoff::{MAX_PROBES, ProbeMount};
 use nalgebra::Vector3;
 use urdf_rs::{Joint, JointLimit, JointType, Robot};
@@ -114,6 +114,33 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
         format!("link \"{head}\" has no <collision>, nor has any link fixed to it: it could not touch anything")
     })?;
     Ok(Frame { base_shapes, slides, head_B, probes })
+}
+
+impl Frame {
+    /// Takes probes off, and moves the others across so that they span a distance, m.
+    ///
+    /// # Errors
+    /// If there is no such probe, none is left, or the span is asked of probes that are not apart.
+    pub(super) fn change_probes(&mut self, without: &[String], span_m: Option<f64>) -> Result<(), RobotError> {
+        for (n, name) in without.iter().enumerate() {
+            let there = self.probes.iter().position(|p| p.name == *name);
+            let all: Vec<&str> = self.probes.iter().map(|p| p.name.as_str()).collect();
+            let problem = format!("there is no probe {name:?}; there are: {}", all.join(", "));
+            let there = there.ok_or(RobotError::Invalid { field: format!("without[{n}]"), problem })?;
+            self.probes.remove(there);
+        }
+        require(!self.probes.is_empty(), "without", "takes off every probe: leave at least one")?;
+        if let Some(span_m) = span_m {
+            let y = |p: &ProbeMount| p.offset_m.y;
+            let right = self.probes.iter().map(y).fold(f64::MAX, f64::min);
+            let left = self.probes.iter().map(y).fold(f64::MIN, f64::max);
+            require(left > right, "span_m", "needs two probes that are apart across the stream")?;
+            for p in &mut self.probes {
+                p.offset_m.y = (p.offset_m.y - 0.5 * (left + right)) * span_m / (left - right) + 0.5 * (left + right);
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The part to which a link belongs: 0 the base, 1 and 2 the slides.

@@ -18,6 +18,7 @@ use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use world::frames::Pose;
 use world::physics::{AxisDrive, AxisSpec, GantryBodySpec, JointState};
+use world::ranges::Positive;
 use world::seeds::Stream;
 
 /// Name and text of the built-in URDF.
@@ -44,7 +45,8 @@ impl Gantry {
     /// If the URDF cannot be read or lacks something, or if a drive cannot do what is asked of it.
     pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
-        let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
+        let mut frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
+        frame.change_probes(&spec.without, spec.span_m.map(Positive::get))?;
         require(
             spec.settle_m.get() >= spec.encoder_m.get(),
             "settle_m",

@@ -21,6 +21,12 @@ pub enum GantrySpec {
 pub struct CrabGantrySpec {
     /// URDF file, relative to the scenario file; `None`: the built-in one, which `rheotaxis init --gantry` writes.
     pub urdf: Option<String>,
+    /// Probes that are taken off, such as `"probe_centre"`.
+    pub without: Vec<String>,
+    /// Distance across the stream from the leftmost probe to the rightmost one, m; the others lie between in
+    /// proportion. Without it, as the URDF has them.
+    #[serde(with = "world::limits::span_m::<Option<Positive>>")]
+    pub span_m: Option<Positive>,
     /// Acceleration and braking of each axis, m/s²: top speed within 0.3 s.
     #[default(Positive::new(0.5))]
     pub acceleration_m_s2: Positive,

@@ -246,3 +246,27 @@ fn drives_that_cannot_do_it_are_told() {
     let error = gantry.check_step(0.1).expect_err("too long");
     assert_eq!(error.to_string(), "position_gain_per_s: must be at most 5 1/s at a step of 0.1 s, got 10");
 }
+
+#[test]
+fn probes_are_taken_off_and_moved_apart() {
+    let layout = |without: &[&str], span_m: Option<f64>| {
+        let without = without.iter().map(ToString::to_string).collect();
+        let spec = CrabGantrySpec { without, span_m: span_m.map(Positive::new), ..CrabGantrySpec::default() };
+        let gantry = Gantry::load(&GantrySpec::CrabGantry(spec), &InMemory::default());
+        gantry.map(|g| g.layout(20.0, [-5.0, 5.0]).probes).map_err(|e| e.to_string())
+    };
+    let before = layout(&[], None).unwrap();
+    let wide = layout(&["probe_centre"], Some(0.2)).unwrap();
+    assert_eq!(wide.len(), 2);
+    assert!((wide[0].offset_m.y - 0.1).abs() < 1e-12 && (wide[1].offset_m.y + 0.1).abs() < 1e-12);
+    assert_eq!(wide[0].offset_m.xz(), before[0].offset_m.xz());
+    assert_eq!(layout(&["probe_left", "probe_right"], None).unwrap(), before[2..]);
+    for (without, span_m, said) in [
+        (vec!["antennule"], None, "without[0]: there is no probe \"antennule\"; there are: probe_left, probe_right"),
+        (vec!["probe_left", "probe_right", "probe_centre"], None, "without: takes off every probe"),
+        (vec!["probe_left", "probe_right"], Some(0.1), "span_m: needs two probes"),
+    ] {
+        let error = layout(&without, span_m).expect_err(said);
+        assert!(error.starts_with(said), "{error}");
+    }
+}

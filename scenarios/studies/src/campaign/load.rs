@@ -23,8 +23,17 @@ macro_rules! catalog {
 }
 
 /// The campaigns that come with the program.
-pub const CAMPAIGNS: &[Template] =
-    catalog!["duck_beta", "uniform_beta", "crab_units", "crab_identify", "wp_maps", "moth_plus", "kinematic_steps"];
+pub const CAMPAIGNS: &[Template] = catalog![
+    "duck_beta",
+    "uniform_beta",
+    "crab_units",
+    "crab_identify",
+    "crab_morphology",
+    "crab_flow",
+    "wp_maps",
+    "moth_plus",
+    "kinematic_steps"
+];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario may
 /// use what a registry adds.

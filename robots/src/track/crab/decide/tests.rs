@@ -2,13 +2,10 @@
 
 use super::*;
 use crate::handoff::Behaviour as B;
-use crate::track::crab::advance::{Gated, StepFrom};
-use crate::track::crab::builder::Best;
 use crate::track::crab::spec::CrabSpec;
 use crate::track::crab::stop::{Experience, StopSpec};
 use crate::track::data::Tally;
 use crate::track::testing::{layout, spike};
-use std::num::NonZeroUsize;
 
 struct Hand {
     unit: DecisionUnit,
@@ -22,7 +19,7 @@ impl Hand {
         let rules = spec.rules(&layout()).expect("legal");
         Self {
             unit: DecisionUnit::new(rules, StopRule::new(&spec.stop)),
-            map: DataBuilder::new(Best::Peak),
+            map: DataBuilder::default(),
             rng: Stream::new(1, "hand", "strategy"),
             here: Vector2::new(0.2, 0.1),
         }
@@ -77,7 +74,6 @@ fn step(better: bool, left: f64, right: f64) -> StepRecord {
         predicted_v: Some(1.0),
         left: tally(left),
         right: tally(right),
-        foremost_m: None,
     }
 }
 
@@ -101,17 +97,6 @@ fn the_adaptive_contrast_gathers_until_it_suffices() {
     assert!(is(h.ask(left, false), B::StepUp, 0.6, 0.05));
     // On the new lane it begins anew.
     assert!(is(h.ask(left, false), B::StepUp, 0.7, 0.05));
-}
-
-#[test]
-fn a_gated_step_may_be_measured_from_the_most_up_stream_spike() {
-    for (from, beyond_m) in [(StepFrom::Head, 0.3), (StepFrom::Spike, 0.24)] {
-        let spikes = NonZeroUsize::MIN;
-        let mut h = Hand::new(&CrabSpec { advance: AdvanceSpec::Gated(Gated { spikes, from }), ..CrabSpec::default() })
-            .swept(0.0);
-        let met = StepRecord { foremost_m: Some(0.24), ..step(true, 1.0, 1.0) };
-        assert!(is(h.ask(met, false), B::StepUp, beyond_m + 0.1, 0.0), "{from:?}");
-    }
 }
 
 #[test]
