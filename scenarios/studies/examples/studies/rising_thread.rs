@@ -1,9 +1,10 @@
 //! The crab's plume from the side, beside a neutral one:
 //! `cargo run --release -p rheotaxis-studies --example studies rising_thread`.
 //!
-//! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made
-//! neutral with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that
-//! Briggs's law would give without turbulence, and writes `docs/figures/rising_thread.png`, or the file that is named
+//! A nozzle in the flume of `flume_crab_paper` releases water that stays neutral; the paper's brine made neutral with
+//! alcohol, as warm as the flume, and 2 K and 4 K warmer and 2 K colder; and, to show what it is worth that its
+//! buoyancy comes with molecular mixing, a release that is as light from the start. It prints the mean height of the
+//! filaments by distance over five minutes, with the rise that Briggs's law would give without turbulence, and writes `docs/figures/rising_thread.png`, or the file that is named
 //! after `--`: the filaments at the end, and the mean height of all minutes.
 
 #![allow(clippy::print_stdout, reason = "it measures and speaks")]
@@ -11,13 +12,14 @@
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
 use output::charts::png;
-use plumes::release::BuoyancySpec;
+use plumes::release::{BuoyancySpec, CompositionSpec};
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::load;
 use std::error::Error;
 use std::path::Path;
 use world::fields::Flow;
 use world::math;
+use world::ranges::Finite;
 
 /// Time over which heights are averaged, s.
 const WATCHED_S: f64 = 300.0;
@@ -36,25 +38,37 @@ struct Side {
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(2);
     let file = file.as_deref().unwrap_or("docs/figures/rising_thread.png");
-    let loaded = load(Path::new("flume_crab"))?;
-    let composition = loaded.scenario.sources[0].release.buoyancy.clone();
+    let loaded = load(Path::new("flume_crab_paper"))?;
+    let BuoyancySpec::Composition(brine) = loaded.scenario.sources[0].release.buoyancy.clone() else {
+        return Err("flume_crab_paper releases a solution".into());
+    };
+    let warm = |temperature_c| {
+        BuoyancySpec::Composition(CompositionSpec { temperature_c: Finite::new(temperature_c), ..brine.clone() })
+    };
     let mut sides = Vec::new();
-    for (title, buoyancy) in
-        [("neutral", BuoyancySpec::Neutral), ("47 g/L of salt, made neutral with 2-propanol", composition)]
-    {
+    for (title, buoyancy) in [
+        ("neutral", BuoyancySpec::Neutral),
+        ("47 g/L of salt, made neutral with 2-propanol", warm(20.0)),
+        ("2 K colder", warm(18.0)),
+        ("2 K warmer", warm(22.0)),
+        ("4 K warmer", warm(24.0)),
+        ("as light at once", BuoyancySpec::Excess(Finite::new(-7.0))),
+    ] {
         let mut scenario = loaded.scenario.clone();
         scenario.sources[0].release.buoyancy = buoyancy;
         let origin = Origin::from_scenario(&scenario, &loaded.base_dir, 1);
         sides.push((title, watched(&origin, &loaded.base_dir)?));
     }
-    println!("| distance, cm | neutral, cm above the bed | brine, cm | rise by Briggs without turbulence, cm |");
-    println!("|---|---|---|---|");
+    let titles: Vec<&str> = sides.iter().map(|(title, _)| *title).collect();
+    println!("Mean height, cm above the bed:\n");
+    println!("| distance, cm | {} | rise by Briggs without turbulence, cm |", titles.join(" | "));
+    println!("|---{}|", "|---".repeat(sides.len() + 1));
     for slice in 0..SLICES {
         let x = (slice as f64 + 0.5) * SLICE_M;
-        let [neutral, brine] = [0, 1].map(|k: usize| 100.0 * sides[k].1.heights_m[slice]);
-        println!("| {:.0} | {neutral:.1} | {brine:.1} | {:.1} |", 100.0 * x, 100.0 * briggs(x));
+        let heights: Vec<String> = sides.iter().map(|(_, s)| format!("{:.1}", 100.0 * s.heights_m[slice])).collect();
+        println!("| {:.0} | {} | {:.1} |", 100.0 * x, heights.join(" | "), 100.0 * briggs(x));
     }
-    std::fs::write(file, png(&drawn(&sides))?)?;
+    std::fs::write(file, png(&drawn(&sides[..2]))?)?;
     println!("\n{file}");
     Ok(())
 }

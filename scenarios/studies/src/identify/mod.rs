@@ -5,7 +5,8 @@
 //! Nature 466, 1102; Price et al. 2018, J. Comput. Graph. Stat. 27, 1). In rounds: what a first few trials leave
 //! possible gets more (Toni et al. 2009, J. R. Soc. Interface 6, 187).
 //!
-//! *Parameters*: [`LOST`], the weight that a further round may lose.
+//! *Parameters*: [`LOST`], the weight that a further round may lose; [`LEAST`], the share of draws that it has at least,
+//! because a few trials rank draws badly.
 //!
 //! *Deviations*: figures count as independent of each other given the draw; whether all come out together is asked of
 //! fresh runs, jointly (see [`joint`](crate::reproduce::joint)).
@@ -27,6 +28,8 @@ use world::math;
 
 /// Share of the weight that the draws may have which a further round leaves out.
 const LOST: f64 = 1e-3;
+/// Share of the draws that a further round has at least.
+const LEAST: f64 = 0.1;
 
 /// What the figures say about the draws.
 #[derive(Clone, Debug)]

@@ -1,13 +1,16 @@
 //! What was identified, for people and for programs.
 
 use super::marginal::After;
+use super::next::{HEAD, next_round};
 use super::pairs::pairs;
-use super::{Identification, WeightedDraw, next_round};
+use super::{Identification, WeightedDraw};
 use crate::campaign::CampaignSpec;
 use crate::campaign::Draw as Prior;
 use crate::campaign::report::{Table, TableColumn};
-use output::files::{PendingFiles, ReportError, begin_folder, csv_number};
+use output::files::{PendingFiles, ReportError, begin_folder, csv_number, write_whole};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
+use world::files::OutputError;
 
 /// Draws that the text shows.
 const SHOWN: usize = 10;
@@ -101,9 +104,18 @@ pub fn write(
     files.write("draws.csv", draws(found).as_bytes());
     files.figure("pairs", &pairs(found));
     if let Some(next) = next_round(found, last, NEXT) {
-        files.write("next.ron", next.as_bytes());
+        // A scenario's ending: what is no campaign of ours is somebody's.
+        let path = dir.join("next.ron");
+        let ours = fs::read_to_string(&path).map_or(true, |text| text.starts_with(HEAD));
+        files.take(if ours { write_whole(&path, next.as_bytes()) } else { Err(somebodys(&path)) });
     }
     files.done()
+}
+
+fn somebodys(path: &Path) -> ReportError {
+    let source =
+        io::Error::other("it is there and is no campaign of this command: move it away, or name another folder");
+    OutputError::new(path, source).into()
 }
 
 fn draws(found: &Identification) -> String {
