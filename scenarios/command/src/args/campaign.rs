@@ -43,7 +43,7 @@ pub enum CampaignCommand {
     /// Compare the arms: tables, figures and a page.
     #[command(long_about = REPORT_ABOUT)]
     Report(ReportArgs),
-    /// Weigh drawn arms by the figures that a paper prints.
+    /// Find the drawn arms that come nearest to the figures that a paper prints.
     #[command(long_about = IDENTIFY_ABOUT)]
     Identify(IdentifyArgs),
     /// Repeat one run, with all the files that `rheotaxis run` writes.
@@ -145,6 +145,9 @@ pub struct IdentifyArgs {
     /// Row with the paper's figures, by its name or file [default: that of the first campaign's name].
     #[arg(long, value_name = "ROW")]
     pub figures: Option<PathBuf>,
+    /// Do not judge by this figure, by its name in the table; may be given several times.
+    #[arg(long, value_name = "FIGURE")]
+    pub leave_out: Vec<String>,
     /// Folder for the results.
     #[arg(long, short, value_name = "DIR")]
     pub out: PathBuf,
@@ -193,11 +196,11 @@ pub(super) const RERUN_ABOUT: &str = "Repeats one run of a campaign and writes t
         the one in the row.";
 
 /// What the help of this command begins with.
-pub(super) const IDENTIFY_ABOUT: &str = "Which of a campaign's drawn arms (`drawn_arms`) give the figures that a paper prints? Each draw is weighed by how \
-        likely the paper's figures are where its runs are the truth (approximate Bayesian computation with the \
-        figures' own sampling errors). The figures are those of the first arm of a row of `rheotaxis reproduce` that \
-        say how well they are known.\n\n\
-        A first round of a few seeds leaves most draws out. `next.ron` is the campaign of the others, on the seeds \
+pub(super) const IDENTIFY_ABOUT: &str = "Which of a campaign's drawn arms (`drawn_arms`) come nearest to the figures that a paper prints? The distance of a \
+        draw is that of its runs' figures from the paper's, each in the figure's own standard errors; the nearest \
+        hundredth is accepted (approximate Bayesian computation). The figures are those of the first arm of a row of \
+        `rheotaxis reproduce` that say how well they are known.\n\n\
+        A first round of a few seeds leaves most draws out. `next.ron` is the campaign of the nearest tenth, on the seeds \
         that follow; run it, then name both folders:\n\n  \
         rheotaxis campaign run crab_identify --out round1\n  \
         rheotaxis campaign identify round1 --out found1\n  \

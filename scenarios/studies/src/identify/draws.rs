@@ -19,6 +19,8 @@ pub struct Draw {
     pub name: String,
     /// What it sets.
     pub set: Vec<(String, String)>,
+    /// The round of its runs, from 0.
+    pub round: usize,
     /// Its runs.
     pub runs: Vec<RunRow>,
 }
@@ -49,7 +51,7 @@ impl Draws {
             .collect();
         let mut draws: BTreeMap<String, Draw> = BTreeMap::new();
         let arms: BTreeMap<&String, &Arm> = first.0.spec.arms.iter().map(|arm| (&arm.name, arm)).collect();
-        for (campaign, rows) in &rounds {
+        for (round, (campaign, rows)) in rounds.iter().enumerate() {
             for arm in &campaign.spec.arms {
                 if arms.get(&arm.name).is_none_or(|there| there.set != arm.set) {
                     return Err(format!("`{}` has an arm `{}` that the first round has not", campaign.name, arm.name));
@@ -61,7 +63,7 @@ impl Draws {
             }
             for (name, runs) in runs {
                 let Some(arm) = arms.get(name) else { continue };
-                draws.insert(name.clone(), Draw { name: name.clone(), set: arm.set.clone(), runs });
+                draws.insert(name.clone(), Draw { name: name.clone(), set: arm.set.clone(), round, runs });
             }
         }
         Ok(Self { unknowns, draws: draws.into_values().collect() })

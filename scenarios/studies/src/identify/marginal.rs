@@ -1,10 +1,9 @@
 //! What is known of each unknown alone.
 
-use super::WeightedDraw;
+use super::JudgedDraw;
 use super::draws::Unknown;
 use crate::campaign::Draw as Prior;
-use crate::campaign::stats::Interval;
-use std::collections::BTreeMap;
+use crate::campaign::stats::{Interval, finite_sorted, quantile};
 
 /// An unknown, before and after.
 #[derive(Clone, Debug)]
@@ -15,17 +14,17 @@ pub struct Marginal {
     pub after: After,
 }
 
-/// What the draws' weights say of an unknown.
+/// What the accepted draws say of an unknown.
 #[derive(Clone, Debug)]
 pub enum After {
-    /// Median of a number, and where 95 % of the weight lies.
+    /// Median of a number, and where 95 % of them lie.
     Number(f64, Interval),
-    /// Share of the weight and of the draws by value.
-    Choice(Vec<(String, f64, f64)>),
+    /// Share of them by value.
+    Choice(Vec<(String, f64)>),
 }
 
 /// Those of all unknowns.
-pub(super) fn marginals(unknowns: &[Unknown], draws: &[WeightedDraw]) -> Vec<Marginal> {
+pub(super) fn marginals(unknowns: &[Unknown], draws: &[JudgedDraw]) -> Vec<Marginal> {
     let of = |unknown: &Unknown| {
         let after = match &unknown.prior {
             Prior::Choice(_) => shares(unknown, draws),
@@ -36,37 +35,24 @@ pub(super) fn marginals(unknowns: &[Unknown], draws: &[WeightedDraw]) -> Vec<Mar
     unknowns.iter().map(of).collect()
 }
 
-fn shares(unknown: &Unknown, draws: &[WeightedDraw]) -> After {
+fn shares(unknown: &Unknown, draws: &[JudgedDraw]) -> After {
     let Prior::Choice(values) = &unknown.prior else { return After::Choice(Vec::new()) };
-    let mut after: BTreeMap<&str, (f64, f64)> = BTreeMap::new();
-    for d in draws {
-        let sum = after.entry(d.draw.value(&unknown.path).unwrap_or_default()).or_default();
-        *sum = (sum.0 + d.weight, sum.1 + 1.0 / draws.len() as f64);
-    }
-    let of = |value: &String| {
-        let (weight, before) = after.get(value.as_str()).copied().unwrap_or_default();
-        (value.clone(), weight, before)
+    let share = |value: &String| {
+        let with = draws.iter().filter(|d| d.draw.value(&unknown.path) == Some(value)).count();
+        (value.clone(), with as f64 / draws.len().max(1) as f64)
     };
-    After::Choice(values.iter().map(of).collect())
+    After::Choice(values.iter().map(share).collect())
 }
 
-fn number(unknown: &Unknown, draws: &[WeightedDraw]) -> After {
-    let mut all: Vec<(f64, f64)> = draws.iter().filter_map(|d| Some((unknown.number(d)?, d.weight))).collect();
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let quantile = |p: f64| {
-        let mut sum = 0.0;
-        let reached = all.iter().find(|(_, weight)| {
-            sum += weight;
-            sum >= p
-        });
-        reached.or(all.last()).map_or(f64::NAN, |(value, _)| *value)
-    };
-    After::Number(quantile(0.5), Interval { low: quantile(0.025), high: quantile(0.975) })
+fn number(unknown: &Unknown, draws: &[JudgedDraw]) -> After {
+    let sorted = finite_sorted(draws.iter().filter_map(|d| unknown.number(d)));
+    let at = |p: f64| quantile(&sorted, p).unwrap_or(f64::NAN);
+    After::Number(at(0.5), Interval { low: at(0.025), high: at(0.975) })
 }
 
 impl Unknown {
     /// A draw's value of it as a number: that of a choice without numbers is its place among the values.
-    pub(super) fn number(&self, d: &WeightedDraw) -> Option<f64> {
+    pub(super) fn number(&self, d: &JudgedDraw) -> Option<f64> {
         let value = d.draw.value(&self.path)?;
         value.parse().ok().or_else(|| match &self.prior {
             Prior::Choice(all) => all.iter().position(|v| v == value).map(|n| n as f64),

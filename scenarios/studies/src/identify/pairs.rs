@@ -1,7 +1,7 @@
 //! The draws by each pair of unknowns, and each unknown alone.
 
 use super::draws::Unknown;
-use super::{Identification, WeightedDraw};
+use super::{Identification, JudgedDraw};
 use crate::campaign::Draw as Prior;
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
@@ -14,7 +14,7 @@ const ROOM: [f64; 2] = [120.0, 30.0];
 const BARS: usize = 11;
 
 /// Where an unknown's values lie on an axis from 0 to 1.
-fn place(unknown: &Unknown, d: &WeightedDraw) -> Option<f64> {
+fn place(unknown: &Unknown, d: &JudgedDraw) -> Option<f64> {
     let value = unknown.number(d)?;
     Some(match &unknown.prior {
         Prior::Uniform(a, b) => (value - a) / (b - a),
@@ -34,14 +34,14 @@ fn ends(unknown: &Unknown) -> [String; 2] {
     }
 }
 
-/// The picture: below the diagonal pairs, a draw's disc as large as its weight; on it each unknown alone, with the line
+/// The picture of the accepted draws: below the diagonal pairs, on it each unknown alone, with the line
 /// that all bars would reach if nothing were known.
 pub(super) fn pairs(found: &Identification) -> String {
     let unknowns: Vec<&Unknown> = found.marginals.iter().map(|m| &m.unknown).collect();
     let n = unknowns.len();
     let size = |room: f64| room + CELL * n as f64 + 40.0;
     let mut c = Canvas::new(size(ROOM[0]), size(ROOM[1]));
-    let heaviest = found.draws.first().map_or(1.0, |d| d.weight);
+    let draws = &found.draws[..found.accepted];
     for row in 0..n {
         for column in 0..=row {
             let panel = Panel {
@@ -54,12 +54,11 @@ pub(super) fn pairs(found: &Identification) -> String {
             };
             panel.clip(&mut c);
             if row == column {
-                bars(&mut c, &panel, unknowns[row], &found.draws);
+                bars(&mut c, &panel, unknowns[row], draws);
             } else {
-                for d in found.draws.iter().filter(|d| d.weight > 1e-3 * heaviest) {
+                for d in draws {
                     if let Some(at) = place(unknowns[column], d).zip(place(unknowns[row], d)) {
-                        let r = 5.0 * (d.weight / heaviest).sqrt();
-                        c.circle(panel.position([at.0, at.1]), r, &Style::fill("#7a4fa3").faint(0.5));
+                        c.circle(panel.position([at.0, at.1]), 2.5, &Style::fill("#7a4fa3").faint(0.5));
                     }
                 }
             }
@@ -80,21 +79,21 @@ pub(super) fn pairs(found: &Identification) -> String {
     c.svg("pairs")
 }
 
-fn bars(c: &mut Canvas, panel: &Panel, unknown: &Unknown, draws: &[WeightedDraw]) {
+fn bars(c: &mut Canvas, panel: &Panel, unknown: &Unknown, draws: &[JudgedDraw]) {
     let n = match &unknown.prior {
         Prior::Choice(all) => all.len(),
         _ => BARS,
     };
-    let mut weights = vec![0.0; n];
+    let mut shares = vec![0.0; n];
     for d in draws {
         if let Some(at) = place(unknown, d) {
-            weights[((at * n as f64) as usize).min(n - 1)] += d.weight;
+            shares[((at * n as f64) as usize).min(n - 1)] += 1.0 / draws.len() as f64;
         }
     }
-    let most = weights.iter().fold(1.0 / n as f64, |most: f64, w| most.max(*w));
-    for (k, weight) in weights.iter().enumerate() {
+    let most = shares.iter().fold(1.0 / n as f64, |most: f64, s| most.max(*s));
+    for (k, share) in shares.iter().enumerate() {
         let [left, right] = [k, k + 1].map(|k| panel.px(k as f64 / n as f64));
-        let top = panel.py(0.95 * weight / most);
+        let top = panel.py(0.95 * share / most);
         c.rect(left + 1.0, top, right - left - 2.0, panel.bottom() - top, &Style::fill("#7a4fa3"));
     }
     let even = 0.95 / (n as f64 * most);

@@ -63,14 +63,15 @@ fn what_the_figures_were_made_with_is_found() {
     let rows = runs(&first, 12);
     let found = identify(Draws::gather(vec![(first, rows)]).unwrap(), &figures());
     assert_eq!((found.figures.len(), found.draws.len(), found.marginals.len()), (2, 400, 2));
-    let marginal::After::Number(median, i) = &found.marginals[0].after else { panic!("a number") };
-    // 24 of 40, each with twelve trials of its own: 60 and an error of some 16.
-    assert!((median - 60.0).abs() < 8.0 && i.contains(60.0), "{median} {i:?}");
-    assert!(i.half_width() < 38.0 && i.half_width() > 12.0, "{i:?}");
+    assert_eq!((found.accepted, found.draws[0].draw.runs.len()), (4, 12));
+    for d in &found.draws[..found.accepted] {
+        // 24 of 40: with twelve trials a draw's own share is known to some 14 %.
+        let limit_s: f64 = d.draw.value("time.limit_s").unwrap().parse().unwrap();
+        assert!((limit_s - 60.0).abs() < 35.0 && d.distance < 1.0, "{limit_s} at {}", d.distance);
+    }
     let marginal::After::Choice(depths) = &found.marginals[1].after else { panic!("a choice") };
-    assert!(depths[0].1 > 0.99 && (depths[0].2 - 0.5).abs() < 0.1, "{depths:?}");
-    assert!((found.draws.iter().map(|d| d.weight).sum::<f64>() - 1.0).abs() < 1e-9);
-    assert!(found.effective > 20.0 && found.effective < 200.0, "{}", found.effective);
+    assert_eq!(depths[0], ("9".to_string(), 1.0));
+    assert!(found.draws.windows(2).all(|d| d[0].distance <= d[1].distance));
 }
 
 #[test]
@@ -81,8 +82,7 @@ fn a_further_round_takes_fresh_runs_of_what_remains() {
     let next = next_round(&found, &first.spec, 20).unwrap();
     let second = campaign(&next);
     assert_eq!(second.spec.seeds.describe(), "seeds 913 to 932");
-    let kept = second.spec.arms.len();
-    assert!(kept > 20 && kept < 390, "{kept}");
+    assert_eq!(second.spec.arms.len(), 40);
     // Nothing that the first round had not, and each as it was.
     let fresh = runs(&second, 20);
     let draws = Draws::gather(vec![(first.clone(), rows), (second.clone(), fresh)]).unwrap();
@@ -91,6 +91,7 @@ fn a_further_round_takes_fresh_runs_of_what_remains() {
     assert_eq!(n(&second.spec.arms[0].name), 20);
     let left_out = first.spec.arms.iter().find(|a| second.spec.arms.iter().all(|b| a.name != b.name)).unwrap();
     assert_eq!(n(&left_out.name), 3);
+    assert!(identify(draws, &figures()).draws[..4].iter().all(|d| d.draw.round == 1));
     let other = campaign(&next.replace("time.limit_s", "time.spin_up_s"));
     let said = Draws::gather(vec![(first, Vec::new()), (other, Vec::new())]).unwrap_err();
     assert!(said.contains("that the first round has not"), "{said}");
@@ -133,7 +134,7 @@ fn a_folder_gets_tables_a_picture_and_the_next_campaign() {
     let names: Vec<String> = files.iter().map(|f| f.file_name().unwrap().to_string_lossy().into()).collect();
     assert_eq!(names, ["IDENTIFICATION.md", "draws.csv", "pairs.svg", "pairs.png", "next.ron"]);
     let csv = std::fs::read_to_string(&files[1]).unwrap();
-    assert_eq!(csv.lines().next(), Some("draw,weight,ln_likelihood,runs,time.limit_s,terrain.depth_m,found,error"));
+    assert_eq!(csv.lines().next(), Some("draw,distance,runs,time.limit_s,terrain.depth_m,found,error"));
     assert_eq!(csv.lines().count(), 401);
     let page = std::fs::read_to_string(&files[0]).unwrap();
     assert!(page.contains("| time.limit_s | 10 to 110 |"), "{page}");

@@ -3,7 +3,7 @@
 use super::marginal::After;
 use super::next::{HEAD, next_round};
 use super::pairs::pairs;
-use super::{Identification, WeightedDraw};
+use super::{Identification, JudgedDraw};
 use crate::campaign::CampaignSpec;
 use crate::campaign::Draw as Prior;
 use crate::campaign::report::{Table, TableColumn};
@@ -15,7 +15,7 @@ use world::files::OutputError;
 /// Draws that the text shows.
 const SHOWN: usize = 10;
 /// Seeds of the next round.
-const NEXT: u64 = 20;
+const SEEDS: u64 = 20;
 
 /// The tables as text for a terminal, or as Markdown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +33,17 @@ pub fn text(found: &Identification, title: &str, form: IdentificationText) -> St
         IdentificationText::Markdown => table.markdown(),
     };
     let runs: usize = found.draws.iter().map(|d| d.draw.runs.len()).sum();
+    let distance = |n: usize| found.draws.get(n).map_or(f64::NAN, |d| d.distance);
     format!(
-        "{title}\n\n{} draws, {runs} runs; their weight is that of {:.1} draws that say the same.\n\n{}\n{}",
+        "{title}\n\n{} draws, {runs} runs. Accepted are the {} nearest, at distances from {:.1} to {:.1} standard errors. A \
+         paper about the truth lies at about {:.1}.\n\n{}\n{}",
         found.draws.len(),
-        found.effective,
+        found.accepted,
+        distance(0),
+        distance(found.accepted.saturating_sub(1)),
+        (found.figures.len() as f64).sqrt(),
         shown(&unknowns(found)),
-        shown(&likeliest(found)),
+        shown(&nearest(found)),
     )
 }
 
@@ -52,7 +57,7 @@ fn unknowns(found: &Identification) -> Table {
         let after = match &m.after {
             After::Number(median, i) => format!("{median:.4} ({:.4} to {:.4})", i.low, i.high),
             After::Choice(all) => {
-                let each = all.iter().map(|(value, weight, _)| format!("{value}: {:.1} %", 100.0 * weight));
+                let each = all.iter().map(|(value, share)| format!("{value}: {:.0} %", 100.0 * share));
                 each.collect::<Vec<_>>().join(", ")
             }
         };
@@ -61,17 +66,17 @@ fn unknowns(found: &Identification) -> Table {
     let columns: [TableColumn<'_, [String; 3]>; 3] = [
         ("unknown", &|r| r[0].clone()),
         ("before", &|r| r[1].clone()),
-        ("after: median (95 %), or share of the weight", &|r| r[2].clone()),
+        ("after: median (95 %), or shares", &|r| r[2].clone()),
     ];
     Table::of(rows, &columns)
 }
 
-fn likeliest(found: &Identification) -> Table {
-    let mut heads: Vec<String> = vec!["draw".into(), "weight".into(), "runs".into()];
+fn nearest(found: &Identification) -> Table {
+    let mut heads: Vec<String> = vec!["draw".into(), "distance".into(), "runs".into()];
     heads.extend(found.figures.iter().map(|f| f.name.clone()));
-    let row = |d: &WeightedDraw| {
-        let mut cells = vec![d.draw.name.clone(), format!("{:.2} %", 100.0 * d.weight), d.draw.runs.len().to_string()];
-        cells.extend(found.figures.iter().zip(&d.figures).map(|(f, (ours, _))| {
+    let row = |d: &JudgedDraw| {
+        let mut cells = vec![d.draw.name.clone(), format!("{:.1}", d.distance), d.draw.runs.len().to_string()];
+        cells.extend(found.figures.iter().zip(&d.ours).map(|(f, ours)| {
             let unit = f.figure.quantity.unit();
             ours.map_or("-".to_string(), |v| unit.scale([v]).show(v))
         }));
@@ -103,7 +108,7 @@ pub fn write(
     files.write("IDENTIFICATION.md", format!("{page}\nBy `{command}`.\n\n![pairs](pairs.svg)\n").as_bytes());
     files.write("draws.csv", draws(found).as_bytes());
     files.figure("pairs", &pairs(found));
-    if let Some(next) = next_round(found, last, NEXT) {
+    if let Some(next) = next_round(found, last, SEEDS) {
         // A scenario's ending: what is no campaign of ours is somebody's.
         let path = dir.join("next.ron");
         let ours = fs::read_to_string(&path).map_or(true, |text| text.starts_with(HEAD));
@@ -119,14 +124,14 @@ fn somebodys(path: &Path) -> ReportError {
 }
 
 fn draws(found: &Identification) -> String {
-    let mut heads = ["draw", "weight", "ln_likelihood", "runs"].map(str::to_string).to_vec();
+    let mut heads = ["draw", "distance", "runs"].map(str::to_string).to_vec();
     heads.extend(found.marginals.iter().map(|m| m.unknown.path.clone()));
     heads.extend(found.figures.iter().map(|f| f.name.replace(',', ";")));
-    let row = |d: &WeightedDraw| {
-        let numbers = [d.weight.to_string(), d.ln_likelihood.to_string(), d.draw.runs.len().to_string()];
+    let row = |d: &JudgedDraw| {
+        let numbers = [d.distance.to_string(), d.draw.runs.len().to_string()];
         let mut cells = [vec![d.draw.name.clone()], numbers.to_vec()].concat();
         cells.extend(found.marginals.iter().map(|m| d.draw.value(&m.unknown.path).unwrap_or_default().to_string()));
-        cells.extend(d.figures.iter().map(|(ours, _)| csv_number(*ours)));
+        cells.extend(d.ours.iter().map(|ours| csv_number(*ours)));
         cells
     };
     Table { head: heads, rows: found.draws.iter().map(row).collect() }.csv()

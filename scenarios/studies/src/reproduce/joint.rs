@@ -40,11 +40,10 @@ pub fn joint(figures: &[Published], runs: &[RunRow]) -> Option<Joint> {
         if count < 5.0 {
             return None;
         }
-        let (papers, papers_error) = figure.value_and_error(variance.sqrt());
+        let (_, papers_error) = figure.value_and_error(variance.sqrt());
         let error = (papers_error * papers_error + variance / count).sqrt();
         errors.push(error);
-        let apart = if figure.is_bound() { (papers - mean).max(0.0) } else { papers - mean };
-        above[k] = if error > 0.0 { apart / error } else { 0.0 };
+        above[k] = if error > 0.0 { figure.short_by(mean) / error } else { 0.0 };
     }
     let together = DMatrix::from_fn(n, n, |a, b| {
         if a == b {

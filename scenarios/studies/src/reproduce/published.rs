@@ -1,26 +1,15 @@
-//! A published figure that says how well it is known, and how likely it is under a draw, from the draw's runs.
+//! A published figure that says how well it is known.
 //!
-//! *Source*: a count follows the beta-binomial law of the draw's own count (Jeffreys's prior); a mean differs from the
-//! draw's mean by the sampling errors of both.
+//! *Source*: standard errors of counts and means.
 //!
-//! *Parameters*: [`BELIEF`], how many values the usual spread counts for beside a draw's own.
+//! *Parameters*: none.
 //!
-//! *Deviations*: none.
+//! *Deviations*: where a paper prints a mean without its error, the spread of our runs stands for that of its trials.
 
 use super::measure::{Measure, RunEvent};
 use super::quantity::Quantity;
 use super::row::{Figure, Paper};
 use crate::campaign::RunRow;
-use crate::campaign::stats::{Interval, wilson};
-use statrs::distribution::{Continuous, ContinuousCDF, Normal};
-use statrs::function::gamma::ln_gamma;
-use world::math;
-
-/// Values that the spread within the other draws counts for.
-const BELIEF: f64 = 4.0;
-/// What a figure is worth that a draw does not have at all, such as a time of runs of which none arrived: far below
-/// what any other draw is.
-const NONE: f64 = -50.0;
 
 /// A figure of a paper that says how well it is known.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,15 +35,6 @@ enum Kind {
 enum Error {
     Standard(f64),
     Over(u64),
-}
-
-/// How a figure fits a draw.
-pub(crate) struct Fit {
-    pub(crate) ln_likelihood: f64,
-    /// The draw's own value.
-    pub(crate) ours: Option<f64>,
-    /// Where the paper's figure would lie in 95 % of papers about such a draw.
-    pub(crate) papers: Option<Interval>,
 }
 
 impl Published {
@@ -125,28 +105,16 @@ impl Published {
         if freedom > 0.0 { (sum / freedom).sqrt() } else { 0.0 }
     }
 
-    /// How it fits a draw's runs, where runs usually differ by `usual`.
-    pub(crate) fn fit(&self, runs: &[RunRow], usual: f64) -> Fit {
-        let values = self.values(runs);
-        let (n, mean, squares) = moments(&values);
-        if n == 0.0 {
-            return Fit { ln_likelihood: NONE, ours: None, papers: None };
-        }
-        if let Kind::Count(_, k, of) = self.kind {
-            let (yes, no) = (mean * n + 0.5, (1.0 - mean) * n + 0.5);
-            let (k, of) = (k as f64, of as f64);
-            let beta = |a: f64, b: f64| ln_gamma(a) + ln_gamma(b) - ln_gamma(a + b);
-            let chosen = ln_gamma(of + 1.0) - ln_gamma(k + 1.0) - ln_gamma(of - k + 1.0);
-            let ln_likelihood = chosen + beta(k + yes, of - k + no) - beta(yes, no);
-            return Fit { ln_likelihood, ours: Some(mean), papers: Some(wilson((mean * n).round() as u64, n as u64)) };
-        }
-        let spread = ((BELIEF * usual * usual + squares) / (BELIEF + n - 1.0)).sqrt();
-        let (value, papers) = self.value_and_error(spread);
-        let error = (papers * papers + spread * spread / n).sqrt().max(1e-9 * value.abs());
-        let law = Normal::new(mean, error).expect("a finite mean, an error above zero");
-        let ln_likelihood = if self.is_bound() { math::ln(law.sf(value).max(1e-300)) } else { law.ln_pdf(value) };
-        let papers = Interval { low: law.inverse_cdf(0.025), high: law.inverse_cdf(0.975) };
-        Fit { ln_likelihood, ours: Some(mean), papers: Some(papers) }
+    /// Its value over these runs; `None` if none of them has it.
+    pub(crate) fn mean(&self, runs: &[RunRow]) -> Option<f64> {
+        let (n, mean, _) = moments(&self.values(runs));
+        (n > 0.0).then_some(mean)
+    }
+
+    /// By how much a value of ours is below the paper's; above a bound it is not.
+    pub(crate) fn short_by(&self, ours: f64) -> f64 {
+        let (papers, _) = self.value_and_error(0.0);
+        if self.is_bound() { (papers - ours).max(0.0) } else { papers - ours }
     }
 }
 

@@ -5,9 +5,7 @@ use rheotaxis::lanes::group_by_ocean;
 use rheotaxis::scenario::{Loaded, cost};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use studies::campaign::{
-    CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, Seeds, load, one_run, read_rows, run,
-};
+use studies::campaign::{CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run};
 use studies::reproduce::{Plan, RowResult, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
@@ -27,13 +25,14 @@ fn is_of_the_run_alone(row: RunRow, loaded: &Loaded, seed: Seed) {
     assert_eq!(timeless(row), timeless(one_run(loaded, &name)), "{}", loaded.name);
 }
 
-/// One seed under each condition, with a short spin-up and mission, and at most eight arms.
+/// One seed under each condition, with a short spin-up and mission, and eight drawn arms if it draws any.
 fn cut_campaign(name: &str) -> Campaign {
     let whole = load(&Registry::default(), Path::new(name)).unwrap();
-    let mut cut = Campaign { base: lasting(whole.base.clone(), 15.0, 8.0), ..whole };
-    cut.spec.seeds = Seeds::Literal { first: 4, count: 1 };
-    cut.spec.arms.truncate(8);
-    cut
+    let mut text = whole.text.replace("n: 5005", "n: 8");
+    let from = text.find("seeds: ").unwrap();
+    let length = text[from..].find(",\n").unwrap();
+    text.replace_range(from..from + length, "seeds: Literal(first: 4, count: 1)");
+    Campaign::new(&whole.shown, &whole.name, &text, lasting(whole.base, 15.0, 8.0)).unwrap()
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `rheotaxis campaign identify`: weighs drawn arms by published figures.
+//! `rheotaxis campaign identify`: judges drawn arms by published figures.
 
 use crate::args::campaign::IdentifyArgs;
 use crate::commands::reproduce::command;
@@ -21,7 +21,13 @@ pub(super) fn identify_draws(registry: &Registry, args: &IdentifyArgs) -> Result
     let row = args.figures.clone().unwrap_or_else(|| Path::new(&first.name).to_owned());
     let reference = wanted(registry, &[row], &[])?.swap_remove(0);
     let arm = reference.row.arms.first().map(|arm| arm.name.as_str());
-    let figures = Published::of(&reference.row.figures, arm);
+    let mut figures = Published::of(&reference.row.figures, arm);
+    for name in &args.leave_out {
+        let there: Vec<&str> = figures.iter().map(|f| f.name.as_str()).collect();
+        let known = format!("the figures: {}", there.join("; "));
+        let at = figures.iter().position(|f| f.name == *name);
+        figures.remove(at.ok_or_else(|| hinted(format!("--leave-out: there is no figure \"{name}\""), known))?);
+    }
     if figures.is_empty() {
         return Err(hinted(
             format!("no figure of `{}` says how well it is known", reference.row.id),
