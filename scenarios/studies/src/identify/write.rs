@@ -8,12 +8,14 @@ use crate::campaign::CampaignSpec;
 use crate::campaign::Draw as Prior;
 use crate::campaign::report::{Table, TableColumn};
 use output::files::{PendingFiles, ReportError, begin_folder, csv_number, write_whole};
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
-use world::files::OutputError;
+use world::files::{self, OutputError};
 
 /// Draws that the text shows.
 const SHOWN: usize = 10;
+/// Longest campaign file, bytes.
+const LONGEST: u64 = 1 << 20;
 /// Seeds of the next round.
 const SEEDS: u64 = 20;
 
@@ -103,18 +105,19 @@ pub fn write(
     command: &str,
 ) -> Result<Vec<PathBuf>, ReportError> {
     let folder = begin_folder(dir, "campaign identify")?;
-    let mut files = PendingFiles::new(&folder);
+    let mut written = PendingFiles::new(&folder);
     let page = text(found, &format!("# {}", last.title), IdentificationText::Markdown);
-    files.write("IDENTIFICATION.md", format!("{page}\nBy `{command}`.\n\n![pairs](pairs.svg)\n").as_bytes());
-    files.write("draws.csv", draws(found).as_bytes());
-    files.figure("pairs", &pairs(found));
+    written.write("IDENTIFICATION.md", format!("{page}\nBy `{command}`.\n\n![pairs](pairs.svg)\n").as_bytes());
+    written.write("draws.csv", draws(found).as_bytes());
+    written.figure("pairs", &pairs(found));
     if let Some(next) = next_round(found, last, SEEDS) {
         // A scenario's ending: what is no campaign of ours is somebody's.
         let path = dir.join("next.ron");
-        let ours = fs::read_to_string(&path).map_or(true, |text| text.starts_with(HEAD));
-        files.take(if ours { write_whole(&path, next.as_bytes()) } else { Err(somebodys(&path)) });
+        let there = files::read_text(&path, LONGEST);
+        let ours = there.map_or_else(|e| e.kind() == io::ErrorKind::NotFound, |text| text.starts_with(HEAD));
+        written.take(if ours { write_whole(&path, next.as_bytes()) } else { Err(somebodys(&path)) });
     }
-    files.done()
+    written.done()
 }
 
 fn somebodys(path: &Path) -> ReportError {

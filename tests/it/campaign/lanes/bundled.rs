@@ -56,7 +56,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
             let lanes = groups(&runs);
             let (want, spins_up) = match template.name {
                 "kinematic_steps" => (vec![1; arms], 1),
-                "crab_identify" => (vec![1, 1, 2, 4], 4),
+                "crab_identify" => (vec![1, 1, 1, 2, 3], 5),
                 _ => (vec![arms], 1),
             };
             let mut sorted = lanes.clone();

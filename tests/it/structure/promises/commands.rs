@@ -33,6 +33,16 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
             ],
         },
     ),
+    ("rheotaxis campaign run crab_identify --out round1", No("it takes half an hour")),
+    (
+        "rheotaxis campaign identify round1 --out found1",
+        In("scenarios/studies/src/identify/tests.rs", "fn a_folder_gets_tables_a_picture_and_the_next_campaign"),
+    ),
+    ("rheotaxis campaign run found1/next.ron --out round2", No("it takes a quarter of an hour")),
+    (
+        "rheotaxis campaign identify round1 round2 --out found",
+        In("scenarios/studies/src/identify/tests.rs", "fn a_further_round_takes_fresh_runs_of_what_remains"),
+    ),
     (
         "rheotaxis vehicle init lauv my_auv",
         Ends { code: 0, says: &[], leaves: &["my_auv/vehicle.ron", "my_auv/lauv.urdf"] },

@@ -53,7 +53,7 @@ fn arms_are_chosen_alone_with_their_figures() {
     let theirs = |f: &Figure| f.arm.as_deref() == Some("adaptive");
     assert!(rows[0].row.figures.iter().all(theirs));
     let said = of("adaptve").unwrap_err().to_string();
-    assert!(said.contains("`adaptve`") && said.contains("`paper`, `adaptive`"), "{said}");
+    assert!(said.contains("`adaptve`") && said.contains("`paper`, `text`, `adaptive`"), "{said}");
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn broken_rows_are_named_with_what_is_wrong() {
     for (text, says) in [
         (row("A b", "Count(7, 8)"), "id: must be"),
         (row("a", "Count(9, 8)"), "a count at most its total"),
-        (row("a", "Count(0, 0)"), "the total > 0"),
+        (row("a", "Count(0, 0)"), "a total above 0"),
         (row("a", "Value(NaN)"), "must be finite"),
         (row("a", "Median(3)"), "Median"),
         (
