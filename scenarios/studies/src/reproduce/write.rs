@@ -73,7 +73,8 @@ fn together(r: &RowResult) -> Vec<String> {
         let found = joint(&figures, &runs).filter(|_| figures.len() > 1)?;
         let apart = figures.iter().zip(&found.above).map(|(f, z)| format!("{} {z:+.1}", f.name));
         Some(format!(
-            "{arm}: the paper's {} figures together are {} the region of 95 % of papers about such runs (squared              distance {:.1}; farther: {:.2} % of papers). Standard errors above ours: {}.",
+            "{arm}: the paper's {} figures together are {} the region of 95 % of papers about such runs (squared \
+             distance {:.1}; farther: {:.2} % of papers). Standard errors above ours: {}.",
             figures.len(),
             if found.is_inside() { "inside" } else { "outside" },
             found.squared,
