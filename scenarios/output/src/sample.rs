@@ -219,7 +219,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
         robot.shown = Shown { layers: layers(behaviour), lost_points, ..Shown::default() };
         robot.belief = Some(Belief { odour, ..belief(t_s.floor()) });
         robot.declarations.extend((k >= declare_at).then_some(declared));
-        robot.fix_m = (k % 300 == 0).then_some(7.0);
+        robot.fix_m = k.is_multiple_of(300).then_some(7.0);
         Frame { t_s, step: 5 * k as u64, robots: vec![robot], ..Frame::default() }
     };
     (0..n).map(frame).collect()

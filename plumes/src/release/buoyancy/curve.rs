@@ -110,7 +110,7 @@ mod tests {
         let curve = Curve::of_a_sheet(&LiftByDilution::of(|dilution| 1.0 / dilution));
         for mixed in [1e-4, 1e-2, 0.3, 10.0, 1e3] {
             // Self-convolution of the slab's profile at its middle: a slab spread for twice the time, a triangle wide.
-            let spread = (8.0 * mixed as f64).sqrt();
+            let spread = f64::sqrt(8.0 * mixed);
             let want = math::erf(1.0 / spread)
                 - spread / std::f64::consts::PI.sqrt() * (1.0 - math::exp(-1.0 / (spread * spread)));
             let got = curve.at(mixed);

@@ -93,12 +93,12 @@ impl ThresholdAnalyser {
     /// Whether a local maximum is a spike; it enters the average afterwards.
     pub fn accepts(&mut self, top: &Spike) -> bool {
         let accepted = top.magnitude_v > self.above_v(top.probe);
-        if let ThresholdSpec::HalfMean(p) = &self.spec {
-            if top.magnitude_v > p.floor_v.get() - self.bottom_v {
-                let r = &mut self.running[top.probe];
-                let fade = math::exp(-(top.t_s - r.t_s).max(0.0) / p.memory_s.get());
-                *r = Running { t_s: top.t_s, weight: r.weight * fade + 1.0, sum_v: r.sum_v * fade + top.magnitude_v };
-            }
+        if let ThresholdSpec::HalfMean(p) = &self.spec
+            && top.magnitude_v > p.floor_v.get() - self.bottom_v
+        {
+            let r = &mut self.running[top.probe];
+            let fade = math::exp(-(top.t_s - r.t_s).max(0.0) / p.memory_s.get());
+            *r = Running { t_s: top.t_s, weight: r.weight * fade + 1.0, sum_v: r.sum_v * fade + top.magnitude_v };
         }
         accepted
     }

@@ -282,7 +282,8 @@ mod tests {
         let (dir, _) = written(&row);
         let table = Table::read(dir.path(), &reference).unwrap().unwrap();
         assert_eq!(table.stale(&reference, 1), None);
-        let changes: [(&str, fn(&mut RunRow)); 3] = [
+        type Change = (&'static str, fn(&mut RunRow));
+        let changes: [Change; 3] = [
             ("error_m", |run| run.error_m = Some(0.25)),
             ("outcome", |run| run.outcome = "found!".into()),
             ("number of declarations", |run| run.declarations.push(DeclarationRow::default())),

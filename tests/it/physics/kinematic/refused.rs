@@ -30,7 +30,7 @@ fn numbers_without_meaning_are_refused_with_their_range() {
         let error = channel.set(VEHICLE, &format!("Kinematic({vehicle})")).expect_err("this is wrong");
         let lines = error.lines();
         assert_eq!(lines.len(), 1, "{lines:?}");
-        says(&lines[0], &[&format!("robots[0].vehicle.{said}").trim_end_matches('.'), got]);
+        says(&lines[0], &[format!("robots[0].vehicle.{said}").trim_end_matches('.'), got]);
     }
 }
 
