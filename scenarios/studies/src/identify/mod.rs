@@ -4,7 +4,7 @@
 //! whose runs come nearest to the figures are accepted. In rounds: what a first few trials leave possible gets more
 //! (Toni et al. 2009, J. R. Soc. Interface 6, 187).
 //!
-//! *Parameters*: [`ACCEPTED`], the share of draws that is accepted; [`NEXT`], the share that a further round has.
+//! *Parameters*: the share of draws that is accepted, a hundredth; the share that a further round has, a tenth.
 //!
 //! *Deviations*: a distance is the root of the sum of squares of (ours − the paper's), each over the figure's standard
 //! error. So figures count as independent of each other; whether all come out together is asked of fresh runs, jointly
