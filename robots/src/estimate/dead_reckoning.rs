@@ -52,7 +52,8 @@ pub struct Start {
 /// State of dead reckoning.
 #[derive(Component, Clone, Debug)]
 pub struct DeadReckoning {
-    spec: DeadReckoningSpec,
+    fix_gain: f64,
+    flow_filter_s: f64,
     dt_s: f64,
     position: Vector2<f64>,
     depth_m: f64,
@@ -67,7 +68,7 @@ pub struct DeadReckoning {
     v_before: Option<Vector2<f64>>,
     /// Flow (east, north), m/s, and when it was last measured, s.
     flow: Option<(Vector2<f64>, f64)>,
-    layers: Option<LayerWatch>,
+    layers: Option<Box<LayerWatch>>,
 }
 
 impl DeadReckoning {
@@ -76,7 +77,8 @@ impl DeadReckoning {
         let attitude =
             Attitude { heading: start.heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() };
         Self {
-            spec: spec.clone(),
+            fix_gain: spec.fix_gain.get(),
+            flow_filter_s: spec.flow_filter_s.get(),
             dt_s,
             position: start.position,
             depth_m: start.depth_m,
@@ -87,7 +89,7 @@ impl DeadReckoning {
             locked: false,
             v_before: None,
             flow: None,
-            layers: spec.layer_aware.as_ref().map(LayerWatch::new),
+            layers: spec.layer_aware.as_ref().map(|layers| Box::new(LayerWatch::new(layers))),
         }
     }
 
@@ -108,7 +110,7 @@ impl DeadReckoning {
         }
         let before = self.position;
         if let Some(fix) = readings.lbl {
-            self.position += (fix.position - self.position) * self.spec.fix_gain.get();
+            self.position += (fix.position - self.position) * self.fix_gain;
         }
         self.measure_flow(clock.t_s(), readings, &R_WB);
         assert!(
@@ -156,7 +158,7 @@ impl DeadReckoning {
             return;
         }
         let measured = (R_WB * (self.v_ground_body + adcp.v_body_m_s)).xy();
-        let filter_s = self.spec.flow_filter_s.get();
+        let filter_s = self.flow_filter_s;
         let believed = match self.flow {
             Some((before, since_s)) if filter_s > 0.0 => {
                 let keep = math::exp(-(t_s - since_s) / filter_s);
@@ -165,7 +167,7 @@ impl DeadReckoning {
             _ => measured,
         };
         self.flow = Some((believed, t_s));
-        self.layers.iter_mut().for_each(LayerWatch::measured);
+        self.layers.iter_mut().for_each(|layers| layers.measured());
     }
 }
 

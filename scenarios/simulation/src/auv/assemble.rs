@@ -123,7 +123,7 @@ fn spawn(spec: &RobotSpec, setting: &Setting, world: &mut World, launch: &Launch
     let mapper = (spec.map.as_ref()).map(|map| map.build(&setting.area, Stream::new(seed, id, "map"))).transpose()?;
     let machine = (
         truth,
-        Hull { vehicle, body },
+        Hull { vehicle: Box::new(vehicle), body },
         suite,
         Readings::default(),
         spec.estimator.build(start, dt_s),

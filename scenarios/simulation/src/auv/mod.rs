@@ -27,7 +27,7 @@ use world::physics::BodyId;
 #[derive(Component)]
 pub struct Hull {
     /// How it moves.
-    pub vehicle: Vehicle,
+    pub vehicle: Box<Vehicle>,
     /// The body that it moves.
     pub body: BodyId,
 }

@@ -74,7 +74,7 @@ pub(crate) struct ExchangeState {
     /// Drives of a robot that an order may set; `None` for a gantry.
     drives: Option<usize>,
     asked: u64,
-    pub(crate) gathered: ReadingsSince,
+    pub(crate) gathered: Box<ReadingsSince>,
     question: Option<Box<Question>>,
     told: Option<ReplyOutcome>,
 }
@@ -87,7 +87,7 @@ impl ExchangeState {
             deadline_s: consulted.deadline_s,
             drives,
             asked: 0,
-            gathered: ReadingsSince::default(),
+            gathered: Box::default(),
             question: None,
             told: None,
         }
