@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod campaign;
+pub mod distribution;
 pub mod identify;
 pub mod reproduce;
 pub mod score_vision;

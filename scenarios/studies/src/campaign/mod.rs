@@ -37,7 +37,7 @@ pub use rows::row::{DeclarationRow, RunRow};
 pub use run::{RunEnded, RunOptions, run};
 pub use seeds::Seeds;
 pub use shard::Shard;
-pub use spec::{Arm, CampaignSpec, Conditions, Draw, FILE, RandomDraws, Until};
+pub use spec::{Arm, CampaignSpec, Conditions, FILE, RandomDraws, Until};
 pub use status::{ArmStatus, Status};
 pub use threads::ThreadsError;
 pub(crate) use threads::pool;

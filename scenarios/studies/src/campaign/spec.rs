@@ -1,11 +1,11 @@
 //! The content of a campaign file.
 
 use super::seeds::{MOST, Seeds, number_or_form};
+use crate::distribution::Distribution;
 use rheotaxis::explain::FileKind;
 use rheotaxis::scenario::{Outline, ScenarioError, UnplacedFault, Version, read, version_first};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::math;
 use world::registry::Registry;
 use world::seeds::Stream;
 
@@ -97,18 +97,7 @@ pub struct RandomDraws {
     #[serde(default)]
     pub seed: Option<u64>,
     /// Which values vary, and how: a path in the scenario and a distribution.
-    pub draw: Vec<(String, Draw)>,
-}
-
-/// The distribution of a value, in the unit of the field that varies.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub enum Draw {
-    /// Uniform between two numbers.
-    Uniform(f64, f64),
-    /// Its logarithm is uniform between the logarithms of two positive numbers.
-    LogUniform(f64, f64),
-    /// One of these values, all equally likely.
-    Choice(Vec<String>),
+    pub draw: Vec<(String, Distribution)>,
 }
 
 impl CampaignSpec {
@@ -120,7 +109,7 @@ impl CampaignSpec {
         version_first(name, text, &Outline::scan(text))?;
         let mut spec: Self = read(&Registry::default(), name, text, Self::check)?;
         if let Some(drawn) = &spec.drawn_arms {
-            spec.arms.extend((0..drawn.n).map(|k| Arm { name: format!("draw {}", k + 1), set: drawn.set("arm", k) }));
+            spec.arms.extend((0..drawn.n).map(|k| Arm { name: drawn_name(k), set: drawn.set("arm", k) }));
         }
         Ok(spec)
     }
@@ -187,6 +176,11 @@ impl CampaignSpec {
         };
         if let Some(drawn) = &self.drawn_arms {
             drawn.check("drawn_arms", MOST_ARMS, &mut wrong);
+            for (i, arm) in
+                self.arms.iter().enumerate().filter(|(_, arm)| (0..drawn.n).any(|k| arm.name == drawn_name(k)))
+            {
+                wrong(&format!("arms[{i}].name"), format!("\"{}\" is taken by an arm of `drawn_arms`", arm.name));
+            }
             for path in drawn.paths().filter(|path| varied.contains(path)) {
                 wrong("drawn_arms.draw", format!("`{path}` is set by the conditions too"));
             }
@@ -207,6 +201,11 @@ impl CampaignSpec {
     }
 }
 
+/// The name of the k-th of the arms that are drawn.
+fn drawn_name(k: u64) -> String {
+    format!("draw {}", k + 1)
+}
+
 impl RandomDraws {
     /// The paths that vary.
     fn paths(&self) -> impl Iterator<Item = &String> {
@@ -215,9 +214,9 @@ impl RandomDraws {
 
     /// The paths and values of the `k`-th condition or arm, as `what` says.
     pub(super) fn set(&self, what: &str, k: u64) -> Vec<(String, String)> {
-        let drawn = |(path, draw): &(String, Draw)| {
+        let drawn = |(path, from): &(String, Distribution)| {
             let u = Stream::new(self.seed.unwrap_or(1), &format!("{what} {k}"), path).uniform();
-            (path.clone(), draw.value(u))
+            (path.clone(), from.value(u, |v| v.to_string()))
         };
         self.draw.iter().map(drawn).collect()
     }
@@ -226,37 +225,10 @@ impl RandomDraws {
         if !(1..=most).contains(&self.n) {
             wrong(&format!("{field}.n"), format!("must be from 1 to {most}, got {}", self.n));
         }
-        for (i, (_, draw)) in self.draw.iter().enumerate() {
-            if let Err(problem) = draw.check() {
+        for (i, (_, from)) in self.draw.iter().enumerate() {
+            if let Some(problem) = from.fault() {
                 wrong(&format!("{field}.draw[{i}]"), problem);
             }
-        }
-    }
-}
-
-impl Draw {
-    /// The value at `u` in [0, 1).
-    fn value(&self, u: f64) -> String {
-        match self {
-            Draw::Uniform(a, b) => (a + (b - a) * u).to_string(),
-            Draw::LogUniform(a, b) => {
-                let (a, b) = (math::ln(*a), math::ln(*b));
-                math::exp(a + (b - a) * u).to_string()
-            }
-            Draw::Choice(values) => values[(u * values.len() as f64) as usize].clone(),
-        }
-    }
-
-    fn check(&self) -> Result<(), String> {
-        match self {
-            Draw::Uniform(a, b) if !(a.is_finite() && b.is_finite() && a < b) => {
-                Err(format!("needs two finite numbers, the smaller first, got {a}, {b}"))
-            }
-            Draw::LogUniform(a, b) if !(*a > 0.0 && b.is_finite() && a < b) => {
-                Err(format!("needs two positive numbers, the smaller first, got {a}, {b}"))
-            }
-            Draw::Choice(values) if values.is_empty() => Err("there must be at least one value".to_string()),
-            _ => Ok(()),
         }
     }
 }

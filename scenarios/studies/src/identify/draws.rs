@@ -1,6 +1,7 @@
 //! The draws of a campaign with their runs.
 
-use crate::campaign::{Arm, Campaign, Draw as Prior, RunRow};
+use crate::campaign::{Arm, Campaign, RunRow};
+use crate::distribution::Distribution as Prior;
 use std::collections::BTreeMap;
 
 /// A value that is not known.

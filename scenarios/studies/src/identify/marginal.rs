@@ -2,8 +2,8 @@
 
 use super::JudgedDraw;
 use super::draws::Unknown;
-use crate::campaign::Draw as Prior;
 use crate::campaign::stats::{Interval, finite_sorted, quantile};
+use crate::distribution::Distribution as Prior;
 
 /// An unknown, before and after.
 #[derive(Clone, Debug)]

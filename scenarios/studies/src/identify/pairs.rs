@@ -2,7 +2,7 @@
 
 use super::draws::Unknown;
 use super::{Identification, JudgedDraw};
-use crate::campaign::Draw as Prior;
+use crate::distribution::Distribution as Prior;
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
 use world::math;

@@ -1,10 +1,10 @@
 //! Values of a row's scenario that are drawn anew for every seed.
 
+use crate::distribution::Distribution;
 use rheotaxis::scenario::{Loaded, set_value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use world::math;
 use world::seeds::{Seed, Stream};
 
 /// A value of the scenario that differs from seed to seed.
@@ -17,54 +17,7 @@ pub struct Draw {
     /// Its path in the scenario.
     pub path: String,
     /// From what it is drawn.
-    pub of: Law,
-}
-
-/// From what a value is drawn.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub enum Law {
-    /// Evenly between two numbers.
-    Even(f64, f64),
-    /// Evenly in the logarithm between two positive numbers.
-    Log(f64, f64),
-    /// One of these RON values, each as likely as the others.
-    OneOf(Vec<String>),
-}
-
-impl Law {
-    /// What is wrong with it, if anything.
-    fn fault(&self) -> Option<&'static str> {
-        match self {
-            Self::Even(a, b) if !(a.is_finite() && b.is_finite() && a <= b) => {
-                Some("Even needs two numbers, the smaller one first")
-            }
-            Self::Log(a, b) if !(*a > 0.0 && b.is_finite() && a <= b) => {
-                Some("Log needs two positive numbers, the smaller one first")
-            }
-            Self::OneOf(all) if all.is_empty() => Some("OneOf needs at least one value"),
-            _ => None,
-        }
-    }
-
-    /// The value for a number from 0 to 1.
-    fn value(&self, u: f64) -> String {
-        match self {
-            Self::Even(a, b) => format!("{:.6}", a + (b - a) * u),
-            Self::Log(a, b) => format!("{:.6}", a * math::exp(u * math::ln(b / a))),
-            Self::OneOf(all) => all[((u * all.len() as f64) as usize).min(all.len() - 1)].clone(),
-        }
-    }
-
-    /// Numbers from 0 to 1 that together meet all that it can be: its ends, or all its values.
-    fn tries(&self) -> Vec<f64> {
-        match self {
-            Self::Even(..) | Self::Log(..) => vec![0.0, 1.0],
-            Self::OneOf(all) => {
-                let n = all.len() as f64;
-                (0..all.len()).map(|k| (k as f64 + 0.5) / n).collect()
-            }
-        }
-    }
+    pub of: Distribution,
 }
 
 /// The scenario of an arm for a seed: with its values drawn.
@@ -91,7 +44,7 @@ pub(super) fn check(draws: &[Draw], arms: &[(String, Loaded)]) -> Result<(), Str
     }
     for (arm, loaded) in arms {
         for d in draws.iter().filter(|d| d.in_arm(arm)) {
-            for u in d.of.tries() {
+            for u in d.of.extremes() {
                 let number = |path: &str| if path == d.path { u } else { 0.5 };
                 let all = changed(draws, arm, loaded, &number)?;
                 let said = all.check();
@@ -116,7 +69,7 @@ fn changed<'a>(
 ) -> Result<Cow<'a, Loaded>, String> {
     let mut text = loaded.text();
     for d in draws.iter().filter(|d| d.in_arm(arm)) {
-        let value = d.of.value(number(&d.path));
+        let value = d.of.value(number(&d.path), |v| format!("{v:.6}"));
         let said = |problem| format!("draw `{}`: {problem}", d.path);
         text = Cow::Owned(set_value(&text, &d.path, &value).map_err(said)?);
     }
@@ -136,14 +89,14 @@ mod tests {
         load(Path::new("uniform_channel")).expect("in the catalogue")
     }
 
-    fn draw(path: &str, of: Law) -> Draw {
+    fn draw(path: &str, of: Distribution) -> Draw {
         Draw { arms: Vec::new(), path: path.to_string(), of }
     }
 
     #[test]
     fn a_seed_draws_its_own_values_and_the_same_ones_again() {
         let loaded = channel();
-        let draws = [draw("optics.clarity.visibility_m", Law::Log(3.0, 6.0))];
+        let draws = [draw("optics.clarity.visibility_m", Distribution::LogUniform(3.0, 6.0))];
         let of = |seed: u64| {
             let got = drawn(&draws, "a", &loaded, Seed::from(seed)).unwrap();
             got.scenario.optics.clarity.visibility_m.get()
@@ -160,7 +113,7 @@ mod tests {
     #[test]
     fn a_draw_of_other_arms_changes_nothing() {
         let loaded = channel();
-        let mut one = draw("time.limit_s", Law::Even(10.0, 20.0));
+        let mut one = draw("time.limit_s", Distribution::Uniform(10.0, 20.0));
         one.arms = vec!["murky".to_string()];
         let same = drawn(&[one.clone()], "clear", &loaded, Seed::from(1)).unwrap();
         assert!(matches!(same, Cow::Borrowed(_)));
@@ -173,16 +126,16 @@ mod tests {
         let arms = [("a".to_string(), channel())];
         let visibility = "optics.clarity.visibility_m";
         for (path, of, told) in [
-            (visibility, Law::Log(0.0, 2.0), "Log needs two positive numbers"),
-            (visibility, Law::Even(3.0, 2.0), "Even needs two numbers"),
-            (visibility, Law::OneOf(Vec::new()), "OneOf needs at least one value"),
-            (visibility, Law::Log(2.0, 1e4), "visibility_m"),
-            ("robots[7].id", Law::OneOf(vec!["\"b\"".to_string()]), "robots[7].id"),
+            (visibility, Distribution::LogUniform(0.0, 2.0), "needs two positive numbers"),
+            (visibility, Distribution::Uniform(3.0, 2.0), "needs two finite numbers"),
+            (visibility, Distribution::Choice(Vec::new()), "at least one value"),
+            (visibility, Distribution::LogUniform(2.0, 1e4), "visibility_m"),
+            ("robots[7].id", Distribution::Choice(vec!["\"b\"".to_string()]), "robots[7].id"),
         ] {
             let said = check(&[draw(path, of)], &arms).unwrap_err();
             assert!(said.contains(told), "{said}");
         }
-        let other = Draw { arms: vec!["murky".to_string()], ..draw("time.limit_s", Law::Even(10.0, 20.0)) };
+        let other = Draw { arms: vec!["murky".to_string()], ..draw("time.limit_s", Distribution::Uniform(10.0, 20.0)) };
         let said = check(&[other], &arms).unwrap_err();
         assert_eq!(said, "draw `time.limit_s`: the row has no arm `murky`");
     }

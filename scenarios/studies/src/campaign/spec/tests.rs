@@ -22,6 +22,11 @@ fn mistakes_are_located() {
         ("0", ARMS, "c.ron:1:43: seeds: count must be from 1 to 1099511627776, got 0"),
         ("3, until: (half_width: 0.5)", ARMS, "c.ron:1:61: until.half_width: must be above 0 and below 0.5, got 0.5"),
         ("3", "arms: [(name: \"a\"), (name: \"a\")]", "c.ron:2:23: arms[1].name: \"a\" is taken by another arm"),
+        (
+            "3, drawn_arms: (n: 3, draw: [(\"x\", Uniform(0, 1))])",
+            "arms: [(name: \"draw 2\")]",
+            "arms[0].name: \"draw 2\" is taken by an arm of `drawn_arms`",
+        ),
         ("3, foo: 3", ARMS, "there is no field `foo`"),
         ("Literal(first: 101, count: 20), foo: 3", ARMS, "there is no field `foo`"),
         ("3", &format!("{ARMS}, conditions: Grid([{axes}])"), "more than 1099511627776 runs"),
