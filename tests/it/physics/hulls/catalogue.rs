@@ -1,10 +1,9 @@
 //! The catalogue with other hulls: which pairs run, and why the others are refused.
 
 use crate::common;
-use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{CATALOG, load_text};
+use rheotaxis::scenario::{CATALOG, load};
 use rheotaxis::trial::Trial;
-use robots::vehicles::SHIPPED;
+use robots::vehicles::{SHIPPED, VehicleSpec};
 use world::ranges::{NonNegative, Positive};
 
 /// The pairs that are refused: scenario, hull and reason, as `docs/vehicles.md` sums them up.
@@ -19,18 +18,13 @@ fn the_catalogue_runs_with_other_hulls() {
     let mut refused = String::new();
     for template in CATALOG.iter().filter(|t| t.text.contains("Remus100(")) {
         for hull in SHIPPED.iter().map(|s| s.folder) {
-            let mut text = template.text.to_string();
-            while let Some(at) = text.find("Remus100(") {
-                let end = at + text[at..].find(')').expect("its end") + 1;
-                text.replace_range(at..end, &format!("Shipped(\"{hull}\")"));
-            }
-            let folder = template.unpack().expect("its files");
-            let loaded = load_text(&Registry::default(), template.name, &text);
-            let mut loaded = match loaded {
-                Ok(loaded) => loaded,
-                Err(why) => panic!("{} with {hull}: {:?}", template.name, why.lines()),
-            };
-            loaded.base_dir = folder;
+            let mut loaded = load(template.name.as_ref()).expect("a scenario of the catalogue").edit(|scenario| {
+                for robot in &mut scenario.robots {
+                    if matches!(robot.vehicle, VehicleSpec::Remus100(_)) {
+                        robot.vehicle = VehicleSpec::Shipped(hull.to_string());
+                    }
+                }
+            });
             if let Err(why) = loaded.check() {
                 for line in why.lines() {
                     // Without file, line and column: a comment in a scenario moves them.
