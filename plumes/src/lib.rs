@@ -4,5 +4,6 @@ pub mod error;
 pub mod filaments;
 pub mod flow;
 mod logarithm;
+mod noise;
 pub mod release;
 mod simd;

@@ -135,6 +135,13 @@ pub trait Flow: Send + Sync {
 pub trait Concentration: Send + Sync {
     /// Concentration at `p` (ENU, m), kg/m³, now.
     fn concentration(&self, p: &Vector3<f64>) -> f64;
+
+    /// What a probe is given at `p` that averages over `across_m` (m): where the model has structure that is finer than
+    /// what it resolves, with that.
+    fn sensed(&self, p: &Vector3<f64>, across_m: f64) -> f64 {
+        let _ = across_m;
+        self.concentration(p)
+    }
 }
 
 /// Still water of constant density.

@@ -41,6 +41,8 @@ via_libm! {
     cosh(x) = libm::cosh;
     /// Error function.
     erf(x) = libm::erf;
+    /// Logarithm of the gamma function.
+    ln_gamma(x) = libm::lgamma;
 }
 
 /// Sine and cosine of an angle in radians.

@@ -26,13 +26,18 @@ impl<'a> DisplacedConcentration<'a> {
     pub fn new(plume: &'a Plume, flow: &'a dyn Flow, t_s: f64) -> Self {
         Self { plume, flow, t_s }
     }
+
+    fn mean_place(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        self.flow.displacement(p, self.t_s).map_or(*p, |way| p - way)
+    }
 }
 
 impl Concentration for DisplacedConcentration<'_> {
     fn concentration(&self, p: &Vector3<f64>) -> f64 {
-        match self.flow.displacement(p, self.t_s) {
-            Some(way) => self.plume.concentration(&(p - way)),
-            None => self.plume.concentration(p),
-        }
+        self.plume.concentration(&self.mean_place(p))
+    }
+
+    fn sensed(&self, p: &Vector3<f64>, across_m: f64) -> f64 {
+        self.plume.sensed(&self.mean_place(p), across_m)
     }
 }

@@ -21,6 +21,7 @@ use super::store::bands::Bands;
 use super::store::eddy_coordinates::EddyCoordinates;
 use super::store::rise::Rise;
 use super::store::size::Size;
+use super::store::structure::Structure;
 use super::walls::cut_off;
 use super::walls::domain::Domain;
 use super::walls::solids::Solids;
@@ -143,6 +144,17 @@ impl Plume {
         })
     }
 
+    fn question(&self) -> Question<'_> {
+        Question {
+            stores: &self.stores,
+            bands: &self.bands,
+            room: &self.room,
+            lookup: &self.cells,
+            path: self.path,
+            now_s: self.now_s,
+        }
+    }
+
     /// Lets the small eddies of a flume carry the filaments, if there are any.
     #[must_use]
     pub fn carried_by(mut self, small: Option<&Arc<Small>>) -> Self {
@@ -153,16 +165,25 @@ impl Plume {
         self
     }
 
-    /// Lets buoyant releases rise. `flow` is the water into which they are released.
+    /// Lets buoyant releases rise, and those with structure be stirred. `flow` is the water into which they are released.
     ///
     /// # Errors
-    /// If a release cannot be made, or if a buoyant one does not say its volume. The field is a path such as
+    /// If a release cannot be made, if one that is buoyant or has structure does not say its volume, or if a probe would
+    /// average over eddies of that water. The field is a path such as
     /// `sources[0].release.buoyancy.solutes[0].g_l`.
     pub fn with_buoyancy(mut self, flow: &dyn Flow) -> Result<Self, PlumeError> {
         for (n, (store, source)) in self.stores.iter_mut().zip(&self.sources).enumerate() {
             let [x, y, _] = self.grid.local(&source.p_W);
             let bed_m = f64::from(self.cells.bed(x, y));
             store.rise = Rise::new(flow, n, source, bed_m)?;
+            let share = source.release.structure.get();
+            store.structure = match &store.rise {
+                Some(rise) if share > 0.0 => {
+                    let released_kg_m3 = source.filament_kg / rise.volume_m3();
+                    Some(Structure { share, released_kg_m3, key: self.keys[n] })
+                }
+                _ => None,
+            };
         }
         Ok(self)
     }
@@ -210,14 +231,10 @@ impl Plume {
 
 impl Concentration for Plume {
     fn concentration(&self, p: &Vector3<f64>) -> f64 {
-        let query = Question {
-            stores: &self.stores,
-            bands: &self.bands,
-            room: &self.room,
-            lookup: &self.cells,
-            path: self.path,
-            now_s: self.now_s,
-        };
-        self.index.concentration(&query, self.grid.local(p))
+        self.index.concentration(&self.question(), self.grid.local(p))
+    }
+
+    fn sensed(&self, p: &Vector3<f64>, across_m: f64) -> f64 {
+        self.index.sensed(&self.question(), self.grid.local(p), across_m)
     }
 }

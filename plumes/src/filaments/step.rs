@@ -8,7 +8,6 @@
 //! be known no further ahead. A filament that leaves the grid is removed at the start of the step in which it leaves.
 
 use super::drift::drift_band::{DriftContext, hold};
-use super::drift::noise::step_key;
 use super::drift::small_eddies;
 use super::plume::Plume;
 use super::store::arrays::Store;
@@ -18,6 +17,7 @@ use super::walls::side_walls::{carry, fold, keep_between};
 use super::water::fetch::BLOCK;
 use super::water::lookup::Lookup;
 use crate::flow::grid::LogLaw;
+use crate::noise::step_key;
 use std::ops::Range;
 use std::sync::Arc;
 use world::fields::{Flow, SideWalls};

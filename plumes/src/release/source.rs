@@ -4,7 +4,7 @@
 //!
 //! *Parameters*: `rate_g_s` mass released (g/s); `release.rate_hz` filaments per second (1/s; 5 to 10);
 //! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001); `release.vertical_size_limit_m`
-//! greatest vertical size (m; none); `release.eddy_size_m` (m; none), see the filaments' `size`; `release.nozzle` (none).
+//! greatest vertical size (m; none); `release.structure` (0), see the filaments' `structure`; `release.eddy_size_m` (m; none), see the filaments' `size`; `release.nozzle` (none).
 //!
 //! *Deviations*: the paper counts molecules in arbitrary units; here the quantity is mass. The vertical limit is not in
 //! the paper. In stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament cannot
@@ -19,7 +19,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
-use world::ranges::{Finite, NonNegative, Positive};
+use world::ranges::{Finite, Fraction, NonNegative, Positive};
 
 /// A source as in the scenario file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -74,6 +74,9 @@ pub struct ReleaseSpec {
     /// Volume released, L/s; a nozzle sets it. A buoyant release needs it.
     #[serde(with = "world::limits::volume_l_s::<Option<Positive>>")]
     pub volume_l_s: Option<Positive>,
+    /// How much of the variance that stirring makes and mixing leaves a probe meets below the size of a filament: 0 is
+    /// none, 1 all. With it, a release needs its volume or a nozzle.
+    pub structure: Fraction,
     /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
 }
@@ -145,7 +148,9 @@ impl ReleaseSpec {
             (nozzle, _) => {
                 let problem = match nozzle {
                     Some(_) => "the nozzle sets the volume: leave it out",
-                    None => "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)",
+                    None => {
+                        "a release that is buoyant or has structure needs the volume that it releases, in L/s (from 1e-9 to 1e7)"
+                    }
                 };
                 Err(PlumeError::new(format!("sources[{n}].release.volume_l_s"), problem))
             }
@@ -187,6 +192,7 @@ impl Default for ReleaseSpec {
             eddy_size_m: None,
             buoyancy: BuoyancySpec::Neutral,
             volume_l_s: None,
+            structure: Fraction::new(0.0),
             nozzle: None,
         }
     }

@@ -32,7 +32,7 @@ pub use dvl::{Dvl, DvlSpec};
 pub use fluorometer::{Fluorometer, FluorometerSpec};
 pub use lbl::{Lbl, LblSpec};
 pub use on_board::OnBoard;
-pub use probe::{Probes, ProbesSpec};
+pub use probe::{Probes, ProbesSpec, TIP_M};
 pub use ranging::{Ranging, RangingSpec};
 pub use sensor::{Fitting, Imaging, Sensor, SensorParams, SensorRequests, Surroundings};
 pub use sidescan::{Sidescan, SidescanSpec};

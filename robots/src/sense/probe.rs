@@ -11,8 +11,8 @@
 //! deviations above clean water; time constant `response_s` 0, because 800 Hz of bandwidth (0.2 ms) is far below the
 //! 50 ms between scans.
 //!
-//! *Deviations*: the spatial resolution of 0.5 mm is taken as a point: it is less than the smallest eddies (0.83 mm)
-//! and far less than the smallest scale of a simulated plume, so averaging over it would change nothing.
+//! *Deviations*: the spatial resolution of 0.5 mm, [`TIP_M`], matters only where a release has structure below its
+//! filaments: it is less than the smallest eddies (0.83 mm) and far less than a filament.
 
 use super::on_board::OnBoard;
 use crate::error::{RobotError, require};
@@ -50,6 +50,9 @@ pub struct ProbesSpec {
     #[default(NonNegative::new(0.0))]
     pub response_s: NonNegative,
 }
+
+/// What a probe averages over, m (section 3: a spatial resolution of 0.5 mm).
+pub const TIP_M: f64 = 5e-4;
 
 /// The probes of a head, scanned together.
 #[derive(Clone, Debug)]
@@ -119,7 +122,7 @@ impl Probes {
         }
         let mut scan = ProbeScan { t_s: clock.t_s(), volts: [self.bottom_v; MAX_PROBES], count: tips.len() };
         for ((channel, p), volts) in self.channels.iter_mut().zip(tips).zip(&mut scan.volts) {
-            let c = dye.concentration(p);
+            let c = dye.sensed(p, TIP_M);
             assert!(
                 c.is_finite(),
                 "the concentration at {p:?} is not a finite number: the plume model or the head's position broke \

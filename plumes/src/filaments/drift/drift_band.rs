@@ -8,7 +8,6 @@
 //! *Deviations*: none. Blocks do not depend on each other, so any number of threads gives the same bits.
 
 use super::kernel::{self, Block, Work};
-use super::noise::upward_normals;
 use super::pollock::{Pollock, PollockScratch};
 use crate::filaments::store::arrays::Store;
 use crate::filaments::store::bands::Span;
@@ -18,6 +17,7 @@ use crate::filaments::walls::rebound::Kick;
 use crate::filaments::water::fetch::BLOCK;
 use crate::filaments::water::lookup::Lookup;
 use crate::flow::grid::FlowGrid;
+use crate::noise::upward_normals;
 use crate::simd::dispatch::InstructionSet;
 use rayon::prelude::*;
 use std::ops::Range;

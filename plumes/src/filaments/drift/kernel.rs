@@ -34,10 +34,10 @@
 //! All arithmetic is f32 and written once. The compiler makes a version for each of `path` from it (no fused
 //! multiply-add in any), which give the same bits.
 
-use super::noise::{level_normals, normals};
 use crate::filaments::store::folded::folded;
 use crate::filaments::water::fetch::{BLOCK, BlockFlow, Columns, Levels, fetch};
 use crate::filaments::water::lookup::Lookup;
+use crate::noise::{level_normals, normals};
 use crate::simd::dispatch::InstructionSet;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::f32x4::AvxPair;

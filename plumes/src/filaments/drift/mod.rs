@@ -4,7 +4,6 @@ pub(super) mod drift_band;
 pub(super) mod evenness;
 pub(super) mod kernel;
 pub(super) mod longest_step;
-pub(super) mod noise;
 pub(super) mod pollock;
 pub(super) mod series;
 pub(super) mod small_eddies;

@@ -93,6 +93,7 @@ fn keep(store: &Store, to: &mut Writer) {
         released,
         left,
         filament_kg: _,
+        structure: _,
         // The next steps start where the last ones have ended, in bands that the next pace chooses.
         start: _,
         first: _,

@@ -38,6 +38,17 @@ pub(crate) struct PresentMembers {
     pub(crate) walled: Vec<NearWall>,
 }
 
+/// The filament that contributes most at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strongest {
+    /// Its contribution, up to a factor that is the same for all of a store.
+    pub(crate) weight: f32,
+    /// Its place in the store.
+    pub(crate) member: usize,
+    /// From its middle to the point: east, north, up, m.
+    pub(crate) away_m: [f32; 3],
+}
+
 /// Quanta in the peak of the largest filament, if the smallest allows it.
 const FINE: f64 = 1_073_741_824.0;
 

@@ -7,7 +7,7 @@
 //! *Deviations*: none.
 
 use super::batch::Batch;
-use super::contribution::{GroupQuery, quanta, reach};
+use super::contribution::{GroupQuery, Strongest, quanta, reach};
 use super::image::QueryPoint;
 use super::order::order;
 use super::question::Question;
@@ -104,6 +104,20 @@ impl Group {
         };
         // The number of quanta is a power of two.
         total as f64 * self.per_quantum
+    }
+
+    /// Which of its members contributes most at a point near them, if it is more than the strongest so far.
+    pub(crate) fn strongest(
+        &self,
+        q: &Question,
+        spot: &QueryPoint,
+        s: &Store,
+        band: usize,
+        so_far: &mut Option<Strongest>,
+    ) {
+        let sides = [0, 1, 2].map(|d| self.side(q, s, d));
+        let runs = RunBounds::runs(q.path, sides, spot.p, self.reach);
+        scan::strongest(&self.asked_by(q, spot, s, band), self.members.len(), runs, so_far);
     }
 
     fn asked_by<'a>(&self, q: &'a Question, spot: &'a QueryPoint, s: &'a Store, band: usize) -> GroupQuery<'a> {

@@ -10,6 +10,7 @@
 //! give the same sum to the last bit (`felt`), so answers do not depend on earlier questions, and a viewer that asks too
 //! changes nothing.
 
+use super::contribution::Strongest;
 use super::group::Group;
 use super::image::QueryPoint;
 pub use super::packet::CUT_SIGMAS;
@@ -17,6 +18,7 @@ use super::question::Question;
 use super::run_bounds::GROUP;
 use crate::filaments::store::arrays::Store;
 use crate::filaments::store::bands::MOST;
+use crate::filaments::store::structure::PlaceInFilament;
 use std::sync::OnceLock;
 
 /// The groups of every band of every store.
@@ -56,20 +58,58 @@ impl Index {
     /// Concentration at a point from the datum, kg/m³; zero above the surface. In a solid it is that of the nearest
     /// water.
     pub(crate) fn concentration(&self, q: &Question, p: [f32; 3]) -> f64 {
-        if p[2] > 0.0 {
-            return 0.0;
-        }
-        let Some(spot) = QueryPoint::new(q.room, q.lookup, p, q.reach()) else {
+        let Some(spot) = spot(q, p) else {
             return 0.0;
         };
         let mut total = 0.0;
         for (s, bands) in q.stores.iter().zip(&self.stores) {
-            for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
-                let groups = groups.get_or_init(|| Groups::new(q, s, band));
-                groups.add(q, &spot, s, band, &mut total);
-            }
+            near(q, &spot, s, bands, |group, band| total += group.felt(q, &spot, s, band));
         }
         total
+    }
+
+    /// The same with the structure of releases that have it, as a probe is given it that averages over a way (m).
+    pub(crate) fn sensed(&self, q: &Question, p: [f32; 3], across_m: f64) -> f64 {
+        if q.stores.iter().all(|s| s.structure.is_none()) {
+            return self.concentration(q, p);
+        }
+        let Some(spot) = spot(q, p) else {
+            return 0.0;
+        };
+        let of_store = |(s, bands): (&Store, &[OnceLock<Groups>; MOST])| {
+            let (mut mean, mut strongest) = (0.0, None);
+            near(q, &spot, s, bands, |group, band| mean += group.felt(q, &spot, s, band));
+            let Some(((structure, rise), _)) = s.structure.zip(s.rise.as_ref()).zip((mean > 0.0).then_some(())) else {
+                return mean;
+            };
+            near(q, &spot, s, bands, |group, band| group.strongest(q, &spot, s, band, &mut strongest));
+            strongest.map_or(mean, |Strongest { member, away_m, .. }| {
+                let place = PlaceInFilament { number: s.number[member], away_m, sheet: rise.sheet(member) };
+                structure.sensed(mean, &place, across_m)
+            })
+        };
+        q.stores.iter().zip(&self.stores).map(of_store).sum()
+    }
+}
+
+/// A point in the water; `None` above the surface and where no water is near.
+fn spot<'a>(q: &Question<'a>, p: [f32; 3]) -> Option<QueryPoint<'a>> {
+    if p[2] > 0.0 { None } else { QueryPoint::new(q.room, q.lookup, p, q.reach()) }
+}
+
+/// Gives the groups of a store that may be felt at a point, with their bands, in their order.
+fn near(
+    q: &Question,
+    spot: &QueryPoint,
+    s: &Store,
+    bands: &[OnceLock<Groups>; MOST],
+    mut give: impl FnMut(&Group, usize),
+) {
+    for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
+        let Groups { all, axes } = groups.get_or_init(|| Groups::new(q, s, band));
+        for group in all.iter().filter(|group| group.near(q, s, spot.p, *axes)) {
+            give(group, band);
+        }
     }
 }
 
@@ -89,14 +129,5 @@ impl Groups {
             axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
         }
         Self { all, axes }
-    }
-
-    /// Adds what each contributes at a point, kg/m³, in their order.
-    fn add(&self, q: &Question, spot: &QueryPoint, s: &Store, band: usize, total: &mut f64) {
-        for group in &self.all {
-            if group.near(q, s, spot.p, self.axes) {
-                *total += group.felt(q, spot, s, band);
-            }
-        }
     }
 }

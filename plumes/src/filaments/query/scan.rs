@@ -3,9 +3,9 @@
 //! Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
 //! after each of their steps, and its leaves at each time. So a tree pays only where many ask about one time.
 
-use super::contribution::{GroupQuery, PresentMembers};
+use super::contribution::{GroupQuery, PresentMembers, Strongest};
 use super::moving_packet::MovingPacket;
-use super::packet::PACKET;
+use super::packet::{PACKET, Packet, falling};
 use super::run_bounds::{RUN, RUNS};
 use crate::filaments::store::bands::on_way;
 use crate::simd::movemask::{LaneMask, bits, mark};
@@ -18,6 +18,37 @@ type Near = [u32; RUNS];
 
 /// The sum of the contributions of a group of `n`, in quanta. Only these `runs` of it (a bit each) may be near.
 pub(crate) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
+    let (mut moving, mut present, mut total) = (MovingPacket::default(), PresentMembers::default(), 0);
+    each_packet(&near(asked, n, runs), |some| {
+        moving.take(asked.s, asked.q.lookup, asked.from, some);
+        present.fill(&moving, asked);
+        present.seal(asked);
+        total += present.felt(asked);
+    });
+    total
+}
+
+/// Which member of a group of `n` contributes most, if it is more than the strongest so far. Images do not count.
+pub(crate) fn strongest(asked: &GroupQuery, n: usize, runs: u32, so_far: &mut Option<Strongest>) {
+    let (mut moving, mut packet) = (MovingPacket::default(), Packet::default());
+    each_packet(&near(asked, n, runs), |some| {
+        moving.take(asked.s, asked.q.lookup, asked.from, some);
+        moving.fill(asked.q.path, &asked.s.size, &asked.moment, &mut packet);
+        for (l, m) in some.iter().enumerate().take(packet.count) {
+            let away = [packet.x[l], packet.y[l], packet.z[l]];
+            let away: [f32; 3] = std::array::from_fn(|d| asked.p[d] - away[d]);
+            let [east, north, up] = away.map(|way| way * way);
+            let (h, v) = (packet.h[l] * packet.h[l], packet.v[l] * packet.v[l]);
+            let weight = falling((east + north) / (16.0 * h) + up / (16.0 * v)) / (h * packet.v[l]);
+            if weight > so_far.as_ref().map_or(0.0, |so_far| so_far.weight) {
+                *so_far = Some(Strongest { weight, member: asked.from + usize::from(*m), away_m: away });
+            }
+        }
+    });
+}
+
+/// The members within reach.
+fn near(asked: &GroupQuery, n: usize, runs: u32) -> Near {
     let GroupQuery { s, from, moment, .. } = asked;
     // Those that are released within the step come last, each on a way of its own. Few of them are not near.
     let born_s = &s.born_s[*from..from + n];
@@ -34,23 +65,12 @@ pub(crate) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
     for m in on_time..n {
         near[m / RUN] |= 1 << (m % RUN);
     }
-    if near.iter().all(|run| *run == 0) {
-        return 0;
-    }
-    sum(asked, &near)
+    near
 }
 
-/// The sum of the contributions of these members, in quanta.
-fn sum(asked: &GroupQuery, near: &Near) -> i64 {
-    let GroupQuery { s, q, from, .. } = asked;
-    let (mut moving, mut present) = (MovingPacket::default(), PresentMembers::default());
-    let (mut some, mut count, mut total) = ([0; PACKET], 0, 0);
-    let mut add = |some: &[u16]| {
-        moving.take(s, q.lookup, *from, some);
-        present.fill(&moving, asked);
-        present.seal(asked);
-        total += present.felt(asked);
-    };
+/// Gives the members in packets, in their order.
+fn each_packet(near: &Near, mut give: impl FnMut(&[u16])) {
+    let (mut some, mut count) = ([0; PACKET], 0);
     for (run, left) in near.iter().enumerate() {
         let mut left = *left;
         while left != 0 {
@@ -58,15 +78,14 @@ fn sum(asked: &GroupQuery, near: &Near) -> i64 {
             left &= left - 1;
             count += 1;
             if count == PACKET {
-                add(&some);
+                give(&some);
                 count = 0;
             }
         }
     }
     if count > 0 {
-        add(&some[..count]);
+        give(&some[..count]);
     }
-    total
 }
 
 /// Notes the members within reach.

@@ -12,6 +12,7 @@ use super::bands::{Bands, MOST, Moment, Scales, Span, on_way};
 use super::eddy_coordinates::EddyCoordinates;
 use super::rise::Rise;
 use super::size::Size;
+use super::structure::Structure;
 use std::ops::Range;
 
 /// Arrays of one source's filaments, oldest first.
@@ -39,6 +40,8 @@ pub(crate) struct Store {
     pub(crate) rise: Option<Rise>,
     /// Where they are in the patterns of small eddies, if there are any.
     pub(crate) labels: Option<EddyCoordinates>,
+    /// What they hold that is finer than they are, if they have it.
+    pub(crate) structure: Option<Structure>,
     /// Growth law.
     pub(crate) size: Size,
     /// Mass of each filament, kg.
@@ -64,6 +67,7 @@ impl Store {
             carried_s: 0.0,
             rise: None,
             labels: None,
+            structure: None,
             size,
             filament_kg,
             released: 0,

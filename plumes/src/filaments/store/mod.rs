@@ -7,3 +7,4 @@ pub(super) mod folded;
 pub(super) mod rise;
 pub(super) mod rows;
 pub(super) mod size;
+pub(super) mod structure;

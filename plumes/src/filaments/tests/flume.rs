@@ -9,7 +9,7 @@ use crate::flow::grid::GridShape;
 use crate::release::{BuoyancySpec, NozzleSpec, ReleaseSpec, SourceSpec};
 use std::collections::BTreeMap;
 use world::fields::Flow;
-use world::ranges::{Finite, Positive};
+use world::ranges::{Finite, Fraction, Positive};
 use world::seeds::Stream;
 
 pub(super) fn plume(length_m: f64, seed: u64) -> Plume {
@@ -20,6 +20,14 @@ pub(super) fn plume(length_m: f64, seed: u64) -> Plume {
 pub(super) fn light(length_m: f64, seed: u64) -> Plume {
     let mut source = nozzle();
     source.release.buoyancy = BuoyancySpec::Excess(Finite::new(-7.0));
+    of(source, length_m, seed)
+}
+
+/// A neutral thread with a share of its structure.
+pub(in crate::filaments) fn structured(share: f64, length_m: f64, seed: u64) -> Plume {
+    let mut source = nozzle();
+    source.release.buoyancy = BuoyancySpec::Excess(Finite::new(0.0));
+    source.release.structure = Fraction::new(share);
     of(source, length_m, seed)
 }
 

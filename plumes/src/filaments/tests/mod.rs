@@ -7,7 +7,7 @@ mod even;
 mod even_obstacles;
 mod even_quay;
 mod evenness;
-mod flume;
+pub(super) mod flume;
 mod images;
 mod index;
 mod kept;

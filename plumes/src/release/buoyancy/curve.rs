@@ -49,7 +49,7 @@ impl Curve {
     pub(crate) const MIXED: f64 = 1.6e5;
 
     /// That of a release whose lift does not depend on what it is mixed with.
-    pub(super) fn constant(lift: f64) -> Self {
+    pub(crate) fn constant(lift: f64) -> Self {
         Self { unmixed: lift, lifts: Vec::new() }
     }
 

@@ -16,6 +16,7 @@ use plumes::flow::Water;
 use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
+use robots::sense::TIP_M;
 use world::fields::{Concentration, Flow};
 use world::seeds::Seed;
 
@@ -201,7 +202,7 @@ impl Watch {
         for (i, distance) in self.distances.iter().enumerate() {
             let p = self.source.xy() + self.along * *distance;
             for (k, height) in self.heights.iter().enumerate() {
-                let value = dye.concentration(&Vector3::new(p.x, p.y, self.bed_z + height));
+                let value = dye.sensed(&Vector3::new(p.x, p.y, self.bed_z + height), TIP_M);
                 self.odour[i][k].values.push(value);
             }
         }

@@ -71,6 +71,8 @@ pub(crate) struct Thread {
     pub(crate) outflow_m_s: f64,
     /// Buoyancy of the released volume by mixing.
     pub(crate) curve: Curve,
+    /// Whether anyone needs to know how far its sheets are mixed.
+    pub(crate) mixes: bool,
 }
 
 /// An element: one filament's part of the thread.

@@ -217,7 +217,6 @@ impl Thread {
         }
         cube_roots(&mut stirring);
         cube_roots(&mut core_stirring);
-        let changes = self.curve.changes();
         let sheet_m2 = self.sheet_m2();
         let mut new = RateLanes { rise, of: *e, fastest: [0.0; N], lift: [0.0; N] };
         for l in 0..N {
@@ -241,14 +240,14 @@ impl Thread {
             };
             let own_dissipation = turbulent[l] * through[l] * through[l] * through[l] / core_radius[l];
             let strain = STRAIN * ((around.dissipation[l] + own_dissipation) / VISCOSITY_M2_S).sqrt();
-            let thinning = if changes && e.mixed[l] < Curve::MIXED { strain } else { 0.0 };
+            let thinning = if self.mixes && e.mixed[l] < Curve::MIXED { strain } else { 0.0 };
             new.of.shared[l] = e.shared[l] * (spreading - gathering);
             new.of.core[l] = e.core[l] * core_spreading;
             new.of.own[l] = e.own[l] * 2.0 * own_m_s / own_radius[l];
             new.of.momentum[l] = force;
             new.of.passed[l] = -around.n2[l] * e.momentum[l];
             new.of.thinned[l] = -2.0 * thinning * e.thinned[l];
-            new.of.mixed[l] = if changes { DIFFUSIVITY_M2_S / (sheet_m2 * e.thinned[l]) } else { 0.0 };
+            new.of.mixed[l] = if self.mixes { DIFFUSIVITY_M2_S / (sheet_m2 * e.thinned[l]) } else { 0.0 };
             new.lift[l] = force.abs() / (e.shared[l] * radius[l]);
             new.fastest[l] = (0.5 * spreading).max(gathering).max(fresh).max(0.5 * core_spreading).max(2.0 * thinning);
         }

@@ -18,6 +18,7 @@ fn thread(flux: f64, radius_m: f64, outflow_m_s: f64) -> Thread {
         rate_hz: RATE_HZ,
         outflow_m_s,
         curve: (BuoyancySpec::Excess(Finite::new(excess)).curve(1000.0)).unwrap().unwrap(),
+        mixes: false,
     }
 }
 
@@ -154,7 +155,8 @@ fn a_solution_lifts_once_it_is_mixed() {
         neutral_with: Some(Solute::Propanol),
         ..CompositionSpec::default()
     });
-    let later = Thread { curve: composition.curve(998.2).unwrap().unwrap(), ..thread(4.8e-8, 0.0021, 0.05) };
+    let later =
+        Thread { curve: composition.curve(998.2).unwrap().unwrap(), mixes: true, ..thread(4.8e-8, 0.0021, 0.05) };
     let excess = -later.curve.at(1e5) * 998.2 / 9.81;
     let at_once =
         Thread { curve: BuoyancySpec::Excess(Finite::new(excess)).curve(998.2).unwrap().unwrap(), ..later.clone() };

@@ -169,7 +169,7 @@ fn a_buoyant_release_says_its_volume() {
     let bed = Terrain::Level { depth_m: 30.0 };
     let plume = Plume::new(&[spec], &basin(), &bed, 1, settings).unwrap();
     let refused = plume.with_buoyancy(&still).expect_err("no volume").to_string();
-    assert!(refused.starts_with("sources[0].release.volume_l_s: a buoyant release needs"), "{refused}");
+    assert!(refused.starts_with("sources[0].release.volume_l_s: a release that is buoyant"), "{refused}");
 }
 
 /// So many filaments that each step is shared out among threads, and a stream that carries them out of the basin while
