@@ -5,18 +5,13 @@ use super::super::{
     DensityFault, DyeFault, EyeFault, Faulty, FixFault, HeadingFault, LieSpec, MetresFault, SensorFaults, SpeedFault,
 };
 use crate::handoff::Readings;
-use crate::sense::testing::Dark;
-use crate::sense::{
-    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, OnBoard, RangingSpec,
-    SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
-};
+use crate::sense::testing::{all, around, suite};
+use crate::sense::{LblSpec, OnBoard, SensorsSpec, Surroundings};
 use nalgebra::{Vector2, Vector3};
 use world::clock::Clock;
-use world::fields::{Concentration, Still};
+use world::fields::Concentration;
 use world::frames::{Pose, Truth};
-use world::obstacles::Obstacles;
-use world::ranges::{Finite, NonNegative, Positive};
-use world::terrain::Terrain;
+use world::ranges::{Finite, Fraction, NonNegative, Positive};
 use world::units::{Heading, KG_M3_PER_UG_L};
 
 /// Step, s; steps of a run; when faults begin and end, s.
@@ -34,48 +29,25 @@ impl Concentration for Faint {
 }
 
 fn sensors() -> SensorsSpec {
-    let hear_all =
-        LblSpec { period_s: Positive::new(5.0), dropout: world::ranges::Fraction::new(0.0), ..LblSpec::default() };
-    SensorsSpec::default()
-        .with(FluorometerSpec::default())
-        .with(DvlSpec::default())
-        .with(AdcpSpec::default())
-        .with(CompassSpec::default())
-        .with(DepthSpec::default())
-        .with(CtdSpec::default())
-        .with(AltimeterSpec::default())
-        .with(hear_all)
-        .with(RangingSpec::default())
-        .with(SidescanSpec { rate_hz: Positive::new(1.0), always: true, ..SidescanSpec::default() })
+    all().with(LblSpec { period_s: Positive::new(5.0), dropout: Fraction::new(0.0), ..LblSpec::default() })
 }
 
 /// The readings of two minutes, `depth_m` deep over a bed at 8 m.
 fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
-    let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)));
-    let on = OnBoard::new("auv0", 3, DT_S);
-    let mut suite = SensorSuite::new(&sensors(), &mounts, on).unwrap();
+    let mut suite = suite(&sensors(), OnBoard::new("auv0", 3, DT_S));
     let faults: Vec<_> = (what.into_iter()).map(|what| fault(AT_S, Some(UNTIL_S), what)).collect();
     let mut faults = SensorFaults::new(&faults, &sensors(), DT_S);
     let north = Heading::from_deg(0.0);
     let mut clock = Clock::new(DT_S);
-    let mut all = Vec::new();
+    let mut read = Vec::new();
     for _ in 0..STEPS {
-        let p = Vector3::new(0.0, 0.1 * clock.t_s(), -depth_m);
-        let mut readings = suite.read(&Surroundings {
-            clock: &clock,
-            truth: &Truth::at_rest(Pose::level(p, north)),
-            flow: &Still,
-            dye: &Faint,
-            terrain: &Terrain::Level { depth_m: 8.0 },
-            obstacles: &Obstacles::default(),
-            imaging: &Dark,
-            asked: SensorRequests::default(),
-        });
+        let truth = Truth::at_rest(Pose::level(Vector3::new(0.0, 0.1 * clock.t_s(), -depth_m), north));
+        let mut readings = suite.read(&Surroundings { dye: &Faint, ..around(&clock, &truth) });
         faults.alter(&clock, &mut readings);
-        all.push(readings);
+        read.push(readings);
         clock.advance();
     }
-    all
+    read
 }
 
 /// One number of a reading, if there is one.

@@ -99,15 +99,3 @@ fn beams_that_look_down_end_on_the_bed() {
         assert!(met > 40, "{met}");
     }
 }
-
-#[test]
-fn impossible_fans_are_refused() {
-    let says = |spec: RangingSpec| {
-        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
-    };
-    assert!(says(RangingSpec { beams: 0, ..quiet() }).starts_with("sensors.ranging.beams: must be at least 1"));
-    assert!(says(RangingSpec { beams: 200, rows: 200, ..quiet() }).contains("at most 1024"));
-    assert!(says(RangingSpec { width_deg: NonNegative::new(400.0), ..quiet() }).contains("from 0 to 360"));
-    assert!(says(RangingSpec { min_range_m: NonNegative::new(40.0), ..quiet() }).contains("greater than min_range_m"));
-    assert!(says(RangingSpec { rate_hz: Positive::new(80.0), ..quiet() }).contains("at most 50 Hz"));
-}

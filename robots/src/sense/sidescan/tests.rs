@@ -133,14 +133,3 @@ fn off_a_survey_it_is_silent_unless_told() {
     };
     assert_eq!([read(false, false), read(false, true), read(true, false)], [false, true, true]);
 }
-
-#[test]
-fn what_cannot_be_is_refused() {
-    let says = |spec: SidescanSpec| {
-        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
-    };
-    let default = SidescanSpec::default;
-    assert!(says(SidescanSpec { samples: 0, ..default() }).contains("from 1 to 4096"));
-    assert!(says(SidescanSpec { rate_hz: Positive::new(40.0), ..default() }).contains("at most 37.5 Hz"));
-    assert!(says(SidescanSpec { tilt_deg: NonNegative::new(100.0), ..default() }).contains("at most 90"));
-}
