@@ -59,8 +59,6 @@ pub(super) struct Rig {
     pub(super) wall: fn(Vector2<f64>) -> bool,
     /// First decision of each command: time, s, behaviour, target, m, and the head's place, m.
     pub(super) log: Vec<(f64, Behaviour, Vector2<f64>, Vector2<f64>)>,
-    /// Distance moved by the head since the first step up-stream, m.
-    pub(super) way_m: f64,
 }
 
 impl Rig {
@@ -80,7 +78,6 @@ impl Rig {
             noise: Stream::new(seed, "rig", "noise"),
             wall: |_| false,
             log: Vec::new(),
-            way_m: 0.0,
         }
     }
 
@@ -157,9 +154,6 @@ impl Rig {
             arrived: (target_m - to).norm() < 1e-6,
             blocked: self.stuck_s > 0.5,
         };
-        if self.swept().is_some() {
-            self.way_m += (to - before).norm();
-        }
         self.decision = Some(d);
         self.tick += 1;
     }
