@@ -5,11 +5,11 @@ use super::super::kinematic_spec::{RadiusSpec, TurnSpec};
 use super::super::{Vehicle, VehicleSpec};
 use super::*;
 use crate::error::RobotError;
+use crate::handoff::testing::block;
 use nalgebra::{Matrix3, Vector2};
-use std::path::Path;
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
+use world::obstacles::Obstacle;
 use world::physics::Physics;
-use world::ranges::{Finite, HeadingDeg, Positive};
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -50,19 +50,14 @@ fn rates(turn_deg_s: f64, climb_m_s: f64, speed_m_s: f64) -> RateCommand {
     RateCommand { turn_rad_s: turn_deg_s * DEG, climb_m_s, speed_m_s }
 }
 
-/// A plate of this thickness across the way east, its middle at x = 0.
+/// A wall with its middle at a place (east, north) and these sides, m.
+fn wall(at: [f64; 2], sides_m: [f64; 2]) -> Obstacle {
+    block(&Terrain::Level { depth_m: 40.0 }, "wall", at, [sides_m[0], sides_m[1], 39.0])
+}
+
+/// A wall of this thickness across the way east, its middle at x = 0.
 fn plate(thick_m: f64) -> Obstacle {
-    let size_m = [thick_m, 200.0, 39.0].map(Positive::new).into();
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "plate".into(),
-        shape: ShapeSpec::Box(BoxShape { size_m }),
-        east_m: Finite::new(0.0),
-        north_m: Finite::new(0.0),
-        base: Base::OnBed,
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a plate")
+    wall([0.0, 0.0], [thick_m, 200.0])
 }
 
 /// On the exact circle of radius U/r at every step, however long; and exactly the asked rate.
@@ -190,19 +185,6 @@ fn no_wall_lets_it_through() {
 /// and goes there, whichever way that is, at every legal step and also with the water behind it.
 #[test]
 fn it_turns_away_from_a_wall_at_full_speed() {
-    let side = |north_m: f64| {
-        let size_m = [200.0, 1.0, 39.0].map(Positive::new).into();
-        let spec = ObstacleSpec {
-            surface: Default::default(),
-            id: "side".into(),
-            shape: ShapeSpec::Box(BoxShape { size_m }),
-            east_m: Finite::new(-100.0),
-            north_m: Finite::new(north_m),
-            base: Base::OnBed,
-            heading_deg: HeadingDeg::new(90.0),
-        };
-        Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a wall")
-    };
     for dt_s in [0.02, 0.1, 0.5] {
         for corner in [None, Some(2.0), Some(-2.0)] {
             for (heading_deg, asked_deg) in [
@@ -218,7 +200,7 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 let mut physics = Physics::new(dt_s);
                 physics.add_obstacle(&plate(1.0));
                 if let Some(north_m) = corner {
-                    physics.add_obstacle(&side(north_m));
+                    physics.add_obstacle(&wall([-100.0, north_m], [200.0, 1.0]));
                 }
                 let mut t = start(heading_deg);
                 t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
@@ -255,14 +237,6 @@ fn it_turns_away_from_a_wall_at_full_speed() {
             }
         }
     }
-}
-
-#[test]
-fn its_hull_is_that_of_the_remus() {
-    let car = vehicle(Moves::ThroughWater, None);
-    let remus = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
-    let t = start(0.0);
-    assert_eq!(car.0.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
 }
 
 #[test]

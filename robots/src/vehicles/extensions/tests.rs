@@ -78,43 +78,6 @@ fn all_of_a_block_is_read() {
     assert_eq!(b.doubts, Vec::<String>::new());
 }
 
-#[test]
-fn damping_resists_and_axes_turn() {
-    let b = blocks(UUV);
-    let linear = Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
-    assert_eq!(b.linear, Matrix6::from_diagonal(&linear));
-    let quadratic = Vector6::new(11.0, 12.0, 13.0, 14.0, 15.0, 16.0);
-    assert_eq!(b.quadratic, Matrix6::from_diagonal(&quadratic));
-    let mass = Vector6::new(1.0, 30.0, 31.0, 0.1, 4.0, 5.0);
-    assert_eq!(b.added_mass.diagonal(), mass);
-    // Right and down turn together, so Y_r, N_v, Z_q and M_w stay.
-    assert_eq!(b.added_mass[(1, 5)], -2.0);
-    assert_eq!(b.added_mass[(2, 4)], 1.5);
-    assert_eq!(b.forward[(0, 0)], 0.5);
-    assert_eq!(b.forward[(1, 1)], 7.0);
-    assert_eq!(b.forward[(1, 5)], -8.0);
-    assert_eq!(b.forward[(5, 1)], -9.0);
-    assert_eq!(b.forward[(5, 5)], 10.0);
-}
-
-/// A body that rolls about forward gets a side force from Y_p, and Y changes its sign with the axes, p does not.
-#[test]
-fn entries_between_forward_and_the_rest_change_sign() {
-    let mut frd = [0.0; 36];
-    frd[6 + 3] = -7.0; // Y_p
-    frd[18 + 1] = -8.0; // K_v
-    frd[5] = -9.0; // X_r
-    frd[30 + 1] = -10.0; // N_v
-    frd[6 + 5] = -11.0; // Y_r
-    let text = with(UUV, "-1 -2 -3 -4 -5 -6", &row(&frd));
-    let b = blocks(&text);
-    assert_eq!(b.linear[(1, 3)], -7.0);
-    assert_eq!(b.linear[(3, 1)], -8.0);
-    assert_eq!(b.linear[(0, 5)], -9.0);
-    assert_eq!(b.linear[(5, 1)], 10.0);
-    assert_eq!(b.linear[(1, 5)], 11.0);
-}
-
 /// The force in uuv_simulator's axes, turned, is the force of the turned blocks.
 #[test]
 fn turned_blocks_give_the_turned_force() {
