@@ -178,7 +178,8 @@ mod tests {
     use crate::behave::testing::{all, memory, v};
     use crate::handoff::testing::seen;
 
-    /// All lines until the end, for a vehicle that stays at `east` and turns on circles of `radius_m`; up-flow is north.
+    /// All lines until the end, for a vehicle that stays at `east` and turns on circles of `radius_m`; up-flow is
+    /// north.
     fn lines_of(radius_m: f64, params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
         let mut o = seen(0.0, v(east, 0.0), 0.0, None);
         o.able.turning_radius_m = radius_m;

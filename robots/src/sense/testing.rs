@@ -7,7 +7,7 @@ use super::{
     OnBoard, RangingSpec, SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
 };
 use image::RgbImage;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
 use world::clock::Clock;
 use world::fields::{Clean, Flow, Still};
 use world::frames::{Pose, Truth};
@@ -32,6 +32,13 @@ static NONE: Obstacles = Obstacles(Vec::new());
 
 /// A level bed 8 m down.
 pub(crate) const BED: Terrain = Terrain::Level { depth_m: 8.0 };
+
+/// A bed that rises by one in ten, as deep as this at the origin.
+pub(super) fn slope(shoreward_deg: f64, depth_m: f64) -> Terrain {
+    let shoreward = Heading::from_deg(shoreward_deg).unit();
+    let (shallow_m, deep_m, run_m) = (depth_m - 5.0, depth_m + 5.0, 100.0);
+    Terrain::Slope { middle: Vector2::zeros(), shoreward, shallow_m, deep_m, run_m }
+}
 
 /// A vehicle at rest, level, heading north.
 pub(super) fn at(x: f64, y: f64, z: f64) -> Truth {

@@ -63,8 +63,8 @@ pub(crate) fn point_of(d: &Decision) -> Vector2<f64> {
     }
 }
 
-/// A strategy and its last goal, with observations written by hand; the flow goes south, so up-flow is north. On request
-/// there is an obstacle ahead, and a map that is sure of a place.
+/// A strategy and its last goal, with observations written by hand; the flow goes south, so up-flow is north. On
+/// request there is an obstacle ahead, and a map that is sure of a place.
 pub(crate) struct Desk<S> {
     pub(crate) strategy: S,
     pub(crate) rng: Stream,

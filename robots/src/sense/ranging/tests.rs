@@ -1,13 +1,11 @@
 //! Tests of the forward ranging.
 
-use super::super::testing::{BED, assert_normal, at, nose_up, run};
+use super::super::testing::{BED, assert_normal, at, nose_up, run, slope};
 use super::*;
-use nalgebra::Vector2;
 use std::path::Path;
 use world::obstacles::{Base, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg};
 use world::terrain::Terrain;
-use world::units::Heading;
 
 fn pile(east_m: f64, north_m: f64) -> Obstacles {
     let spec = ObstacleSpec {
@@ -74,13 +72,7 @@ fn noise_and_dropout_are_those_asked_for() {
 
 #[test]
 fn beams_that_look_down_end_on_the_bed() {
-    let slope = Terrain::Slope {
-        middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(0.0).unit(),
-        shallow_m: 4.0,
-        deep_m: 14.0,
-        run_m: 100.0,
-    };
+    let slope = slope(0.0, 9.0);
     let fan = RangingSpec { rows: 5, height_deg: NonNegative::new(40.0), ..quiet() };
     for truth in [at(0.0, 0.0, -5.0), nose_up(at(0.0, 0.0, -5.0), -10.0)] {
         let scan = ping(fan.clone(), &truth, &Obstacles::default(), &slope);
