@@ -237,6 +237,20 @@ mod tests {
         }
 
         #[test]
+        fn nearest_finds_points_of_the_path(
+            e2 in -80.0..80.0, n2 in -80.0..80.0, h2 in 0.0..360.0, share in 0.0..1.0, aside in -3.0..3.0f64,
+        ) {
+            let path = DubinsPath::shortest(pose(0.0, 0.0, 10.0), pose(e2, n2, h2), 15.0);
+            let s = share * path.length_m();
+            let on = path.pose_at(s);
+            let p = on.position + side(on.heading, 1.0) * aside;
+            let from = (s - 5.0).max(0.0);
+            let (found, there) = path.nearest(p, (from, path.pose_at(from)), s + 5.0);
+            prop_assert!((there.position - p).norm() <= aside.abs() + 1e-9);
+            prop_assert_eq!(there, path.pose_at(found));
+        }
+
+        #[test]
         fn what_is_known_of_a_path_leaves_the_nearest_place_as_it_is(
             e2 in -80.0..80.0, n2 in -80.0..80.0, h2 in 0.0..360.0,
             shares in prop::collection::vec(-0.1..1.1, 8), aside in -30.0..30.0f64, window in 0.0..60.0f64,
