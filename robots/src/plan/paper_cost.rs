@@ -135,12 +135,7 @@ fn facing(room: &FreeSpace, start: &PathStart) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::testing::{block, room};
-    use world::units::Heading;
-
-    fn from(x: f64, y: f64, deg: f64) -> PathStart {
-        PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 }
-    }
+    use crate::plan::testing::{block, from, room};
 
     /// The paper's room: 40 × 25 cells of 2.5 × 4 m, its block and its ends.
     #[test]

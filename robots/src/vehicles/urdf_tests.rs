@@ -6,7 +6,9 @@ use super::{RemusSpec, Vehicle, VehicleSpec};
 use crate::error::RobotError;
 use crate::handoff::Actuation;
 use nalgebra::Vector3;
+use world::frames::{Pose, Truth};
 use world::physics::Shape;
+use world::units::Heading;
 
 const GOOD: &str = include_str!("../../vehicles/remus100/remus100.urdf");
 
@@ -18,6 +20,11 @@ fn remus(urdf: &str, files: &InMemory) -> Result<Vehicle, RobotError> {
 fn parse(text: &str) -> Result<Vehicle, String> {
     let at = "/no/such/place/auv.urdf";
     remus(at, &InMemory::default().with(at, text.as_bytes())).map_err(|e| e.to_string())
+}
+
+/// At rest, level, heading north.
+fn start(z_m: f64) -> Truth {
+    Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, z_m), Heading::from_deg(0.0)))
 }
 
 /// The text of a link, with its shapes.
@@ -34,17 +41,6 @@ fn refused(text: &str, wanted: &str) {
 }
 
 #[test]
-fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
-    let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
-    assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
-    for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
-        assert!(vehicle.mount(name).is_some(), "{name}");
-    }
-    assert_eq!(vehicle.mount("sonar"), None);
-}
-
-#[test]
 fn mounts_add_up_along_a_chain_of_joints() {
     let chain = GOOD.replace(
         "</robot>",
@@ -54,6 +50,8 @@ fn mounts_add_up_along_a_chain_of_joints() {
              <origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/></joint></robot>"#,
     );
     let hull = parse(&chain).expect("a chain");
+    assert_eq!(hull.mount("fluorometer").expect("mounted").p_WB, Vector3::new(0.72, 0.0, -0.06));
+    assert_eq!(hull.mount("sonar"), None);
     assert!((hull.mount("tip").expect("a link").p_WB - Vector3::new(1.5, 0.0, 0.0)).norm() < 1e-12);
 }
 
@@ -124,8 +122,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
     assert_eq!(built_in.doubts(), [""; 0]);
 
     let hull = heavy(&GOOD.replace("value=\"31.029385\"", "value=\"31.2\""));
-    assert_eq!(hull.coefficients().expect("a torpedo").mass_kg, 31.2);
-    assert_eq!(hull.coefficients().expect("a torpedo").rigid_mass()[(0, 0)], 31.2);
+    let c = hull.coefficients().expect("a torpedo");
+    assert_eq!((c.mass_kg, c.rigid_mass()[(0, 0)]), (31.2, 31.2));
     assert_eq!(
         hull.doubts(),
         ["weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
@@ -137,8 +135,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
             .replace("0 0 -0.02", "0.0001 0 -0.0201")
             .replace("ixy=\"0\"", "ixy=\"0.0005\""),
     );
-    assert_eq!(hull.coefficients().expect("a torpedo").inertia_kg_m2.y, 4.05);
-    assert_eq!(hull.coefficients().expect("a torpedo").z_g_m, 0.0201);
+    let c = hull.coefficients().expect("a torpedo");
+    assert_eq!((c.inertia_kg_m2.y, c.z_g_m), (4.05, 0.0201));
     assert_eq!(
         hull.doubts(),
         [
@@ -173,10 +171,7 @@ fn masses_of_all_links_add_up() {
 /// The weight is the URDF's: left alone under water, the heavier vehicle sinks.
 #[test]
 fn a_heavier_hull_sinks() {
-    let start = world::frames::Truth::at_rest(world::frames::Pose::level(
-        Vector3::new(0.0, 0.0, -50.0),
-        world::units::Heading::from_deg(0.0),
-    ));
+    let start = start(-50.0);
     let still = world::fields::WaterSample {
         velocity: Vector3::zeros(),
         gradient: nalgebra::Matrix3::zeros(),
@@ -204,11 +199,7 @@ fn a_mesh_beside_the_urdf_becomes_a_hull() {
     // The mesh lies beside the URDF, not beside the scenario.
     let files = InMemory::default().with("hulls/auv.urdf", text.as_bytes()).with("hulls/hull.obj", obj.as_bytes());
     let vehicle = remus("hulls/auv.urdf", &files).expect("a vehicle with a mesh");
-    let start = world::frames::Truth::at_rest(world::frames::Pose::level(
-        Vector3::zeros(),
-        world::units::Heading::from_deg(0.0),
-    ));
-    let (_, shape) = vehicle.body_spec("auv", start).shapes.remove(0);
+    let (_, shape) = vehicle.body_spec("auv", start(0.0)).shapes.remove(0);
     let Shape::Hull { points_m } = shape else {
         panic!("a hull of points, not {shape:?}");
     };
