@@ -53,51 +53,44 @@ fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
 /// One number of a reading, if there is one.
 type Number = fn(&Readings) -> Option<f64>;
 
-/// Every instrument with a fault of each kind, the number that it reads, and the error of its bias and its drift.
-fn cases() -> Vec<(Number, [Faulty; 4], [f64; 2])> {
-    let (by, per_s) = (Finite::new(0.5), Finite::new(0.01));
+/// Error of a bias and, per second, of a drift.
+const BIAS: f64 = 0.5;
+const DRIFT: f64 = 0.01;
+
+/// Every instrument with a fault of each kind, and the number that it reads.
+fn cases() -> Vec<(Number, [Faulty; 4])> {
+    let (by, per_s) = (Finite::new(BIAS), Finite::new(DRIFT));
     let metres = |wrap: fn(MetresFault) -> Faulty| {
         [MetresFault::Silent, MetresFault::Stuck, MetresFault::Biased(by), MetresFault::Drifting(per_s)].map(wrap)
     };
     let speed = |wrap: fn(SpeedFault) -> Faulty| {
         [SpeedFault::Silent, SpeedFault::Stuck, SpeedFault::Biased(by), SpeedFault::Drifting(per_s)].map(wrap)
     };
-    let plain = [0.5, 0.01];
     vec![
         (
             |r| r.chemical.map(|r| 10.0 * r.of_full_scale),
             [DyeFault::Silent, DyeFault::Stuck, DyeFault::Biased(by), DyeFault::Drifting(per_s)]
                 .map(Faulty::Fluorometer),
-            plain,
         ),
         (
             // From south, so that it does not jump at north.
             |r| r.attitude.map(|r| r.heading.opposite().deg()),
             [HeadingFault::Silent, HeadingFault::Stuck, HeadingFault::Biased(by), HeadingFault::Drifting(per_s)]
                 .map(Faulty::Compass),
-            plain,
         ),
-        (|r| r.depth.map(|r| r.depth_m), metres(Faulty::Depth), plain),
-        (|r| r.altimeter.map(|r| r.altitude_m), metres(Faulty::Altimeter), plain),
-        (|r| r.dvl.map(|r| r.v_body_m_s.x), speed(Faulty::Dvl), plain),
-        (|r| r.adcp.map(|r| r.v_body_m_s.x), speed(Faulty::Adcp), plain),
+        (|r| r.depth.map(|r| r.depth_m), metres(Faulty::Depth)),
+        (|r| r.altimeter.map(|r| r.altitude_m), metres(Faulty::Altimeter)),
+        (|r| r.dvl.map(|r| r.v_body_m_s.x), speed(Faulty::Dvl)),
+        (|r| r.adcp.map(|r| r.v_body_m_s.x), speed(Faulty::Adcp)),
         (
             |r| r.ctd.map(|r| r.density_kg_m3),
             [DensityFault::Silent, DensityFault::Stuck, DensityFault::Biased(by), DensityFault::Drifting(per_s)]
                 .map(Faulty::Ctd),
-            plain,
         ),
         (
             |r| r.lbl.map(|r| r.position.x),
-            [
-                FixFault::Silent,
-                FixFault::Stuck,
-                lie(0.5, 0.0),
-                // It grows to 0.4 m within the 40 s of the fault.
-                lie(0.4, 40.0),
-            ]
-            .map(Faulty::Fixes),
-            plain,
+            // The last grows to 0.4 m within the 40 s of the fault.
+            [FixFault::Silent, FixFault::Stuck, lie(BIAS, 0.0), lie(40.0 * DRIFT, 40.0)].map(Faulty::Fixes),
         ),
     ]
 }
@@ -127,7 +120,7 @@ fn only_this_in_its_time(healthy: &[Readings], faulty: &[Readings], number: Numb
 fn every_instrument_with_every_fault() {
     let healthy = read(None, 5.0);
     let (from, until) = ((AT_S / DT_S) as usize, (UNTIL_S / DT_S) as usize);
-    for (number, [silent, stuck, biased, drifting], [bias, drift]) in cases() {
+    for (number, [silent, stuck, biased, drifting]) in cases() {
         let said = format!("{biased:?}");
         let within = |what: &Faulty| -> Vec<(f64, Option<f64>, Option<f64>)> {
             let faulty = read(Some(what.clone()), 5.0);
@@ -140,7 +133,7 @@ fn every_instrument_with_every_fault() {
         assert!(within(&silent).iter().all(|(.., ill)| ill.is_none()), "{said}");
         let last = healthy[..from].iter().rev().find_map(number);
         assert!(within(&stuck).iter().all(|(.., ill)| *ill == last), "{said}");
-        for (what, error) in [(biased, (bias, 0.0)), (drifting, (0.0, drift))] {
+        for (what, error) in [(biased, (BIAS, 0.0)), (drifting, (0.0, DRIFT))] {
             for (t_s, well, ill) in within(&what) {
                 let want = well.expect("there") + error.0 + error.1 * (t_s - AT_S);
                 let got = ill.expect("as often as before");
