@@ -2,22 +2,12 @@
 
 use super::super::testing::{BED, assert_normal, at, nose_up, run, slope};
 use super::*;
-use std::path::Path;
-use world::obstacles::{Base, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg};
+use crate::handoff::testing::block;
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 fn pile(east_m: f64, north_m: f64) -> Obstacles {
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "pile".into(),
-        shape: ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(0.5), height_m: Positive::new(8.0) }),
-        east_m: Finite::new(east_m),
-        north_m: Finite::new(north_m),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacles(vec![Obstacle::build(&spec, &BED, Path::new(".")).unwrap()])
+    Obstacles(vec![block(&BED, "pile", [east_m, north_m], [1.0, 1.0, 8.0])])
 }
 
 fn ranging(spec: RangingSpec) -> Ranging {
