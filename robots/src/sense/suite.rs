@@ -212,6 +212,11 @@ mod tests {
                 refused(CameraSpec { view_deg: Positive::new(170.0), ..Default::default() }),
                 "camera.view_deg: must be less than 170, got 170",
             ),
+            (refused(CameraSpec { rate_hz: hz(60.0), ..Default::default() }), "camera.rate_hz: 60 Hz is more than one"),
+            (
+                refused(RangingSpec { rate_hz: hz(80.0), ..Default::default() }),
+                "ranging.rate_hz: 80 Hz is more than one",
+            ),
             (refused(RangingSpec { beams: 0, ..Default::default() }), "ranging.beams: must be at least 1"),
             (refused(RangingSpec { beams: 200, rows: 200, ..Default::default() }), "at most 1024"),
             (refused(RangingSpec { width_deg: zero_to(400.0), ..Default::default() }), "from 0 to 360"),
