@@ -147,26 +147,12 @@ fn through_water_m_s(e: &Estimate) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{Attitude, FlowEstimate};
-    use nalgebra::{Vector2, Vector3};
+    use crate::handoff::testing::seen;
+    use nalgebra::Vector2;
     use world::units::Heading;
 
     fn level(flow: Option<Vector2<f64>>) -> Estimate {
-        Estimate {
-            t_s: 0.0,
-            position: Vector2::zeros(),
-            depth_m: 5.0,
-            altitude_m: None,
-            attitude: Attitude {
-                heading: Heading::from_deg(10.0),
-                roll_rad: 0.0,
-                pitch_rad: 0.0,
-                rates_rad_s: Vector3::zeros(),
-            },
-            v_ground_body: Vector3::new(2.0, 0.0, 0.0),
-            flow: flow.map(|velocity| FlowEstimate { velocity, age_s: 0.0 }),
-            fix_jump: Vector2::zeros(),
-        }
+        Estimate { depth_m: 5.0, altitude_m: None, ..seen(0.0, Vector2::zeros(), 10.0, flow).estimate }
     }
 
     fn steer(heading_deg: f64, vertical: Vertical) -> Command {

@@ -1,8 +1,9 @@
 //! The helm with a vehicle that does exactly as told.
 
 use super::*;
-use crate::handoff::{Attitude, FlowEstimate, Setpoint, TurnLimit};
-use nalgebra::{Vector2, Vector3};
+use crate::handoff::testing::seen;
+use crate::handoff::{Setpoint, TurnLimit};
+use nalgebra::Vector2;
 use world::units::Heading;
 
 fn limits() -> RateLimits {
@@ -13,18 +14,10 @@ fn helm(limits: RateLimits) -> Helm {
     Helm::new(limits, &AutopilotSpec::default(), 0.0)
 }
 
+/// It steers by what it is set, not by the flow.
 fn at(heading: Heading, depth_m: f64, altitude_m: Option<f64>) -> Estimate {
-    Estimate {
-        t_s: 0.0,
-        position: Vector2::zeros(),
-        depth_m,
-        altitude_m,
-        attitude: Attitude { heading, roll_rad: 0.0, pitch_rad: 0.0, rates_rad_s: Vector3::zeros() },
-        v_ground_body: Vector3::zeros(),
-        // It steers by what it is set, not by the flow.
-        flow: Some(FlowEstimate { velocity: Vector2::new(0.7, -0.3), age_s: 0.0 }),
-        fix_jump: Vector2::zeros(),
-    }
+    let flow = Some(Vector2::new(0.7, -0.3));
+    Estimate { depth_m, altitude_m, ..seen(0.0, Vector2::zeros(), heading.deg(), flow).estimate }
 }
 
 fn steer(heading_deg: f64, water_speed_m_s: f64, vertical: Vertical) -> Command {

@@ -38,23 +38,24 @@ fn turn_deg(m: Option<Manoeuvre>) -> f64 {
 
 #[test]
 fn turns_in_proportion_and_to_the_freer_side() {
-    // Ahead, slightly to the right: 8 m off it at asin(8 / 20) = 23.6 degrees; to the left 20.6, so 25.
-    let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(3.0, 20.0)]), &north()));
-    let whole_at_18 = (35.0 - 20.0) / 17.0;
-    assert!((t + 25.0 * whole_at_18).abs() < 1e-9, "{t}");
-    let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(-3.0, 26.5)]), &north()));
-    // asin(8 / 26.5) = 17.6: 14.6 to the right, so 15, half of it.
-    assert!((t - 7.5).abs() < 1e-9, "{t}");
-    // Nearer than near_m: the whole turn.
-    let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &[(3.0, 16.0)]), &north()));
-    assert!((t + 30.0).abs() < 1e-9, "{t}");
+    let turn = |echoes: &[(f64, f64)]| turn_deg(avoid(Params::default()).step(&ping(0.0, echoes), &north()));
+    for (bearing, range, wanted) in [
+        // Ahead, slightly to the right: 8 m off it at asin(8 / 20) = 23.6 degrees; to the left 20.6, so 25.
+        (3.0, 20.0, -25.0 * (35.0 - 20.0) / 17.0),
+        // asin(8 / 26.5) = 17.6: 14.6 to the right, so 15, half of it.
+        (-3.0, 26.5, 7.5),
+        // Nearer than near_m: the whole turn.
+        (3.0, 16.0, -30.0),
+    ] {
+        let t = turn(&[(bearing, range)]);
+        assert!((t - wanted).abs() < 1e-9, "{bearing} degrees, {range} m: {t}");
+    }
     // A wall that goes on to the left: to the right, though most of it is straight ahead or left.
     let wall: Vec<_> = (-12..3).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
-    assert!(turn_deg(avoid(Params::default()).step(&ping(0.0, &wall), &north())) > 0.0);
+    assert!(turn(&wall) > 0.0);
     // Echoes all round: turn back.
     let ring: Vec<_> = (0..72).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
-    let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &ring), &north()));
-    assert!((t.abs() - 180.0).abs() < 1e-9, "{t}");
+    assert!((turn(&ring).abs() - 180.0).abs() < 1e-9, "{}", turn(&ring));
 }
 
 #[test]

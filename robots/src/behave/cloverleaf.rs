@@ -186,45 +186,28 @@ impl Behave for Cloverleaf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::Lcdp;
+    use crate::behave::testing::{all, memory, point, step, v};
     use crate::handoff::testing::seen;
 
-    fn v(east: f64, north: f64) -> Vector2<f64> {
-        Vector2::new(east, north)
+    fn params(leaves: u32, leaf_m: f64) -> Params {
+        let leaves = NonZeroU32::new(leaves).expect("not zero");
+        Params { leaves, leaf_m: Positive::new(leaf_m), ..Params::default() }
     }
 
-    fn memory(at: Vector2<f64>, up_deg: f64) -> PlumeMemory {
-        let mut m = PlumeMemory { up_flow: Some(Heading::from_deg(up_deg)), ..PlumeMemory::default() };
-        m.lose(Lcdp::new_at(0.0, v(500.0, 0.0)), Heading::from_deg(up_deg));
-        m.lose(Lcdp::new_at(1.0, at), Heading::from_deg(up_deg));
-        m
-    }
-
-    /// All corners until the end, for a vehicle that stays at `here`.
-    fn corners(params: &Params, m: &mut PlumeMemory, here: Vector2<f64>) -> Vec<Vector2<f64>> {
-        let mut b = Cloverleaf::new(params).expect("legal");
-        let mut rng = Stream::new(1, "t", "t");
-        let o = seen(0.0, here, 0.0, None);
-        b.enter(&o, m);
-        let mut found = Vec::new();
-        loop {
-            match b.step(&o, !found.is_empty(), m, &mut rng) {
-                Stride::Start(Manoeuvre::GoToPoint { point, radius_m }) => {
-                    assert_eq!(radius_m, Some(params.arrive_m.get()));
-                    found.push(point);
-                }
-                Stride::Over => return found,
-                other => panic!("a corner or the end, got {other:?}"),
-            }
-        }
+    /// All corners until the end, for a vehicle that stays at `here`; the plume was lost far east, then at `lost`.
+    fn corners(params: &Params, lost: Vector2<f64>, up_deg: f64, here: Vector2<f64>) -> Vec<Vector2<f64>> {
+        let mut m = memory(Some(up_deg), &[(500.0, 0.0), (lost.x, lost.y)]);
+        let started = all(&mut Cloverleaf::new(params).expect("legal"), &seen(0.0, here, 0.0, None), &mut m);
+        assert_eq!((m.lost.all().len(), m.lcdps.all().len()), (0, 2));
+        let arrive = Some(params.arrive_m.get());
+        assert!(started.iter().all(|m| matches!(m, Manoeuvre::GoToPoint { radius_m, .. } if *radius_m == arrive)));
+        started.iter().map(point).collect()
     }
 
     #[test]
     fn four_leaves_by_hand() {
-        let params = Params { leaf_m: Positive::new(20.0), ..Params::default() };
         // Up-flow is north; the vehicle is up-flow of the point and to its right.
-        let mut m = memory(v(10.0, 20.0), 0.0);
-        let found = corners(&params, &mut m, v(12.0, 40.0));
+        let found = corners(&params(4, 20.0), v(10.0, 20.0), 0.0, v(12.0, 40.0));
         let d = 20.0 / 2f64.sqrt();
         // Through the point to the south-west, north-west, north-east, south-east: always turning right. The first
         // two lines make the southern leaf.
@@ -238,49 +221,31 @@ mod tests {
         // The last leaf's second side, and back to the point.
         assert!((found[16] - found[0]).norm() < 1e-9);
         assert_eq!(found[17], v(10.0, 20.0));
-        assert_eq!(m.lost.all().len(), 0);
-        assert_eq!(m.lcdps.all().len(), 2);
         // From the left it is the mirror image.
-        let found = corners(&params, &mut memory(v(10.0, 20.0), 0.0), v(8.0, 40.0));
+        let found = corners(&params(4, 20.0), v(10.0, 20.0), 0.0, v(8.0, 40.0));
         assert!((found[1] - v(10.0 + d, 20.0 - d)).norm() < 1e-9);
         assert!((found[3] - v(10.0 + d, 20.0 + d)).norm() < 1e-9);
     }
 
     #[test]
     fn leaves_have_room_for_the_vehicle_s_own_turns() {
-        let length = |leaves: u32, able_m: f64| {
-            let params = Params {
-                leaves: NonZeroU32::new(leaves).expect("not zero"),
-                leaf_m: Positive::new(30.0),
-                ..Params::default()
-            };
-            let mut b = Cloverleaf::new(&params).expect("legal");
+        // Wider leaves need less.
+        for (leaves, able_m, leaf_m) in
+            [(4, 0.0, 30.0), (4, 15.0, 30.0), (4, 29.0, 30.0), (4, 40.0, 40.0), (6, 60.0, 60.0 / 3f64.sqrt())]
+        {
+            let mut b = Cloverleaf::new(&params(leaves, 30.0)).expect("legal");
             let mut o = seen(0.0, v(0.0, 5.0), 0.0, None);
             o.able.turning_radius_m = able_m;
-            let mut m = memory(v(0.0, 0.0), 0.0);
-            match b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t")) {
-                Stride::Start(Manoeuvre::GoToPoint { point, .. }) => point.norm(),
-                other => panic!("{other:?}"),
-            }
-        };
-        for able_m in [0.0, 15.0, 29.0] {
-            assert!((length(4, able_m) - 30.0).abs() < 1e-9, "{able_m}");
+            let found = all(&mut b, &o, &mut memory(Some(0.0), &[(0.0, 0.0)]));
+            assert!((point(&found[0]).norm() - leaf_m).abs() < 1e-9, "{leaves} leaves, {able_m} m");
         }
-        assert!((length(4, 40.0) - 40.0).abs() < 1e-9);
-        // Wider leaves need less.
-        assert!((length(6, 60.0) - 60.0 / 3f64.sqrt()).abs() < 1e-9);
     }
 
     #[test]
     fn one_leaf_lies_down_flow_for_any_number_and_any_flow() {
         for leaves in 3..=8 {
             for up_deg in [0.0, 77.0, 180.0, 333.0] {
-                let params = Params {
-                    leaves: NonZeroU32::new(leaves).expect("not zero"),
-                    leaf_m: Positive::new(30.0),
-                    ..Params::default()
-                };
-                let found = corners(&params, &mut memory(v(0.0, 0.0), up_deg), v(0.0, 5.0));
+                let found = corners(&params(leaves, 30.0), v(0.0, 0.0), up_deg, v(0.0, 5.0));
                 // From the end of the first line to the start of the second: the leaf's middle is down-flow.
                 let down = Heading::from_deg(up_deg).opposite();
                 assert!(Heading::from_vector(found[1] + found[2]).turn_to(down).abs() < 1e-9);
@@ -298,46 +263,33 @@ mod tests {
     #[test]
     fn held_inside_the_area_even_in_its_corner() {
         // North-east corner at (200, 300).
-        let mut m = memory(v(230.0, 330.0), 0.0);
-        for p in corners(&Params::default(), &mut m, v(190.0, 290.0)) {
+        for p in corners(&Params::default(), v(230.0, 330.0), 0.0, v(190.0, 290.0)) {
             assert!(p.x <= 190.0 && p.y <= 290.0);
         }
     }
 
     #[test]
-    fn over_without_a_point() {
-        let nothing = &mut PlumeMemory::default();
-        assert!(corners(&Params::default(), nothing, v(0.0, 0.0)).is_empty());
-    }
-
-    #[test]
-    fn keeps_its_corner_until_it_arrives() {
+    fn keeps_its_corner_until_it_arrives_and_is_over_without_a_point() {
         let mut b = Cloverleaf::new(&Params::default()).expect("legal");
-        let (mut m, mut rng) = (memory(v(0.0, 0.0), 0.0), Stream::new(1, "t", "t"));
+        let mut m = memory(Some(0.0), &[(0.0, 0.0)]);
         let o = seen(0.0, v(1.0, 9.0), 0.0, None);
         b.enter(&o, &m);
-        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
-        assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
-        assert!(matches!(b.step(&o, true, &mut m, &mut rng), Stride::Start(_)));
+        assert!(matches!(step(&mut b, &o, false, &mut m), Stride::Start(_)));
+        assert_eq!(step(&mut b, &o, false, &mut m), Stride::Keep);
+        assert!(matches!(step(&mut b, &o, true, &mut m), Stride::Start(_)));
         // When it is entered again, it starts again.
         b.enter(&o, &m);
-        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
+        assert!(matches!(step(&mut b, &o, false, &mut m), Stride::Start(_)));
+        assert!(all(&mut b, &o, &mut memory(None, &[])).is_empty());
     }
 
+    /// Four leaves close at 15 m, three at 15 sqrt(3) = 26 m.
     #[test]
     fn leaves_that_cannot_be_flown_are_refused() {
-        let with = |leaves, leaf_m| {
-            Cloverleaf::new(&Params {
-                leaves: NonZeroU32::new(leaves).expect("not zero"),
-                leaf_m: Positive::new(leaf_m),
-                ..Params::default()
-            })
-        };
-        assert!(with(2, 100.0).is_err());
-        // Four close at 15 m, three at 15 sqrt(3) = 26 m.
-        assert!(with(4, 14.9).is_err());
-        assert!(with(4, 15.1).is_ok());
-        assert!(with(3, 25.9).is_err());
-        assert!(with(3, 26.0).is_ok());
+        for (leaves, leaf_m, legal) in
+            [(2, 100.0, false), (4, 14.9, false), (4, 15.1, true), (3, 25.9, false), (3, 26.0, true)]
+        {
+            assert_eq!(Cloverleaf::new(&params(leaves, leaf_m)).is_ok(), legal, "{leaves} leaves of {leaf_m} m");
+        }
     }
 }

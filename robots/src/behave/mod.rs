@@ -9,6 +9,8 @@ mod go_to;
 mod open_loop;
 mod reacquire;
 mod survey;
+#[cfg(test)]
+mod testing;
 mod track_in;
 mod track_out;
 

@@ -104,49 +104,14 @@ impl Behave for TimeTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::testing::seen;
-    use nalgebra::Vector2;
-
-    fn row(t_s: f64, rudder_deg: f64, rpm: f64) -> TimeTableRow {
-        TimeTableRow {
-            t_s: NonNegative::new(t_s),
-            rudder_deg: Finite::new(rudder_deg),
-            stern_deg: zero(),
-            rpm: Finite::new(rpm),
-        }
-    }
-
-    #[test]
-    fn rows_hold_until_the_next_and_the_end_ends() {
-        let params =
-            TimeTableParams { table: vec![row(1.0, 0.0, 1500.0), row(3.0, 10.0, 1500.0)], end_s: Positive::new(5.0) };
-        let mut table = TimeTable::new(&params).expect("legal");
-        let mut memory = PlumeMemory::default();
-        let mut rng = Stream::new(1, "t", "t");
-        // The first tick comes at 100 s: the table counts from there.
-        let at = |t: f64| seen(100.0 + t, Vector2::zeros(), 0.0, None);
-        table.enter(&at(0.0), &memory);
-        let mut step = |t: f64| table.step(&at(t), false, &mut memory, &mut rng);
-        let direct = |rudder_deg: f64, rpm| {
-            Stride::Start(Manoeuvre::Direct { rudder_rad: rudder_deg.to_radians(), stern_rad: 0.0, rpm })
-        };
-        assert_eq!(step(0.0), direct(0.0, 0.0));
-        assert_eq!(step(0.98), Stride::Keep);
-        assert_eq!(step(1.0), direct(0.0, 1500.0));
-        assert_eq!(step(2.98), Stride::Keep);
-        assert_eq!(step(3.0), direct(10.0, 1500.0));
-        assert_eq!(step(4.98), Stride::Keep);
-        assert_eq!(step(5.0), Stride::Over);
-    }
 
     #[test]
     fn times_must_grow_and_end_before_the_end() {
-        let with = |rows: Vec<TimeTableRow>, end_s| {
-            TimeTable::new(&TimeTableParams { table: rows, end_s: Positive::new(end_s) })
-        };
-        assert!(with(vec![], 5.0).is_err());
-        assert!(with(vec![row(2.0, 0.0, 0.0), row(2.0, 1.0, 0.0)], 5.0).is_err());
-        assert!(with(vec![row(5.0, 0.0, 0.0)], 5.0).is_err());
-        assert!(with(vec![row(0.0, 0.0, 0.0)], 5.0).is_ok());
+        let row = |t_s| TimeTableRow { t_s: NonNegative::new(t_s), rudder_deg: zero(), stern_deg: zero(), rpm: zero() };
+        for (times, legal) in [(&[][..], false), (&[2.0, 2.0], false), (&[5.0], false), (&[0.0, 4.0], true)] {
+            let table = times.iter().copied().map(row).collect();
+            let built = TimeTable::new(&TimeTableParams { table, end_s: Positive::new(5.0) });
+            assert_eq!(built.is_ok(), legal, "{times:?}");
+        }
     }
 }

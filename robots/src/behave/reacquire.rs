@@ -175,41 +175,25 @@ impl Behave for Bowtie {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::Lcdp;
+    use crate::behave::testing::{all, memory, v};
     use crate::handoff::testing::seen;
-    use crate::memory::LostPoints;
 
-    fn memory(norths: &[f64]) -> PlumeMemory {
-        let up = Heading::from_deg(0.0);
-        let mut list = LostPoints::new(std::num::NonZeroUsize::new(6).expect("6 > 0"));
-        for north in norths {
-            let position = Vector2::new(0.0, *north);
-            list.add(Lcdp::new_at(0.0, position), up);
-        }
-        PlumeMemory { up_flow: Some(up), lost: list, ..PlumeMemory::default() }
+    /// All lines until the end, for a vehicle that stays at `east` and turns on circles of `radius_m`; up-flow is
+    /// north.
+    fn lines_of(radius_m: f64, params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
+        let mut o = seen(0.0, v(east, 0.0), 0.0, None);
+        o.able.turning_radius_m = radius_m;
+        let lost: Vec<_> = norths.iter().map(|north| (0.0, *north)).collect();
+        let started = all(&mut Bowtie::new(params).expect("legal"), &o, &mut memory(Some(0.0), &lost));
+        let ends = |m: Manoeuvre| match m {
+            Manoeuvre::FollowLine { from, to } => (from, to),
+            other => panic!("wanted a line, got {other:?}"),
+        };
+        started.into_iter().map(ends).collect()
     }
 
-    /// All lines until the end, for a vehicle that stays at `east`.
     fn lines(params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
         lines_of(11.5, params, norths, east)
-    }
-
-    /// The same for a hull that turns on circles of `radius_m`.
-    fn lines_of(radius_m: f64, params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
-        let mut b = Bowtie::new(params).expect("legal");
-        let mut m = memory(norths);
-        let mut rng = Stream::new(1, "t", "t");
-        let mut o = seen(0.0, Vector2::new(east, 0.0), 0.0, None);
-        o.able.turning_radius_m = radius_m;
-        b.enter(&o, &m);
-        let mut found = Vec::new();
-        loop {
-            match b.step(&o, !found.is_empty(), &mut m, &mut rng) {
-                Stride::Start(Manoeuvre::FollowLine { from, to }) => found.push((from, to)),
-                Stride::Over => return found,
-                other => panic!("a line or the end, got {other:?}"),
-            }
-        }
     }
 
     #[test]
@@ -225,11 +209,11 @@ mod tests {
         ];
         assert_eq!(found.len(), 4);
         for ((from, to), (a, b)) in found.iter().zip(want) {
-            assert!((from - Vector2::new(a.0, a.1)).norm() < 1e-9);
-            assert!((to - Vector2::new(b.0, b.1)).norm() < 1e-9);
+            assert!((from - v(a.0, a.1)).norm() < 1e-9);
+            assert!((to - v(b.0, b.1)).norm() < 1e-9);
         }
         let from_left = lines(&Params::default(), &[0.0], -18.0);
-        assert!((from_left[0].0 - Vector2::new(-3.0, 10.0 - half_m)).norm() < 1e-9);
+        assert!((from_left[0].0 - v(-3.0, 10.0 - half_m)).norm() < 1e-9);
     }
 
     #[test]

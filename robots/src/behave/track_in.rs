@@ -115,19 +115,8 @@ impl Behave for CounterTurn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::behave::testing::{course, memory, step, v};
     use crate::handoff::testing::{seen, smelling};
-    use nalgebra::Vector2;
-
-    fn memory(up_deg: Option<f64>) -> PlumeMemory {
-        PlumeMemory { up_flow: up_deg.map(Heading::from_deg), ..PlumeMemory::default() }
-    }
-
-    fn course(s: Stride) -> f64 {
-        match s {
-            Stride::Start(Manoeuvre::Course { course }) | Stride::Adjust(Manoeuvre::Course { course }) => course.deg(),
-            other => panic!("wanted a course, got {other:?}"),
-        }
-    }
 
     #[test]
     fn turns_to_the_other_side_of_up_flow() {
@@ -140,27 +129,26 @@ mod tests {
             (180.0, 170.0, Side::Left, 200.0),
             (180.0, 190.0, Side::Right, 160.0),
         ] {
-            let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(up)));
-            let o = smelling(seen(1.0, Vector2::zeros(), nose, None), true);
+            let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(up), &[]));
+            let o = smelling(seen(1.0, v(0.0, 0.0), nose, None), true);
             b.enter(&o, &m);
-            let s = b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t"));
-            assert!((course(s) - want).abs() < 1e-6, "up {up}, nose {nose}: {s:?}");
+            let s = step(&mut b, &o, false, &mut m);
+            assert!(course(s).is_some_and(|c| (c - want).abs() < 1e-6), "up {up}, nose {nose}: {s:?}");
             assert_eq!(m.leaves, leaves);
         }
     }
 
     #[test]
     fn lost_after_lambda_at_the_last_detection() {
-        let mut rng = Stream::new(1, "t", "t");
-        let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(0.0)));
-        let at = |t: f64, smells| smelling(seen(t, Vector2::new(0.0, t), 350.0, None), smells);
+        let (mut b, mut m) = (CounterTurn::new(&Params::default()).expect("legal"), memory(Some(0.0), &[]));
+        let at = |t: f64, smells| smelling(seen(t, v(0.0, t), 350.0, None), smells);
         b.enter(&at(0.0, true), &m);
-        assert!(matches!(b.step(&at(0.0, true), false, &mut m, &mut rng), Stride::Start(_)));
-        assert!(matches!(b.step(&at(2.0, true), false, &mut m, &mut rng), Stride::Adjust(_)));
-        assert_eq!(b.step(&at(3.0, false), false, &mut m, &mut rng), Stride::Keep);
-        assert_eq!(b.step(&at(7.0, false), false, &mut m, &mut rng), Stride::Keep);
-        assert_eq!(b.step(&at(7.1, false), false, &mut m, &mut rng), Stride::Over);
-        assert_eq!(m.lost.first().map(|l| l.position), Some(Vector2::new(0.0, 2.0)));
+        assert!(matches!(step(&mut b, &at(0.0, true), false, &mut m), Stride::Start(_)));
+        assert!(matches!(step(&mut b, &at(2.0, true), false, &mut m), Stride::Adjust(_)));
+        assert_eq!(step(&mut b, &at(3.0, false), false, &mut m), Stride::Keep);
+        assert_eq!(step(&mut b, &at(7.0, false), false, &mut m), Stride::Keep);
+        assert_eq!(step(&mut b, &at(7.1, false), false, &mut m), Stride::Over);
+        assert_eq!(m.lost.first().map(|l| l.position), Some(v(0.0, 2.0)));
     }
 
     #[test]

@@ -166,46 +166,43 @@ impl Behave for UpAcross {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::behave::testing::{memory, point, step, v};
     use crate::handoff::Side;
     use crate::handoff::testing::seen;
-    use crate::memory::LostPoints;
     use nalgebra::Vector2;
 
-    fn memory(leaves: Side, lost: &[(f64, f64)]) -> PlumeMemory {
-        let up = Heading::from_deg(90.0);
-        let mut list = LostPoints::new(NonZeroUsize::new(6).expect("6 > 0"));
-        for (east, north) in lost {
-            let position = Vector2::new(*east, *north);
-            list.add(Lcdp::new_at(0.0, position), up);
+    /// The point of a vehicle at the origin; up-flow is east, so right is south.
+    fn goal(params: &Params, leaves: Side, m: &mut PlumeMemory) -> Vector2<f64> {
+        m.leaves = leaves;
+        let mut b = UpAcross::new(params).expect("legal");
+        match step(&mut b, &seen(0.0, v(0.0, 0.0), 0.0, None), false, m) {
+            Stride::Start(m) => point(&m),
+            other => panic!("wanted a start, got {other:?}"),
         }
-        PlumeMemory { up_flow: Some(up), leaves, lost: list, ..PlumeMemory::default() }
     }
 
-    fn point(m: &mut PlumeMemory) -> Vector2<f64> {
-        let mut b = UpAcross::new(&Params::default()).expect("legal");
-        let o = seen(0.0, Vector2::zeros(), 0.0, None);
-        match b.step(&o, false, m, &mut Stream::new(1, "t", "t")) {
-            Stride::Start(Manoeuvre::GoToPoint { point, .. }) => point,
-            other => panic!("wanted a point, got {other:?}"),
-        }
+    fn lost(leaves: Side, lost: &[(f64, f64)]) -> Vector2<f64> {
+        goal(&Params::default(), leaves, &mut memory(Some(90.0), lost))
     }
 
     #[test]
     fn up_flow_and_to_the_other_side_of_the_most_up_flow_point() {
-        // Up-flow is east, so right is south. Left on the left: cross to the right.
-        let lost = [(20.0, 5.0), (50.0, 0.0), (30.0, 0.0)];
-        let p = point(&mut memory(Side::Left, &lost));
-        assert!((p - Vector2::new(68.0, -18.0)).norm() < 1e-9);
-        let p = point(&mut memory(Side::Right, &lost));
-        assert!((p - Vector2::new(68.0, 18.0)).norm() < 1e-9);
+        // Left on the left: cross to the right. The east edge is at 200 m.
+        let points = [(20.0, 5.0), (50.0, 0.0), (30.0, 0.0)];
+        for (leaves, points, wanted) in [
+            (Side::Left, &points[..], v(68.0, -18.0)),
+            (Side::Right, &points, v(68.0, 18.0)),
+            (Side::Left, &[(195.0, 0.0)], v(190.0, -18.0)),
+        ] {
+            assert!((lost(leaves, points) - wanted).norm() < 1e-9, "{leaves:?} {points:?}");
+        }
     }
 
     #[test]
     fn shrinks_as_the_newest_points_gather() {
         let share = |easts: &[f64]| {
-            let points: Vec<_> = (easts.iter().enumerate())
-                .map(|(k, e)| Lcdp::new_at(k as f64, Vector2::new(*e, 40.0 * k as f64)))
-                .collect();
+            let points: Vec<_> =
+                (easts.iter().enumerate()).map(|(k, e)| Lcdp::new_at(k as f64, v(*e, 40.0 * k as f64))).collect();
             Near::default().share(&points, Heading::from_deg(90.0))
         };
         // Too few; on the way, 40 m in three; gathering, 27 m; gathered; in either direction of the flow.
@@ -215,39 +212,21 @@ mod tests {
         assert_eq!(share(&[-60.0, 0.0, 3.0, -2.0]), 0.6);
         // Up-flow is east: L_u and L_c of 18 m become 10.8 m.
         let near = Params { near: Some(Near::default()), ..Params::default() };
-        let mut m = memory(Side::Left, &[(50.0, 0.0)]);
-        for k in 0..3 {
-            m.lcdps.add(Lcdp::new_at(f64::from(k), Vector2::new(50.0, 0.0)));
-        }
-        let o = seen(0.0, Vector2::zeros(), 0.0, None);
-        let mut b = UpAcross::new(&near).expect("legal");
-        match b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t")) {
-            Stride::Start(Manoeuvre::GoToPoint { point, .. }) => {
-                assert!((point - Vector2::new(60.8, -10.8)).norm() < 1e-9);
-            }
-            other => panic!("wanted a point, got {other:?}"),
-        }
+        let p = goal(&near, Side::Left, &mut memory(Some(90.0), &[(50.0, 0.0); 3]));
+        assert!((p - v(60.8, -10.8)).norm() < 1e-9);
         let one = Params { near: Some(Near { points: NonZeroUsize::MIN, ..Near::default() }), ..Params::default() };
         assert!(UpAcross::new(&one).is_err());
     }
 
     #[test]
-    fn held_inside_the_area() {
-        // The east edge is at 200 m.
-        let p = point(&mut memory(Side::Left, &[(195.0, 0.0)]));
-        assert!((p - Vector2::new(190.0, -18.0)).norm() < 1e-9);
-    }
-
-    #[test]
     fn over_on_arrival_or_without_a_point() {
         let mut b = UpAcross::new(&Params::default()).expect("legal");
-        let mut rng = Stream::new(1, "t", "t");
-        let o = seen(0.0, Vector2::zeros(), 0.0, None);
-        let mut m = memory(Side::Left, &[(0.0, 0.0)]);
-        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
-        assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
-        assert_eq!(b.step(&o, true, &mut m, &mut rng), Stride::Over);
+        let o = seen(0.0, v(0.0, 0.0), 0.0, None);
+        let mut m = memory(Some(90.0), &[(0.0, 0.0)]);
+        assert!(matches!(step(&mut b, &o, false, &mut m), Stride::Start(_)));
+        assert_eq!(step(&mut b, &o, false, &mut m), Stride::Keep);
+        assert_eq!(step(&mut b, &o, true, &mut m), Stride::Over);
         b.enter(&o, &m);
-        assert_eq!(b.step(&o, false, &mut memory(Side::Left, &[]), &mut rng), Stride::Over);
+        assert_eq!(step(&mut b, &o, false, &mut memory(Some(90.0), &[])), Stride::Over);
     }
 }

@@ -1,31 +1,19 @@
 //! The rules in made-up missions: headway up-flow, then points scattered around the source.
 
-use super::{AdaptiveSize, SizF, SizT, ZoneSize};
+use super::testing::{n, siz_f, siz_t};
+use super::{AdaptiveSize, SizF, ZoneSize};
 use crate::handoff::Lcdp;
 use crate::memory::{FixMove, NavigationFix, PlumeMemory};
 use nalgebra::Vector2;
-use std::num::NonZeroUsize;
 use world::math;
-use world::ranges::Positive;
 use world::seeds::Stream;
 use world::units::Heading;
 
 fn up() -> Heading {
     Heading::from_deg(270.0)
 }
+
 const SOURCE: Vector2<f64> = Vector2::new(20.0, 0.0);
-
-fn n(points: usize) -> NonZeroUsize {
-    NonZeroUsize::new(points).expect("some points")
-}
-
-fn siz_t(eps_m: f64, points: usize) -> SizT {
-    SizT { size: ZoneSize::Fixed(Positive::new(eps_m)), points: n(points), ..SizT::default() }
-}
-
-fn siz_f(eps_m: f64, points: usize) -> SizF {
-    SizF { size: ZoneSize::Fixed(Positive::new(eps_m)), points: n(points), ..SizF::default() }
-}
 
 /// `way` points 10 m apart down-flow of the source, then `near` points around it, scattered by `scatter_m` in each
 /// axis.

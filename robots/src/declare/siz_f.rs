@@ -106,17 +106,9 @@ impl SizF {
 mod tests {
     use super::*;
     use crate::declare::AdaptiveSize;
-    use crate::declare::testing::list;
+    use crate::declare::testing::{list, n, siz_f as rule, v};
     use crate::handoff::testing::fixed;
     use proptest::prelude::*;
-
-    fn rule(eps_m: f64, points: usize) -> SizF {
-        SizF {
-            size: ZoneSize::Fixed(Positive::new(eps_m)),
-            points: NonZeroUsize::new(points).expect("some points"),
-            initial: NonZeroUsize::MIN,
-        }
-    }
 
     fn found(rule: &SizF, up_deg: f64, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
         rule.declare(&list(places), Heading::from_deg(up_deg), 0.0).map(|(place, _)| place)
@@ -127,29 +119,29 @@ mod tests {
         // Three near (0, 100), two left behind on the way up-flow.
         let places = [(0.0, 20.0), (0.0, 60.0), (1.0, 99.0), (-1.0, 100.0), (0.0, 101.0)];
         // Mean 76: 20 is 56 m off and goes; mean 90: 60 goes; then mean 100, farthest sqrt(2) m at most.
-        assert_eq!(found(&rule(1.5, 3), 0.0, &places), Some(Vector2::new(0.0, 101.0)));
+        assert_eq!(found(&rule(1.5, 3), 0.0, &places), Some(v(0.0, 101.0)));
         // Fewer than four points are left within 1.5 m.
         assert_eq!(found(&rule(1.5, 4), 0.0, &places), None);
         // 60, 99, 100, 101 within 30 m of their mean, 90: found with four.
-        assert_eq!(found(&rule(30.0, 4), 0.0, &places), Some(Vector2::new(0.0, 101.0)));
+        assert_eq!(found(&rule(30.0, 4), 0.0, &places), Some(v(0.0, 101.0)));
         // A distance equal to the size is enough.
-        assert_eq!(found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]), Some(Vector2::new(0.0, 4.0)));
+        assert_eq!(found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]), Some(v(0.0, 4.0)));
     }
 
     #[test]
     fn flow_turned_about_declares_the_other_end() {
         let places = [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)];
         for (up_deg, north) in [(0.0, 1.0), (180.0, -1.0)] {
-            assert_eq!(found(&rule(6.0, 3), up_deg, &places), Some(Vector2::new(0.0, north)));
+            assert_eq!(found(&rule(6.0, 3), up_deg, &places), Some(v(0.0, north)));
         }
         // Each point carries the flow of its time; only the present one counts.
         let mut points = list(&places);
         for (k, p) in points.iter_mut().enumerate() {
             let turned = if k % 2 == 0 { 1.0 } else { -1.0 };
-            p.flow = Some(Vector2::new(0.0, turned));
+            p.flow = Some(v(0.0, turned));
         }
         let (place, evidence) = rule(6.0, 3).declare(&points, Heading::from_deg(0.0), 0.0).expect("near");
-        assert_eq!(place, Vector2::new(0.0, 1.0));
+        assert_eq!(place, v(0.0, 1.0));
         assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
     }
 
@@ -157,24 +149,19 @@ mod tests {
     fn degenerate_clusters() {
         assert_eq!(found(&rule(6.0, 1), 0.0, &[]), None);
         assert_eq!(found(&rule(6.0, 3), 0.0, &[(1.0, 1.0); 2]), None);
-        let one = Some(Vector2::new(1.0, 1.0));
-        assert_eq!(found(&rule(1e-9, 3), 77.0, &[(1.0, 1.0); 3]), one);
+        assert_eq!(found(&rule(1e-9, 3), 77.0, &[(1.0, 1.0); 3]), Some(v(1.0, 1.0)));
+        let late = SizF { initial: n(5), ..rule(6.0, 3) };
+        assert_eq!(found(&late, 0.0, &[(1.0, 1.0); 4]), None);
+        assert!(found(&late, 0.0, &[(1.0, 1.0); 5]).is_some());
         // In a line across the flow all points are equally far up-flow: always the rightmost is declared.
         let line = [(0.0, 5.0), (4.0, 5.0), (2.0, 5.0)];
-        assert_eq!(found(&rule(6.0, 3), 0.0, &line), Some(Vector2::new(0.0, 5.0)));
+        assert_eq!(found(&rule(6.0, 3), 0.0, &line), Some(v(0.0, 5.0)));
         // Two pairs equally far: the down-flow pair is removed first, in any order in time.
         for places in
             [[(0.0, 0.0), (0.0, 0.0), (0.0, 80.0), (0.0, 80.0)], [(0.0, 80.0), (0.0, 0.0), (0.0, 80.0), (0.0, 0.0)]]
         {
-            assert_eq!(found(&rule(6.0, 2), 0.0, &places), Some(Vector2::new(0.0, 80.0)));
+            assert_eq!(found(&rule(6.0, 2), 0.0, &places), Some(v(0.0, 80.0)));
         }
-    }
-
-    #[test]
-    fn waits_for_n_ini() {
-        let late = SizF { initial: NonZeroUsize::new(5).expect("5 > 0"), ..rule(6.0, 3) };
-        assert_eq!(found(&late, 0.0, &[(1.0, 1.0); 4]), None);
-        assert!(found(&late, 0.0, &[(1.0, 1.0); 5]).is_some());
     }
 
     #[test]
@@ -189,7 +176,7 @@ mod tests {
         let wide: Vec<_> = (0..6).map(|k| (16.0 * f64::from(k % 2), f64::from(k))).collect();
         assert!(rule(6.0, 6).declare(&list(&wide), up, 0.0).is_none());
         let (place, _) = adaptive.declare(&list(&wide), up, 0.0).expect("no headway");
-        assert_eq!(place, Vector2::new(16.0, 5.0));
+        assert_eq!(place, v(16.0, 5.0));
     }
 
     proptest! {
@@ -212,21 +199,9 @@ mod tests {
             }
             prop_assert_eq!(answer, found(&r, deg, &mixed));
             if let Some(a) = answer {
-                let near = places.iter().filter(|(e, n)| (Vector2::new(*e, *n) - a).norm() <= 12.0);
+                let near = places.iter().filter(|(e, n)| (v(*e, *n) - a).norm() <= 12.0);
                 prop_assert!(near.count() >= 6);
             }
-        }
-
-        // Six points within 6 m of each other, with no others near, are always found.
-        #[test]
-        fn a_lone_cluster_is_found(
-            cluster in proptest::collection::vec((-2.0..2.0f64, -2.0..2.0f64), 6..9),
-            far in proptest::collection::vec((100.0..200.0f64, 100.0..200.0f64), 0..2),
-        ) {
-            let all: Vec<_> = cluster.iter().chain(&far).copied().collect();
-            let a = found(&rule(6.0, 6), 0.0, &all).expect("a cluster of six");
-            let most = cluster.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
-            prop_assert_eq!(a.y, most);
         }
     }
 }

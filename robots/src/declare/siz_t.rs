@@ -115,19 +115,11 @@ impl SizT {
 mod tests {
     use super::*;
     use crate::declare::AdaptiveSize;
-    use crate::declare::testing::list;
+    use crate::declare::testing::{list, n, siz_t as rule, v};
     use crate::handoff::testing::fixed;
     use proptest::prelude::*;
 
     const NORTH: f64 = 0.0;
-
-    fn rule(eps_m: f64, points: usize) -> SizT {
-        SizT {
-            size: ZoneSize::Fixed(Positive::new(eps_m)),
-            points: NonZeroUsize::new(points).expect("some points"),
-            ..SizT::default()
-        }
-    }
 
     fn found(rule: &SizT, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
         rule.declare(&list(places), Heading::from_deg(NORTH), 0.0).map(|(place, _)| place)
@@ -137,24 +129,31 @@ mod tests {
     fn by_hand() {
         // A box of 3 by 4 m: its diagonal is 5 m; the mean of the three newest is (11, 21).
         let places = [(90.0, 90.0), (10.0, 20.0), (13.0, 19.0), (10.0, 24.0)];
-        assert_eq!(found(&rule(5.9, 3), &places), Some(Vector2::new(11.0, 21.0)));
+        let (place, evidence) = rule(5.9, 3).declare(&list(&places), Heading::from_deg(NORTH), 0.0).expect("near");
+        assert_eq!(place, v(11.0, 21.0));
+        // It rests on the newest; the farthest is (10, 24).
+        let (points, since_s, reach_m) = (3, 1.0, 10f64.sqrt());
+        assert_eq!(evidence, Evidence { points, since_s, middle_m: [11.0, 21.0], reach_m });
         // 3 by 5 m: sqrt(34) = 5.83.
         assert_eq!(found(&rule(5.8, 3), &places), None);
         // The fourth is 80 m away.
         assert_eq!(found(&rule(5.9, 4), &places), None);
         // A diagonal exactly as long as the size is enough: 3, 4, 5.
         let just = [(0.0, 0.0), (3.0, 4.0)];
-        assert_eq!(found(&rule(5.0, 2), &just), Some(Vector2::new(1.5, 2.0)));
+        assert_eq!(found(&rule(5.0, 2), &just), Some(v(1.5, 2.0)));
     }
 
     #[test]
     fn degenerate_clusters() {
         assert_eq!(found(&rule(4.0, 3), &[]), None);
+        let late = SizT { initial: n(5), ..rule(4.0, 3) };
+        assert_eq!(found(&late, &[(1.0, 1.0); 4]), None);
+        assert!(found(&late, &[(1.0, 1.0); 5]).is_some());
         assert_eq!(found(&rule(4.0, 3), &[(1.0, 1.0), (1.0, 1.0)]), None);
         // All in one place; all on a line.
-        assert_eq!(found(&rule(1e-9, 3), &[(1.0, 1.0); 3]), Some(Vector2::new(1.0, 1.0)));
+        assert_eq!(found(&rule(1e-9, 3), &[(1.0, 1.0); 3]), Some(v(1.0, 1.0)));
         let line = [(0.0, 0.0), (2.0, 0.0), (4.0, 0.0)];
-        assert_eq!(found(&rule(4.0, 3), &line), Some(Vector2::new(2.0, 0.0)));
+        assert_eq!(found(&rule(4.0, 3), &line), Some(v(2.0, 0.0)));
         assert_eq!(found(&rule(3.9, 3), &line), None);
     }
 
@@ -165,31 +164,13 @@ mod tests {
         let places = [(0.0, 100.0), (0.0, 60.0), (2.0, 101.0), (1.0, 99.0), (5.0, 70.0)];
         assert_eq!(found(&rule(2.9, 3), &places), None);
         // A box of 2 by 2 m: its diagonal is 2.83 m; the mean of the three is (1, 100).
-        assert_eq!(found(&up, &places), Some(Vector2::new(1.0, 100.0)));
+        assert_eq!(found(&up, &places), Some(v(1.0, 100.0)));
         assert_eq!(found(&up, &places[..3]), None);
         let (_, evidence) = (up.declare(&list(&places), Heading::from_deg(NORTH), 0.0)).expect("near");
         assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
         // With the flow turned about, the most up-flow ones are those at 60, 70 and 99 m.
         let south = Heading::from_deg(180.0);
         assert!(up.declare(&list(&places), south, 0.0).is_none());
-    }
-
-    #[test]
-    fn rests_on_the_newest() {
-        let places = [(90.0, 90.0), (10.0, 20.0), (13.0, 19.0), (10.0, 24.0)];
-        let up = Heading::from_deg(NORTH);
-        let (_, evidence) = rule(5.9, 3).declare(&list(&places), up, 0.0).expect("near");
-        assert_eq!((evidence.points, evidence.since_s), (3, 1.0));
-        // From (11, 21) to (10, 24).
-        assert_eq!(evidence.middle_m, [11.0, 21.0]);
-        assert_eq!(evidence.reach_m, 10f64.sqrt());
-    }
-
-    #[test]
-    fn waits_for_n_ini() {
-        let late = SizT { initial: NonZeroUsize::new(5).expect("5 > 0"), ..rule(4.0, 3) };
-        assert_eq!(found(&late, &[(1.0, 1.0); 4]), None);
-        assert!(found(&late, &[(1.0, 1.0); 5]).is_some());
     }
 
     #[test]
@@ -233,7 +214,7 @@ mod tests {
                 let moved: Vec<_> = places.iter().map(|(e, n)| (e + shift, *n)).collect();
                 // Rounding may push a diagonal over the limit, so a little more is allowed.
                 let c = found(&rule(eps + 1e-9, 6), &moved).expect("the same box elsewhere");
-                prop_assert!((c - a - Vector2::new(shift, 0.0)).norm() < 1e-9);
+                prop_assert!((c - a - v(shift, 0.0)).norm() < 1e-9);
             }
         }
     }

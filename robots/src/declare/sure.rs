@@ -90,21 +90,12 @@ impl BeliefRule for Sure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::testing::belief;
-    use std::sync::Arc;
+    use crate::declare::testing::likely;
 
     #[test]
     fn sure_for_long_enough() {
         let mut rule = Sure::new(&Params::default());
-        let of = |updates: u64, informed: bool, p: f64| {
-            let mut b = belief(4, informed, 10.0);
-            let rest = (1.0 - p) / (b.p.len() - 1) as f64;
-            let all = (0..b.p.len()).map(|i| if i == 4 { p } else { rest });
-            b.p = Arc::new(all.collect());
-            Belief { updates, ..b }
-        };
-        let side = of(1, true, 1.0).grid.cell_m;
-        assert!(side[0] * side[1] > 0.0);
+        let of = |updates: u64, informed: bool, p: f64| Belief { updates, informed, ..likely(4, p) };
         let near = of(1, true, 1.0).within(of(1, true, 1.0).grid.centre(4).xy(), 5.0);
         let enough = 0.91 / near;
         assert!(enough <= 1.0, "the cell is too large for this test: {near}");

@@ -124,14 +124,12 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector2;
+    use crate::declare::testing::{list, n};
 
+    /// Points far apart along the flow: that does not count.
     fn across(easts: &[f64]) -> Vec<Lcdp> {
-        let point = |(k, east): (usize, &f64)| {
-            // Far apart along the flow: that does not count.
-            Lcdp::new_at(k as f64, Vector2::new(*east, 40.0 * k as f64))
-        };
-        easts.iter().enumerate().map(point).collect()
+        let places: Vec<_> = easts.iter().enumerate().map(|(k, east)| (*east, 40.0 * k as f64)).collect();
+        list(&places)
     }
 
     #[test]
@@ -152,7 +150,7 @@ mod tests {
 
     #[test]
     fn looks_at_the_newest_points_only() {
-        let a = AdaptiveSize { look_back: NonZeroUsize::new(3).expect("3 > 0"), ..AdaptiveSize::default() };
+        let a = AdaptiveSize { look_back: n(3), ..AdaptiveSize::default() };
         let north = Heading::from_deg(0.0);
         let old = a.radius_m(&across(&[-30.0, 60.0, 0.0, 1.0, 2.0]), north, 0.0);
         let new = a.radius_m(&across(&[0.0, 1.0, 2.0]), north, 0.0);

@@ -1,33 +1,20 @@
 //! What the rules show of themselves agrees with what they decide.
 
-use super::{AlongFlow, DeclareParams, SizF, SizOrder, SizT, ZoneSize};
-use crate::handoff::{Lcdp, Zone};
+use super::testing::{list, n, siz_f, siz_t};
+use super::{AlongFlow, DeclareParams, SizOrder, SizT};
+use crate::handoff::Zone;
 use crate::memory::PlumeMemory;
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use std::num::NonZeroUsize;
-use world::ranges::Positive;
 use world::units::Heading;
 
-const POINTS: NonZeroUsize = NonZeroUsize::new(4).expect("4 is not zero");
+const POINTS: usize = 4;
 const SIZE_M: f64 = 6.0;
 
 fn memory(places: &[(f64, f64)]) -> PlumeMemory {
-    let most = NonZeroUsize::new(20).expect("20 is not zero");
-    let mut memory = PlumeMemory::new(most, most);
-    for (k, (east, north)) in places.iter().enumerate() {
-        let point = Lcdp::new_at(k as f64, Vector2::new(*east, *north));
-        memory.lose(point, Heading::from_deg(0.0));
-    }
+    let mut memory = PlumeMemory::new(n(20), n(20));
+    list(places).into_iter().for_each(|point| memory.lose(point, Heading::from_deg(0.0)));
     memory
-}
-
-fn siz_t(order: SizOrder) -> SizT {
-    SizT { size: ZoneSize::Fixed(Positive::new(SIZE_M)), points: POINTS, order, ..SizT::default() }
-}
-
-fn siz_f() -> SizF {
-    SizF { size: ZoneSize::Fixed(Positive::new(SIZE_M)), points: POINTS, ..SizF::default() }
 }
 
 /// Whether the zone is as small as `SizT` asks for; `None` without a zone.
@@ -46,8 +33,8 @@ fn in_circle(zone: &Zone) -> Option<bool> {
 #[test]
 fn with_too_few_points_there_is_no_zone() {
     let (few, north) = (memory(&[(0.0, 0.0); 3]), Heading::from_deg(0.0));
-    assert_eq!(siz_t(SizOrder::Time).zone(&few, north), Zone::default());
-    assert_eq!(siz_f().zone(&few, north), Zone::default());
+    assert_eq!(siz_t(SIZE_M, POINTS).zone(&few, north), Zone::default());
+    assert_eq!(siz_f(SIZE_M, POINTS).zone(&few, north), Zone::default());
     assert_eq!(AlongFlow::default().zone(&memory(&[]), north), Zone::default());
 }
 
@@ -76,11 +63,11 @@ proptest! {
     ) {
         let (memory, up) = (memory(&places), Heading::from_deg(up_deg));
         for order in [SizOrder::Time, SizOrder::UpFlow] {
-            let rule = siz_t(order);
+            let rule = SizT { order, ..siz_t(SIZE_M, POINTS) };
             let declares = rule.identify(&memory, up).is_some();
             prop_assert_eq!(small_box(&rule.zone(&memory, up)).unwrap_or(false), declares);
         }
-        let declares = siz_f().identify(&memory, up).is_some();
-        prop_assert_eq!(in_circle(&siz_f().zone(&memory, up)).unwrap_or(false), declares);
+        let declares = siz_f(SIZE_M, POINTS).identify(&memory, up).is_some();
+        prop_assert_eq!(in_circle(&siz_f(SIZE_M, POINTS).zone(&memory, up)).unwrap_or(false), declares);
     }
 }

@@ -232,21 +232,6 @@ mod tests {
     }
 
     #[test]
-    fn a_heading_bias_makes_the_position_drift() {
-        let bias = 1_f64.to_radians();
-        let end = *run(&DeadReckoningSpec::default(), 5001, 0.02, |_| Readings {
-            attitude: Some(attitude(Heading::from_rad(bias), 0.0, 0.0)),
-            dvl: Some(dvl(Vector3::new(2.0, 0.0, 0.0))),
-            ..Default::default()
-        })
-        .last()
-        .unwrap();
-        // 200 m northward, seen 1° to the east of it.
-        let moved = end.position - start().position;
-        assert!((moved - Vector2::new(3.4905, 199.9695)).norm() < 1e-3, "{moved:?}");
-    }
-
-    #[test]
     fn velocity_is_held_without_bottom_lock_but_no_flow_is_measured() {
         let lost = DvlReading { v_body_m_s: Vector3::zeros(), valid: false };
         let believed = run(&DeadReckoningSpec::default(), 101, 0.1, |c| Readings {

@@ -132,12 +132,9 @@ mod tests {
         assert_eq!(rpm[..5], [0.0, 100.0, 0.0, 0.0, 0.0]);
         assert_eq!(rpm[5..], [0.0; 5]);
         assert!(set[5..].iter().all(|s| s.stern_rad == -0.04));
-    }
-
-    #[test]
-    fn a_drive_that_sticks_at_once_sticks_where_it_is_first_set() {
-        let set = flown(&[fault(0.0, None, Faulty::Propeller(PropellerFault::Stuck))]);
-        assert!(set.iter().all(|s| s.rpm == 0.0));
+        // One that sticks at once does so where it is first set.
+        let at_once = flown(&[fault(0.0, None, Faulty::Propeller(PropellerFault::Stuck))]);
+        assert!(at_once.iter().all(|s| s.rpm == 0.0));
     }
 
     #[test]

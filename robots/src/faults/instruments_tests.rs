@@ -5,18 +5,13 @@ use super::super::{
     DensityFault, DyeFault, EyeFault, Faulty, FixFault, HeadingFault, LieSpec, MetresFault, SensorFaults, SpeedFault,
 };
 use crate::handoff::Readings;
-use crate::sense::testing::Dark;
-use crate::sense::{
-    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, OnBoard, RangingSpec,
-    SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
-};
+use crate::sense::testing::{all, around, suite};
+use crate::sense::{LblSpec, OnBoard, SensorsSpec, Surroundings};
 use nalgebra::{Vector2, Vector3};
 use world::clock::Clock;
-use world::fields::{Concentration, Still};
+use world::fields::Concentration;
 use world::frames::{Pose, Truth};
-use world::obstacles::Obstacles;
-use world::ranges::{Finite, NonNegative, Positive};
-use world::terrain::Terrain;
+use world::ranges::{Finite, Fraction, NonNegative, Positive};
 use world::units::{Heading, KG_M3_PER_UG_L};
 
 /// Step, s; steps of a run; when faults begin and end, s.
@@ -34,98 +29,68 @@ impl Concentration for Faint {
 }
 
 fn sensors() -> SensorsSpec {
-    let hear_all =
-        LblSpec { period_s: Positive::new(5.0), dropout: world::ranges::Fraction::new(0.0), ..LblSpec::default() };
-    SensorsSpec::default()
-        .with(FluorometerSpec::default())
-        .with(DvlSpec::default())
-        .with(AdcpSpec::default())
-        .with(CompassSpec::default())
-        .with(DepthSpec::default())
-        .with(CtdSpec::default())
-        .with(AltimeterSpec::default())
-        .with(hear_all)
-        .with(RangingSpec::default())
-        .with(SidescanSpec { rate_hz: Positive::new(1.0), always: true, ..SidescanSpec::default() })
+    all().with(LblSpec { period_s: Positive::new(5.0), dropout: Fraction::new(0.0), ..LblSpec::default() })
 }
 
 /// The readings of two minutes, `depth_m` deep over a bed at 8 m.
 fn read(what: Option<Faulty>, depth_m: f64) -> Vec<Readings> {
-    let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)));
-    let on = OnBoard::new("auv0", 3, DT_S);
-    let mut suite = SensorSuite::new(&sensors(), &mounts, on).unwrap();
+    let mut suite = suite(&sensors(), OnBoard::new("auv0", 3, DT_S));
     let faults: Vec<_> = (what.into_iter()).map(|what| fault(AT_S, Some(UNTIL_S), what)).collect();
     let mut faults = SensorFaults::new(&faults, &sensors(), DT_S);
     let north = Heading::from_deg(0.0);
     let mut clock = Clock::new(DT_S);
-    let mut all = Vec::new();
+    let mut read = Vec::new();
     for _ in 0..STEPS {
-        let p = Vector3::new(0.0, 0.1 * clock.t_s(), -depth_m);
-        let mut readings = suite.read(&Surroundings {
-            clock: &clock,
-            truth: &Truth::at_rest(Pose::level(p, north)),
-            flow: &Still,
-            dye: &Faint,
-            terrain: &Terrain::Level { depth_m: 8.0 },
-            obstacles: &Obstacles::default(),
-            imaging: &Dark,
-            asked: SensorRequests::default(),
-        });
+        let truth = Truth::at_rest(Pose::level(Vector3::new(0.0, 0.1 * clock.t_s(), -depth_m), north));
+        let mut readings = suite.read(&Surroundings { dye: &Faint, ..around(&clock, &truth) });
         faults.alter(&clock, &mut readings);
-        all.push(readings);
+        read.push(readings);
         clock.advance();
     }
-    all
+    read
 }
 
 /// One number of a reading, if there is one.
 type Number = fn(&Readings) -> Option<f64>;
 
-/// Every instrument with a fault of each kind, the number that it reads, and the error of its bias and its drift.
-fn cases() -> Vec<(Number, [Faulty; 4], [f64; 2])> {
-    let (by, per_s) = (Finite::new(0.5), Finite::new(0.01));
+/// Error of a bias and, per second, of a drift.
+const BIAS: f64 = 0.5;
+const DRIFT: f64 = 0.01;
+
+/// Every instrument with a fault of each kind, and the number that it reads.
+fn cases() -> Vec<(Number, [Faulty; 4])> {
+    let (by, per_s) = (Finite::new(BIAS), Finite::new(DRIFT));
     let metres = |wrap: fn(MetresFault) -> Faulty| {
         [MetresFault::Silent, MetresFault::Stuck, MetresFault::Biased(by), MetresFault::Drifting(per_s)].map(wrap)
     };
     let speed = |wrap: fn(SpeedFault) -> Faulty| {
         [SpeedFault::Silent, SpeedFault::Stuck, SpeedFault::Biased(by), SpeedFault::Drifting(per_s)].map(wrap)
     };
-    let plain = [0.5, 0.01];
     vec![
         (
             |r| r.chemical.map(|r| 10.0 * r.of_full_scale),
             [DyeFault::Silent, DyeFault::Stuck, DyeFault::Biased(by), DyeFault::Drifting(per_s)]
                 .map(Faulty::Fluorometer),
-            plain,
         ),
         (
             // From south, so that it does not jump at north.
             |r| r.attitude.map(|r| r.heading.opposite().deg()),
             [HeadingFault::Silent, HeadingFault::Stuck, HeadingFault::Biased(by), HeadingFault::Drifting(per_s)]
                 .map(Faulty::Compass),
-            plain,
         ),
-        (|r| r.depth.map(|r| r.depth_m), metres(Faulty::Depth), plain),
-        (|r| r.altimeter.map(|r| r.altitude_m), metres(Faulty::Altimeter), plain),
-        (|r| r.dvl.map(|r| r.v_body_m_s.x), speed(Faulty::Dvl), plain),
-        (|r| r.adcp.map(|r| r.v_body_m_s.x), speed(Faulty::Adcp), plain),
+        (|r| r.depth.map(|r| r.depth_m), metres(Faulty::Depth)),
+        (|r| r.altimeter.map(|r| r.altitude_m), metres(Faulty::Altimeter)),
+        (|r| r.dvl.map(|r| r.v_body_m_s.x), speed(Faulty::Dvl)),
+        (|r| r.adcp.map(|r| r.v_body_m_s.x), speed(Faulty::Adcp)),
         (
             |r| r.ctd.map(|r| r.density_kg_m3),
             [DensityFault::Silent, DensityFault::Stuck, DensityFault::Biased(by), DensityFault::Drifting(per_s)]
                 .map(Faulty::Ctd),
-            plain,
         ),
         (
             |r| r.lbl.map(|r| r.position.x),
-            [
-                FixFault::Silent,
-                FixFault::Stuck,
-                lie(0.5, 0.0),
-                // It grows to 0.4 m within the 40 s of the fault.
-                lie(0.4, 40.0),
-            ]
-            .map(Faulty::Fixes),
-            plain,
+            // The last grows to 0.4 m within the 40 s of the fault.
+            [FixFault::Silent, FixFault::Stuck, lie(BIAS, 0.0), lie(40.0 * DRIFT, 40.0)].map(Faulty::Fixes),
         ),
     ]
 }
@@ -155,7 +120,7 @@ fn only_this_in_its_time(healthy: &[Readings], faulty: &[Readings], number: Numb
 fn every_instrument_with_every_fault() {
     let healthy = read(None, 5.0);
     let (from, until) = ((AT_S / DT_S) as usize, (UNTIL_S / DT_S) as usize);
-    for (number, [silent, stuck, biased, drifting], [bias, drift]) in cases() {
+    for (number, [silent, stuck, biased, drifting]) in cases() {
         let said = format!("{biased:?}");
         let within = |what: &Faulty| -> Vec<(f64, Option<f64>, Option<f64>)> {
             let faulty = read(Some(what.clone()), 5.0);
@@ -168,7 +133,7 @@ fn every_instrument_with_every_fault() {
         assert!(within(&silent).iter().all(|(.., ill)| ill.is_none()), "{said}");
         let last = healthy[..from].iter().rev().find_map(number);
         assert!(within(&stuck).iter().all(|(.., ill)| *ill == last), "{said}");
-        for (what, error) in [(biased, (bias, 0.0)), (drifting, (0.0, drift))] {
+        for (what, error) in [(biased, (BIAS, 0.0)), (drifting, (0.0, DRIFT))] {
             for (t_s, well, ill) in within(&what) {
                 let want = well.expect("there") + error.0 + error.1 * (t_s - AT_S);
                 let got = ill.expect("as often as before");

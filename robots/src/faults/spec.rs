@@ -133,42 +133,9 @@ impl FaultSpec {
 
 #[cfg(test)]
 mod tests {
+    use super::super::HeadingFault;
     use super::super::testing::fault;
-    use super::super::{DriveFault, DriveSpec, HeadingFault, LieSpec, PropellerFault};
     use super::*;
-    use world::ranges::{Finite, Fraction};
-
-    #[test]
-    fn a_fault_is_said_in_words() {
-        let five = Finite::new(5.0);
-        for (what, words) in [
-            (Faulty::Fluorometer(DyeFault::Silent), "fluorometer silent".to_string()),
-            (Faulty::Compass(HeadingFault::Biased(five)), "compass off by 5 degrees".to_string()),
-            (
-                Faulty::Dvl(SpeedFault::Drifting(Finite::new(-0.01))),
-                "Doppler log drifting by -0.01 m/s in each second".to_string(),
-            ),
-            (
-                Faulty::Fixes(FixFault::Lie(LieSpec {
-                    east_m: Finite::new(20.0),
-                    north_m: Finite::new(-10.0),
-                    over_s: NonNegative::new(60.0),
-                })),
-                "position fixes displaced by 20 m E, -10 m N within 60 s".to_string(),
-            ),
-            (Faulty::SternPlane(FinFault::StuckAt(five)), "stern plane stuck at 5 degrees".to_string()),
-            (
-                Faulty::Propeller(PropellerFault::Weak(Fraction::new(0.5))),
-                "propeller weak, with 0.5 of each set-point".to_string(),
-            ),
-            (
-                Faulty::Drive(DriveSpec { link: "rudder".into(), how: DriveFault::StuckAt(five) }),
-                "rudder stuck at 5".to_string(),
-            ),
-        ] {
-            assert_eq!(what.describe(), words);
-        }
-    }
 
     #[test]
     fn faults_one_after_the_other_do_not_overlap() {

@@ -1,9 +1,13 @@
 //! Observations written by hand, for tests.
 
-use super::{Attitude, Capabilities, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation, Setpoint};
+use super::{
+    Attitude, Belief, BeliefGrid, Capabilities, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation,
+    Setpoint,
+};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
+use std::sync::Arc;
 use world::area::Area;
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
 use world::ranges::{Finite, HeadingDeg, Positive};
@@ -59,6 +63,23 @@ pub(crate) fn smelling(mut o: Observation, detected: bool) -> Observation {
         detected,
     });
     o
+}
+
+/// A map with so much of the probability in one cell, and the rest in all others alike.
+pub(crate) fn sure_of(grid: BeliefGrid, best: usize, most: f64) -> Belief {
+    let mut p = vec![(1.0 - most) / (grid.len() - 1) as f64; grid.len()];
+    p[best] = most;
+    Belief {
+        t_s: 0.0,
+        updates: 1,
+        informed: true,
+        grid: Arc::new(grid),
+        p: Arc::new(p),
+        best,
+        entropy_nat: 1.5,
+        credible_95: 100.0,
+        odour: None,
+    }
 }
 
 /// Settings for property tests: the same cases in every run, and no files beside the sources.

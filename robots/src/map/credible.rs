@@ -35,15 +35,10 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn by_hand() {
-        let mut work = Vec::new();
-        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.5, &mut work), 1);
-        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.89, &mut work), 2);
-        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.95, &mut work), 3);
-        assert_eq!(cells(&[1.0], 0.95, &mut work), 1);
+    fn equal_cells_are_counted_as_all_others() {
         // 1000 equal cells: 950, plus or minus the one that rounding may add or remove.
         let even = vec![0.001; 1000];
-        assert!(cells(&even, 0.95, &mut work).abs_diff(950) <= 1);
+        assert!(cells(&even, 0.95, &mut Vec::new()).abs_diff(950) <= 1);
     }
 
     proptest! {

@@ -1,8 +1,15 @@
-//! Shared by the mappers' tests: the paper's area, eq. 1 and 2 written out, and a small plume.
+//! Shared by the mappers' tests: the paper's area, all mappers, eq. 1 and 2 written out, and a small plume.
 
+use super::bayesian::BayesianSpec;
+use super::catalogue::MapSpec;
+use super::hmm::HmmSpec;
 use super::kernel::flow_history::FlowHistory;
+use super::mapper::Mapper;
+use super::particle_filter::ParticleFilterSpec;
+use super::pomdp::PomdpSpec;
 use super::spec::TrajectorySpec;
 use super::watch::MapObservation;
+use super::workings::CellsSpec;
 use crate::handoff::BeliefGrid;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -18,6 +25,23 @@ pub(crate) fn paper_area() -> Area {
 /// The paper's grid with cells as given.
 pub(crate) fn grid(n: [usize; 3]) -> BeliefGrid {
     BeliefGrid::over(&paper_area(), 0.0, 10.0, n)
+}
+
+/// All mappers with these parameters, the particle filter with so many particles.
+pub(crate) fn every(spec: &CellsSpec, particles: u32) -> [MapSpec; 4] {
+    let (grid, trajectory, doubt) = (spec.grid.clone(), spec.trajectory.clone(), spec.doubt.clone());
+    let hmm =
+        HmmSpec { grid: grid.clone(), trajectory: trajectory.clone(), doubt: doubt.clone(), ..HmmSpec::default() };
+    [
+        MapSpec::new(PomdpSpec(spec.clone())),
+        MapSpec::new(BayesianSpec(spec.clone())),
+        MapSpec::new(hmm),
+        MapSpec::new(ParticleFilterSpec { grid, trajectory, doubt, particles, ..ParticleFilterSpec::default() }),
+    ]
+}
+
+pub(crate) fn build(spec: &MapSpec) -> Box<dyn Mapper> {
+    spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("legal")
 }
 
 /// A history of a flow given as a function of time, in steps of 0.5 s.
@@ -64,6 +88,11 @@ impl ToyPlume {
             new.drift(f64::from(n) - 120.0);
         }
         new
+    }
+
+    /// The plume from (20, 40) in a slow flow.
+    pub(crate) fn slow() -> Self {
+        Self::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4)
     }
 
     /// One second: one puff more; all puffs move with the flow and spread by 0.5 m/√s.

@@ -21,16 +21,3 @@ impl Evidence {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn evidence_holds_the_mean_the_farthest_and_the_oldest_point() {
-        let at = |t_s: f64, east: f64| Lcdp::new_at(t_s, Vector2::new(east, 3.0));
-        let evidence = Evidence::from_points(&[at(9.0, 0.0), at(4.0, 2.0), at(7.0, 7.0)]);
-        let expected = Evidence { points: 3, since_s: 4.0, middle_m: [3.0, 3.0], reach_m: 4.0 };
-        assert_eq!(evidence, expected);
-    }
-}

@@ -145,11 +145,4 @@ mod tests {
         assert!(e.leaves_solid && e.at_goal);
         assert_eq!(r.lattice().centre(e.start).xy(), nalgebra::Vector2::new(10.5, 13.5));
     }
-
-    #[test]
-    fn a_full_room_is_said_to_be_full() {
-        let r = room([8, 8, 1], [1.0; 3], vec![block("b", 4.0, 4.0, [20.0, 20.0, 8.0])]);
-        let said = Ends::default().resolve(&r, |c| r.free(c), &at(1.0, 1.0), &at(7.0, 7.0));
-        assert_eq!(said, Err(NoPath::Full));
-    }
 }

@@ -116,8 +116,8 @@ impl Follow {
 mod tests {
     use super::*;
     use crate::handoff::testing::fixed;
-    use crate::plan::testing::room;
-    use crate::plan::{AStar, AStarParams, PathStart, Planner};
+    use crate::plan::testing::{from, room};
+    use crate::plan::{AStar, AStarParams, Planner};
     use proptest::prelude::*;
 
     proptest! {
@@ -129,7 +129,7 @@ mod tests {
             x in 30.0..170.0, y in 30.0..170.0, gx in 30.0..170.0, gy in 30.0..170.0, deg in 0.0..360.0,
         ) {
             let r = room([200, 200, 1], [1.0; 3], vec![]);
-            let start = PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 };
+            let start = from(x, y, deg);
             let goal = Vector3::new(gx, gy, -4.0);
             let path = AStar::new(&AStarParams::default()).unwrap().plan(&r, &start, &goal).unwrap();
             prop_assume!(path.tightest_m > 0.0);

@@ -239,12 +239,7 @@ fn thinned(way: &[Vector3<f64>], step_m: f64) -> Vec<Vector3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::testing::{block, room};
-    use world::units::Heading;
-
-    fn from(x: f64, y: f64) -> PathStart {
-        PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(270.0), turning_radius_m: 0.0 }
-    }
+    use crate::plan::testing::{block, from, room};
 
     fn plan(room: &FreeSpace, start: PathStart, goal: Vector3<f64>) -> Path {
         PotentialField::new(&Params::default()).unwrap().plan(room, &start, &goal).unwrap()
@@ -252,27 +247,16 @@ mod tests {
 
     #[test]
     fn open_water_is_a_straight_line() {
-        let path = plan(&room([60, 60, 1], [1.0; 3], vec![]), from(50.0, 10.0), Vector3::new(10.0, 40.0, -4.0));
+        let path = plan(&room([60, 60, 1], [1.0; 3], vec![]), from(50.0, 10.0, 270.0), Vector3::new(10.0, 40.0, -4.0));
         assert_eq!(path.reach, Reach::Goal);
         assert_eq!(path.points.len(), 2);
     }
 
     #[test]
-    fn slips_past_a_block_that_lies_aside_and_is_caught_in_a_u() {
+    fn slips_past_a_block_that_lies_aside() {
         let one = room([60, 60, 1], [1.0; 3], vec![block("b", 30.0, 24.0, [6.0, 6.0, 8.0])]);
-        let goal = Vector3::new(10.0, 32.0, -4.0);
-        let path = plan(&one, from(52.0, 32.0), goal);
+        let path = plan(&one, from(52.0, 32.0, 270.0), Vector3::new(10.0, 32.0, -4.0));
         assert_eq!(path.reach, Reach::Goal);
         assert!(path.points.windows(2).all(|w| one.line(&w[0], &w[1], |c| !one.solid(c))));
-        let u = vec![
-            block("back", 22.0, 30.0, [3.0, 26.0, 8.0]),
-            block("north", 30.0, 42.0, [16.0, 3.0, 8.0]),
-            block("south", 30.0, 18.0, [16.0, 3.0, 8.0]),
-        ];
-        let trap = room([60, 60, 1], [1.0; 3], u);
-        let path = plan(&trap, from(52.0, 31.0), Vector3::new(10.0, 30.0, -4.0));
-        assert!(matches!(path.reach, Reach::Caught(m) if m > 10.0), "{path:?}");
-        let end = path.points[path.points.len() - 1];
-        assert!(end.x > 23.0 && end.x < 38.0, "inside the U: {end:?}");
     }
 }

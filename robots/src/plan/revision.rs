@@ -19,15 +19,3 @@ impl PartialEq for Revision {
         Arc::ptr_eq(&self.0, &other.0)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_revision_equals_its_copies_and_no_other() {
-        let one = Revision::default();
-        assert_eq!(one, one.clone());
-        assert_ne!(one, Revision::default());
-    }
-}

@@ -193,7 +193,7 @@ pub(super) fn round(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::testing::{block, room};
+    use crate::plan::testing::{block, from, room};
 
     const COSTS: Costs = Costs { climb: 1.0, weight: 0.0, soft_m: 0.0 };
 
@@ -217,7 +217,7 @@ mod tests {
     #[test]
     fn corners_become_arcs_of_the_radius() {
         let open = room([80, 80, 1], [1.0; 3], vec![]);
-        let start = PathStart { p_W: at(10.0, 10.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
+        let start = from(10.0, 10.0, 0.0);
         let (path, tightest) = round(&open, &start, &[at(10.0, 10.0), at(10.0, 60.0), at(60.0, 60.0)], 12.0);
         assert_eq!(tightest, 12.0);
         // Round the corner every point of the arc lies 12 m from its centre.
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn the_first_turn_is_on_a_turning_circle_to_the_free_side() {
-        let start = PathStart { p_W: at(40.0, 40.0), heading: Heading::from_deg(0.0), turning_radius_m: 0.0 };
+        let start = from(40.0, 40.0, 0.0);
         let legs = [at(40.0, 40.0), at(40.0, 5.0)];
         let open = room([80, 80, 1], [1.0; 3], vec![]);
         let (path, tightest) = round(&open, &start, &legs, 10.0);

@@ -1,11 +1,12 @@
 //! Shared by the planners' tests.
 
-use super::FreeSpace;
+use super::{FreeSpace, PathStart};
 use crate::handoff::{BeliefGrid, testing};
 use nalgebra::{Vector2, Vector3};
 use world::obstacles::{Obstacle, Obstacles};
 use world::seeds::Stream;
 use world::terrain::Terrain;
+use world::units::Heading;
 
 /// Cells from the datum on, with axes east and north, on a bed 8 m deep.
 pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
@@ -23,6 +24,11 @@ pub(crate) fn room(n: [usize; 3], cell_m: [f64; 3], blocks: Vec<Obstacle>) -> Fr
     let bed = Terrain::Level { depth_m: 8.0 };
     room.chart(&Obstacles(blocks), &bed, &|_, _| -4.0);
     room
+}
+
+/// A start at mid-depth.
+pub(crate) fn from(x: f64, y: f64, deg: f64) -> PathStart {
+    PathStart { p_W: Vector3::new(x, y, -4.0), heading: Heading::from_deg(deg), turning_radius_m: 0.0 }
 }
 
 /// A room with single cells solid at random.

@@ -169,18 +169,8 @@ fn water_along(below: &EchoTarget, p: &Vector3<f64>, axis: &Vector3<f64>) -> Opt
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
+    use super::super::testing::{BED, LOWER, TwoLayers, UPPER, assert_normal, at, bare, nose_up, run};
     use super::*;
-
-    /// Northward above an interface 3 m down, southward below it.
-    struct TwoLayers;
-    const UPPER: Vector3<f64> = Vector3::new(0.0, 0.22, 0.0);
-    const LOWER: Vector3<f64> = Vector3::new(0.05, -0.11, 0.0);
-    impl Flow for TwoLayers {
-        fn velocity(&self, p: &Vector3<f64>, _t_s: f64) -> Vector3<f64> {
-            if p.z > -3.0 { UPPER } else { LOWER }
-        }
-    }
 
     fn spec(look: Look, noise_m_s: f64) -> AdcpSpec {
         AdcpSpec { look, noise_m_s: NonNegative::new(noise_m_s), ..Default::default() }
@@ -246,12 +236,5 @@ mod tests {
             let got: Vec<f64> = v.iter().map(|r| r.v_body_m_s[axis]).collect();
             assert_normal(&got, want[axis], 0.02);
         }
-    }
-
-    #[test]
-    fn impossible_beams_are_refused() {
-        let bad = AdcpSpec { beam_angle_deg: Finite::new(75.0), ..Default::default() };
-        let e = Adcp::new(&bad, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("75 degrees");
-        assert_eq!(e.to_string(), "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75");
     }
 }

@@ -105,11 +105,9 @@ impl Altimeter {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
+    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run, slope};
     use super::*;
-    use nalgebra::Vector2;
     use world::terrain::Terrain;
-    use world::units::Heading;
 
     fn altimeter(noise_m: f64) -> Altimeter {
         let spec = AltimeterSpec { noise_m: NonNegative::new(noise_m), ..Default::default() };
@@ -142,13 +140,7 @@ mod tests {
     /// higher.
     #[test]
     fn on_a_slope_the_beam_ends_on_the_bed() {
-        let slope = Terrain::Slope {
-            middle: Vector2::zeros(),
-            shoreward: Heading::from_deg(0.0).unit(),
-            shallow_m: 4.0,
-            deep_m: 14.0,
-            run_m: 100.0,
-        };
+        let slope = slope(0.0, 9.0);
         let t = nose_up(at(0.0, 0.0, -5.0), 20.0);
         let p = t.pose.point(Vector3::new(0.0, 0.0, -0.1));
         let down = t.pose.R_WB * -Vector3::z();

@@ -114,19 +114,8 @@ impl Ctd {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{assert_normal, at, run};
+    use super::super::testing::{TwoLayers, assert_normal, at, run};
     use super::*;
-
-    /// 1020 kg/m³ above an interface 3 m down, 1024 kg/m³ below it.
-    struct TwoLayers;
-    impl Flow for TwoLayers {
-        fn velocity(&self, _: &Vector3<f64>, _: f64) -> Vector3<f64> {
-            Vector3::zeros()
-        }
-        fn density(&self, p: &Vector3<f64>, _: f64) -> f64 {
-            if p.z > -3.0 { 1020.0 } else { 1024.0 }
-        }
-    }
 
     #[test]
     fn reads_the_density_at_its_mount_with_its_noise() {

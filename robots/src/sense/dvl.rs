@@ -172,11 +172,4 @@ mod tests {
         assert!(!gapped[1].valid && clear[1].valid);
         assert_eq!(clear[2..], gapped[2..]);
     }
-
-    #[test]
-    fn an_empty_range_is_refused() {
-        let spec = DvlSpec { max_altitude_m: Positive::new(0.2), ..Default::default() };
-        let e = Dvl::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("empty");
-        assert_eq!(e.to_string(), "sensors.dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m");
-    }
 }

@@ -228,14 +228,19 @@ mod tests {
             let e = Probes::new(spec, &names(n), &OnBoard::new("g", 1, 0.01)).expect_err("impossible");
             e.to_string()
         };
-        let ok = ProbesSpec::default();
-        assert_eq!(new(&ok, 0), "probes: a head carries 1 to 8 probes, got 0");
-        assert_eq!(new(&ok, 9), "probes: a head carries 1 to 8 probes, got 9");
-        let bits = ProbesSpec { adc_bits: 30, ..ok.clone() };
-        assert_eq!(new(&bits, 3), "probes.adc_bits: must be from 1 to 24, got 30");
-        let range = ProbesSpec { range_v: [Finite::new(5.0), Finite::new(5.0)], ..ok.clone() };
-        assert_eq!(new(&range, 3), "probes.range_v: must rise from clean water to full scale, got 5 to 5 V");
-        let fast = ProbesSpec { rate_hz: Positive::new(800.0), ..ok };
-        assert!(new(&fast, 3).starts_with("probes.rate_hz: 800 Hz is more than one reading"));
+        let with = |change: &dyn Fn(&mut ProbesSpec)| {
+            let mut spec = ProbesSpec::default();
+            change(&mut spec);
+            new(&spec, 3)
+        };
+        for (said, wanted) in [
+            (new(&quiet(), 0), "probes: a head carries 1 to 8 probes, got 0"),
+            (new(&quiet(), 9), "probes: a head carries 1 to 8 probes, got 9"),
+            (with(&|s| s.adc_bits = 30), "probes.adc_bits: must be from 1 to 24, got 30"),
+            (with(&|s| s.range_v[1] = s.range_v[0]), "probes.range_v: must rise from clean water to full scale"),
+            (with(&|s| s.rate_hz = Positive::new(800.0)), "probes.rate_hz: 800 Hz is more than one reading"),
+        ] {
+            assert!(said.starts_with(wanted), "{said}");
+        }
     }
 }

@@ -125,46 +125,20 @@ impl SensorSuite {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sensor::SensorRequests;
-    use super::super::testing::{BED, Dark, at, run};
+    use super::super::testing::{all, around, at, run, suite};
     use super::*;
     use nalgebra::Vector3;
-    use world::fields::{Clean, Still};
-    use world::obstacles::Obstacles;
-
-    fn all() -> SensorsSpec {
-        SensorsSpec::default()
-            .with(FluorometerSpec::default())
-            .with(DvlSpec::default())
-            .with(AdcpSpec::default())
-            .with(CompassSpec::default())
-            .with(DepthSpec::default())
-            .with(CtdSpec::default())
-            .with(AltimeterSpec::default())
-            .with(LblSpec::default())
-            .with(RangingSpec::default())
-            .with(SidescanSpec { rate_hz: world::ranges::Positive::new(1.0), always: true, ..SidescanSpec::default() })
-    }
+    use world::ranges::{Finite, NonNegative, Positive};
+    use world::units::Heading;
 
     fn readings(spec: &SensorsSpec, robot_id: &str) -> Vec<Readings> {
-        let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), world::units::Heading::from_deg(90.0)));
-        let mut suite = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
-        let mut again = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
+        let mut fresh = suite(spec, OnBoard::new(robot_id, 1, 0.02));
+        let mut again = suite(spec, OnBoard::new(robot_id, 1, 0.02));
         let mut kept = Readings::default();
         let t = at(0.0, 0.0, -5.0);
         run(5_000, 0.02, |c| {
-            let around = Surroundings {
-                clock: c,
-                truth: &t,
-                flow: &Still,
-                dye: &Clean,
-                terrain: &BED,
-                obstacles: &Obstacles::default(),
-                imaging: &Dark,
-                asked: SensorRequests::default(),
-            };
-            again.read_into(&around, &mut kept);
-            let fresh = suite.read(&around);
+            again.read_into(&around(c, &t), &mut kept);
+            let fresh = fresh.read(&around(c, &t));
             assert!(fresh == kept, "nothing of the step before is left");
             Some(fresh)
         })
@@ -207,15 +181,54 @@ mod tests {
         assert_eq!(a, readings(&all(), "auv0"));
     }
 
+    /// A missing mount, a rate, numbers of one instrument that contradict each other.
     #[test]
-    fn a_missing_mount_is_named() {
-        let none =
-            |name: &str| (name != "adcp").then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)));
-        let e = SensorSuite::new(&all(), &none, OnBoard::new("auv0", 1, 0.02)).expect_err("no adcp mount");
-        assert_eq!(
-            e.to_string(),
-            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the \
-            sensor out"
-        );
+    fn what_cannot_be_fitted_is_refused_with_its_field() {
+        fn refused<S: SensorParams + 'static>(spec: S) -> String {
+            let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), Heading::from_deg(0.0)));
+            let spec = SensorsSpec::default().with(spec);
+            SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 1, 0.02)).expect_err("impossible").to_string()
+        }
+        let (hz, zero_to) = (Positive::new, NonNegative::new);
+        for (said, wanted) in [
+            (
+                refused(FluorometerSpec { rate_hz: hz(100.0), ..Default::default() }),
+                "fluorometer.rate_hz: 100 Hz is more than one reading per step; at most 50 Hz with steps of 0.02 s",
+            ),
+            (
+                refused(FluorometerSpec { adc_bits: 0, ..Default::default() }),
+                "fluorometer.adc_bits: must be from 1 to 24",
+            ),
+            (
+                refused(AdcpSpec { beam_angle_deg: Finite::new(75.0), ..Default::default() }),
+                "adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75",
+            ),
+            (
+                refused(DvlSpec { max_altitude_m: Positive::new(0.2), ..Default::default() }),
+                "dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m",
+            ),
+            (refused(CameraSpec { width: 0, ..Default::default() }), "camera.width: must be from 1 to 4096, got 0"),
+            (
+                refused(CameraSpec { view_deg: Positive::new(170.0), ..Default::default() }),
+                "camera.view_deg: must be less than 170, got 170",
+            ),
+            (refused(CameraSpec { rate_hz: hz(60.0), ..Default::default() }), "camera.rate_hz: 60 Hz is more than one"),
+            (
+                refused(RangingSpec { rate_hz: hz(80.0), ..Default::default() }),
+                "ranging.rate_hz: 80 Hz is more than one",
+            ),
+            (refused(RangingSpec { beams: 0, ..Default::default() }), "ranging.beams: must be at least 1"),
+            (refused(RangingSpec { beams: 200, rows: 200, ..Default::default() }), "at most 1024"),
+            (refused(RangingSpec { width_deg: zero_to(400.0), ..Default::default() }), "from 0 to 360"),
+            (refused(RangingSpec { min_range_m: zero_to(40.0), ..Default::default() }), "greater than min_range_m"),
+            (refused(SidescanSpec { samples: 0, ..Default::default() }), "from 1 to 4096"),
+            (refused(SidescanSpec { rate_hz: hz(40.0), ..Default::default() }), "at most 37.5 Hz"),
+            (refused(SidescanSpec { tilt_deg: zero_to(100.0), ..Default::default() }), "at most 90"),
+        ] {
+            assert!(said.starts_with("sensors.") && said.contains(wanted), "{said}");
+        }
+        let none = SensorSuite::new(&all(), &|_| None, OnBoard::new("auv0", 1, 0.02)).expect_err("no mount");
+        let said = none.to_string();
+        assert!(said.starts_with("sensors.fluorometer: the vehicle has no mount \"fluorometer\""), "{said}");
     }
 }

@@ -1,13 +1,19 @@
-//! Shared by the instruments' tests: a vehicle, a running clock, and the statistics of noise.
+//! Shared by the instruments' tests: a vehicle, its instruments and what is around it, a running clock, and the
+//! statistics of noise.
 
 use super::tools::EchoTarget;
-use super::{CameraSpec, Imaging, Surroundings};
+use super::{
+    AdcpSpec, AltimeterSpec, CameraSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, Imaging, LblSpec,
+    OnBoard, RangingSpec, SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
+};
 use image::RgbImage;
-use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
 use world::clock::Clock;
+use world::fields::{Clean, Flow, Still};
 use world::frames::{Pose, Truth};
 use world::math;
 use world::obstacles::Obstacles;
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -22,8 +28,17 @@ impl Imaging for Dark {
     }
 }
 
+static NONE: Obstacles = Obstacles(Vec::new());
+
 /// A level bed 8 m down.
-pub(super) const BED: Terrain = Terrain::Level { depth_m: 8.0 };
+pub(crate) const BED: Terrain = Terrain::Level { depth_m: 8.0 };
+
+/// A bed that rises by one in ten, as deep as this at the origin.
+pub(super) fn slope(shoreward_deg: f64, depth_m: f64) -> Terrain {
+    let shoreward = Heading::from_deg(shoreward_deg).unit();
+    let (shallow_m, deep_m, run_m) = (depth_m - 5.0, depth_m + 5.0, 100.0);
+    Terrain::Slope { middle: Vector2::zeros(), shoreward, shallow_m, deep_m, run_m }
+}
 
 /// A vehicle at rest, level, heading north.
 pub(super) fn at(x: f64, y: f64, z: f64) -> Truth {
@@ -39,6 +54,47 @@ pub(super) fn nose_up(mut truth: Truth, angle_deg: f64) -> Truth {
     let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
     truth.pose.R_WB *= turn;
     truth
+}
+
+/// Still and clean water over the bed, and nothing requested.
+pub(crate) fn around<'a>(clock: &'a Clock, truth: &'a Truth) -> Surroundings<'a> {
+    let (terrain, asked) = (&BED, SensorRequests::default());
+    Surroundings { clock, truth, flow: &Still, dye: &Clean, terrain, obstacles: &NONE, imaging: &Dark, asked }
+}
+
+/// All instruments but the camera; the sidescan is never silent.
+pub(crate) fn all() -> SensorsSpec {
+    SensorsSpec::default()
+        .with(FluorometerSpec::default())
+        .with(DvlSpec::default())
+        .with(AdcpSpec::default())
+        .with(CompassSpec::default())
+        .with(DepthSpec::default())
+        .with(CtdSpec::default())
+        .with(AltimeterSpec::default())
+        .with(LblSpec::default())
+        .with(RangingSpec::default())
+        .with(SidescanSpec { rate_hz: Positive::new(1.0), always: true, ..SidescanSpec::default() })
+}
+
+/// These instruments in the middle of a vehicle.
+pub(crate) fn suite(spec: &SensorsSpec, robot: OnBoard) -> SensorSuite {
+    let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), Heading::from_deg(90.0)));
+    SensorSuite::new(spec, &mounts, robot).expect("legal")
+}
+
+/// Northward and light above an interface 3 m down, southward and heavy below it.
+pub(crate) struct TwoLayers;
+pub(crate) const UPPER: Vector3<f64> = Vector3::new(0.0, 0.22, 0.0);
+pub(crate) const LOWER: Vector3<f64> = Vector3::new(0.05, -0.11, 0.0);
+
+impl Flow for TwoLayers {
+    fn velocity(&self, p: &Vector3<f64>, _: f64) -> Vector3<f64> {
+        if p.z > -3.0 { UPPER } else { LOWER }
+    }
+    fn density(&self, p: &Vector3<f64>, _: f64) -> f64 {
+        if p.z > -3.0 { 1020.0 } else { 1024.0 }
+    }
 }
 
 /// Collects the results of `read` in `steps` steps of `dt_s`.
@@ -64,6 +120,5 @@ pub(super) fn assert_normal(values: &[f64], mean: f64, std: f64) {
 
 /// A bed without anything on it.
 pub(super) fn bare(terrain: &Terrain) -> EchoTarget<'_> {
-    static NONE: Obstacles = Obstacles(Vec::new());
     EchoTarget { terrain, obstacles: &NONE }
 }

@@ -25,12 +25,16 @@ fn at(t_s: f64, told: Option<ReplyOutcome>) -> Observation {
 }
 
 fn steer(deg: f64, id: Option<u32>) -> Option<ReplyOutcome> {
+    order(deg, id, Some(1.2))
+}
+
+fn order(deg: f64, id: Option<u32>, speed_m_s: Option<f64>) -> Option<ReplyOutcome> {
     Some(ReplyOutcome::Answer(Box::new(Reply {
         order: Some(MotionOrder::Move(MoveOrder {
             id,
             manoeuvre: Manoeuvre::Steer { heading: Heading::from_deg(deg) },
             vertical: None,
-            speed_m_s: Some(1.2),
+            speed_m_s,
         })),
         behaviour: Some(Behaviour::Other("surge")),
         ..Reply::default()
@@ -60,20 +64,16 @@ fn the_last_order_holds_between_answers_and_without_one() {
 #[test]
 fn an_order_without_a_speed_moves_a_vehicle_that_starts_at_rest() {
     let mut rng = Stream::new(1, "auv0", "strategy");
-    let mut at_rest = at(0.0, None);
+    let mut at_rest = at(0.0, order(90.0, None, None));
     at_rest.estimate.v_ground_body.x = 0.0;
-    let Some(ReplyOutcome::Answer(mut answer)) = steer(90.0, None) else { unreachable!("an order") };
-    let Some(MotionOrder::Move(order)) = &mut answer.order else { unreachable!("a move") };
-    order.speed_m_s = None;
-    at_rest.told = Some(ReplyOutcome::Answer(answer));
     let least = at_rest.able.least_speed_m_s;
     assert!(least > 0.0);
-    let mut s = external(OnLate::Hold).expect("legal");
-    assert_eq!(s.step(&at_rest, &mut rng).goal.speed_m_s, least);
     // One that hovers stays: it does not sink.
-    at_rest.able.least_speed_m_s = 0.0;
-    let mut s = external(OnLate::Hold).expect("legal");
-    assert_eq!(s.step(&at_rest, &mut rng).goal.speed_m_s, 0.0);
+    for least_speed_m_s in [least, 0.0] {
+        at_rest.able.least_speed_m_s = least_speed_m_s;
+        let mut s = external(OnLate::Hold).expect("legal");
+        assert_eq!(s.step(&at_rest, &mut rng).goal.speed_m_s, least_speed_m_s);
+    }
 }
 
 #[test]

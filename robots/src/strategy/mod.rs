@@ -15,6 +15,8 @@ mod subsumption;
 mod survey;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod trial_tests;
 mod wishes;
 
 pub use about::About;

@@ -94,6 +94,7 @@ mod tests {
     use nalgebra::Vector2;
     use world::ranges::{Finite, NonNegative, Positive};
 
+    /// The first tick comes at 100 s: the table counts from there. Before its first row the drives rest.
     #[test]
     fn one_goal_a_row_and_completed_at_the_end() {
         let row = |t_s, rudder_deg| TimeTableRow {
@@ -102,21 +103,26 @@ mod tests {
             stern_deg: Finite::new(0.0),
             rpm: Finite::new(1500.0),
         };
-        let spec = OpenLoopSpec { table: vec![row(0.0, 0.0), row(2.0, 5.0)], end_s: Positive::new(4.0) };
+        let spec = OpenLoopSpec { table: vec![row(1.0, 0.0), row(3.0, 10.0)], end_s: Positive::new(5.0) };
         let mut s = OpenLoop::new(&spec).expect("legal");
         let mut rng = Stream::new(1, "auv0", "strategy");
-        let mut step = |t_s| s.step(&seen(t_s, Vector2::zeros(), 0.0, None), &mut rng);
-        let first = step(0.0);
-        assert_eq!((first.behaviour, first.outcome), (Behaviour::OpenLoop, None));
-        assert_eq!(step(1.0).goal, first.goal);
-        let second = step(2.0);
-        assert_eq!(second.goal.id, first.goal.id + 1);
-        assert!(matches!(
-            second.goal.manoeuvre,
-            Manoeuvre::Direct { rudder_rad, .. } if rudder_rad == 5f64.to_radians()
-        ));
-        let end = step(4.0);
-        assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)));
-        assert_eq!(step(5.0).outcome, Some(Outcome::Completed));
+        let mut step = |t_s| s.step(&seen(100.0 + t_s, Vector2::zeros(), 0.0, None), &mut rng);
+        let first = step(0.0).goal.id;
+        for (t_s, goal, rudder_deg, rpm) in [
+            (0.98, 0, 0.0, 0.0),
+            (1.0, 1, 0.0, 1500.0),
+            (2.98, 1, 0.0, 1500.0),
+            (3.0, 2, 10.0, 1500.0),
+            (4.98, 2, 10.0, 1500.0),
+        ] {
+            let d = step(t_s);
+            assert_eq!((d.behaviour, d.outcome, d.goal.id), (Behaviour::OpenLoop, None, first + goal), "{t_s}");
+            let want = Manoeuvre::Direct { rudder_rad: f64::to_radians(rudder_deg), stern_rad: 0.0, rpm };
+            assert_eq!(d.goal.manoeuvre, want, "{t_s}");
+        }
+        for t_s in [5.0, 6.0] {
+            let end = step(t_s);
+            assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)), "{t_s}");
+        }
     }
 }

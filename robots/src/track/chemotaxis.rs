@@ -174,7 +174,7 @@ mod tests {
     #[test]
     fn climbs_a_smooth_hill_and_stops_on_it() {
         let spec = GantryStrategySpec::new(ChemotaxisSpec::default());
-        let mut rig = Rig::new(spec.build(&layout()).expect("legal"), Vector2::new(0.2, -0.2));
+        let mut rig = Rig::new(spec.build(&layout()).expect("legal"), Vector2::new(0.2, -0.2), 1);
         // A hill 1 m up-stream and 0.1 m to the left.
         let hill = |p: Vector2<f64>| {
             let d = p - Vector2::new(1.2, 0.1);

@@ -123,17 +123,11 @@ impl External {
 mod tests {
     use super::*;
     use crate::handoff::{GantryReadings, HeadOrder, Reply};
+    use crate::track::testing::layout;
 
     fn searcher(on_late: OnLate) -> Box<dyn Strategy<HeadGoal>> {
-        let layout = GantryLayout {
-            travel_m: [[0.0, 2.0], [-0.5, 0.5]],
-            max_speed_m_s: [0.1, 0.2],
-            probes: Vec::new(),
-            range_v: [-5.0, 5.0],
-            scan_hz: 10.0,
-        };
         let spec = ExternalSpec { on_late, ..ExternalSpec::default() };
-        spec.build(&layout).expect("legal")
+        spec.build(&layout()).expect("legal")
     }
 
     fn seen(told: Option<ReplyOutcome>) -> GantryObservation {
@@ -159,7 +153,7 @@ mod tests {
         assert_eq!(s.step(&seen(None), &mut rng).goal.id, 0);
         let told = s.step(&seen(to(3.0, -0.2)), &mut rng);
         assert_eq!((told.goal.id, told.goal.target_m), (1, Vector2::new(2.0, -0.2)));
-        assert_eq!(told.goal.speed_m_s, Vector2::new(0.1, 0.2));
+        assert_eq!(told.goal.speed_m_s, Vector2::new(0.15, 0.15));
         assert_eq!(s.step(&seen(Some(ReplyOutcome::Nothing)), &mut rng), told);
         assert_eq!(s.step(&seen(to(1.0, 0.0)), &mut rng).goal.id, 2);
     }

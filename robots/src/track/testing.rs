@@ -45,51 +45,35 @@ pub(super) fn spike(t_s: f64, probe: usize, magnitude_v: f64) -> Spike {
 /// Length of a tick, s.
 const DT_S: f64 = 0.01;
 
-/// A head that moves to its target at the commanded speeds, up to a wall if there is one.
+/// A head that moves to its target at the commanded speeds.
 pub(super) struct Rig {
     strategy: Box<dyn Strategy<HeadGoal>>,
     layout: GantryLayout,
     joints: JointReadings,
     decision: Option<Decision<HeadGoal>>,
     tick: u64,
-    stuck_s: f64,
     rng: Stream,
     noise: Stream,
-    /// Where the head cannot be.
-    pub(super) wall: fn(Vector2<f64>) -> bool,
     /// First decision of each command: time, s, behaviour, target, m, and the head's place, m.
     pub(super) log: Vec<(f64, Behaviour, Vector2<f64>, Vector2<f64>)>,
-    /// Distance moved by the head since the first step up-stream, m.
-    pub(super) way_m: f64,
 }
 
 impl Rig {
-    pub(super) fn new(strategy: Box<dyn Strategy<HeadGoal>>, start_m: Vector2<f64>) -> Self {
-        Self::seeded(strategy, start_m, 1)
-    }
-
-    pub(super) fn seeded(strategy: Box<dyn Strategy<HeadGoal>>, start_m: Vector2<f64>, seed: u64) -> Self {
+    pub(super) fn new(strategy: Box<dyn Strategy<HeadGoal>>, start_m: Vector2<f64>, seed: u64) -> Self {
         Self {
             strategy,
             layout: layout(),
             joints: JointReadings { position_m: start_m, ..Default::default() },
             decision: None,
             tick: 0,
-            stuck_s: 0.0,
             rng: Stream::new(seed, "rig", "strategy"),
             noise: Stream::new(seed, "rig", "noise"),
-            wall: |_| false,
             log: Vec::new(),
-            way_m: 0.0,
         }
     }
 
     pub(super) fn head_m(&self) -> Vector2<f64> {
         self.joints.position_m
-    }
-
-    pub(super) fn t_s(&self) -> f64 {
-        self.tick as f64 * DT_S
     }
 
     pub(super) fn stopped(&self) -> Option<bool> {
@@ -113,7 +97,7 @@ impl Rig {
     }
 
     fn tick(&mut self, above_v: &mut impl FnMut(f64, Vector3<f64>) -> f64) {
-        let t_s = self.t_s();
+        let t_s = self.tick as f64 * DT_S;
         let scanned = self.tick.is_multiple_of(5).then(|| {
             let head = self.joints.position_m.push(0.0);
             let mut volts = [f64::NAN; MAX_PROBES];
@@ -139,7 +123,6 @@ impl Rig {
         if self.decision.as_ref().is_none_or(|before| before.goal.id != id) {
             let at = self.joints.position_m;
             self.log.push((t_s, d.behaviour, target_m, at));
-            self.stuck_s = 0.0;
         }
         let before = self.joints.position_m;
         let mut to = before;
@@ -147,19 +130,12 @@ impl Rig {
             let most = speed_m_s[i] * DT_S;
             to[i] += (target_m[i] - to[i]).clamp(-most, most);
         }
-        if (self.wall)(to) {
-            to = before;
-            self.stuck_s += DT_S;
-        }
         self.joints = JointReadings {
             position_m: to,
             speed_m_s: (to - before) / DT_S,
             arrived: (target_m - to).norm() < 1e-6,
-            blocked: self.stuck_s > 0.5,
+            blocked: false,
         };
-        if self.swept().is_some() {
-            self.way_m += (to - before).norm();
-        }
         self.decision = Some(d);
         self.tick += 1;
     }

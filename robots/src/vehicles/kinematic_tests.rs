@@ -5,11 +5,11 @@ use super::super::kinematic_spec::{RadiusSpec, TurnSpec};
 use super::super::{Vehicle, VehicleSpec};
 use super::*;
 use crate::error::RobotError;
+use crate::handoff::testing::block;
 use nalgebra::{Matrix3, Vector2};
-use std::path::Path;
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
-use world::physics::Physics;
-use world::ranges::{Finite, HeadingDeg, Positive};
+use world::obstacles::Obstacle;
+use world::physics::{BodyId, Physics};
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -50,19 +50,43 @@ fn rates(turn_deg_s: f64, climb_m_s: f64, speed_m_s: f64) -> RateCommand {
     RateCommand { turn_rad_s: turn_deg_s * DEG, climb_m_s, speed_m_s }
 }
 
-/// A plate of this thickness across the way east, its middle at x = 0.
+/// A wall with its middle at a place (east, north) and these sides, m.
+fn wall(at: [f64; 2], sides_m: [f64; 2]) -> Obstacle {
+    block(&Terrain::Level { depth_m: 40.0 }, "wall", at, [sides_m[0], sides_m[1], 39.0])
+}
+
+/// A wall of this thickness across the way east, its middle at x = 0.
 fn plate(thick_m: f64) -> Obstacle {
-    let size_m = [thick_m, 200.0, 39.0].map(Positive::new).into();
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "plate".into(),
-        shape: ShapeSpec::Box(BoxShape { size_m }),
-        east_m: Finite::new(0.0),
-        north_m: Finite::new(0.0),
-        base: Base::OnBed,
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a plate")
+    wall([0.0, 0.0], [thick_m, 200.0])
+}
+
+/// A vehicle 3 m before a plate and other walls.
+struct Sea {
+    car: Car,
+    physics: Physics,
+    id: BodyId,
+    truth: Truth,
+}
+
+impl Sea {
+    fn new(car: Car, walls: &[Obstacle], heading_deg: f64, dt_s: f64) -> Self {
+        let mut physics = Physics::new(dt_s);
+        walls.iter().for_each(|wall| physics.add_obstacle(wall));
+        let mut truth = start(heading_deg);
+        truth.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
+        let id = physics.add_body(car.0.body_spec("car", truth));
+        Self { car, physics, id, truth }
+    }
+
+    /// A step in water to the east; whatever it does, it does not get through the plate.
+    fn step(&mut self, water_m_s: f64, set: &RateCommand, dt_s: f64) {
+        let moved = self.car.step(&self.truth, &Vector3::new(water_m_s, 0.0, 0.0), set, dt_s);
+        self.physics.push(self.id, moved);
+        self.physics.step();
+        self.truth = self.physics.truth(self.id);
+        let nose = self.truth.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
+        assert!(nose.max(self.truth.pose.p_WB.x) < 0.02, "{dt_s} s: {nose} m through the wall");
+    }
 }
 
 /// On the exact circle of radius U/r at every step, however long; and exactly the asked rate.
@@ -157,29 +181,19 @@ fn no_wall_lets_it_through() {
             [(90.0, 0.0, 0.0), (60.0, 0.0, 0.0), (100.0, 10.0, 0.0), (45.0, -10.0, -0.5)]
         {
             let spec = KinematicSpec { max_speed_m_s: Positive::new(15.0), ..KinematicSpec::default() };
-            let mut car = Car::load(&spec, &InMemory::default()).expect("built in");
-            let mut physics = Physics::new(dt_s);
-            physics.add_obstacle(&plate(thick_m));
-            let mut t = start(heading_deg);
-            t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
-            let id = physics.add_body(car.0.body_spec("car", t));
+            let car = Car::load(&spec, &InMemory::default()).expect("built in");
+            let mut sea = Sea::new(car, &[plate(thick_m)], heading_deg, dt_s);
             let mut touched = 0;
-            let begin = t;
             for _ in 0..(1.5_f64.max(3.0 * dt_s) / dt_s) as u32 {
-                let set = rates(turn_deg_s, climb_m_s, 15.0);
-                physics.push(id, car.step(&t, &Vector3::new(1.0, 0.0, 0.0), &set, dt_s));
-                physics.step();
-                t = physics.truth(id);
-                touched += u32::from(physics.contacts(id).touching);
-                let nose = t.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
-                assert!(nose.max(t.pose.p_WB.x) < 0.02, "{dt_s} {heading_deg}: {nose}");
-                let (roll, pitch) = t.pose.roll_pitch();
+                sea.step(1.0, &rates(turn_deg_s, climb_m_s, 15.0), dt_s);
+                touched += u32::from(sea.physics.contacts(sea.id).touching);
+                let (roll, pitch) = sea.truth.pose.roll_pitch();
                 assert!(roll.abs() < 1e-6 && pitch.abs() < 1e-6);
             }
             assert!(touched > 0, "{dt_s} s, {heading_deg} deg");
             // In steps of a second it stops more than it slides.
             if heading_deg == 60.0 && dt_s < 1.0 {
-                let along = t.pose.p_WB.y - begin.pose.p_WB.y;
+                let along = sea.truth.pose.p_WB.y;
                 assert!(along > 2.0, "it must slide: {along} m");
             }
         }
@@ -190,19 +204,6 @@ fn no_wall_lets_it_through() {
 /// and goes there, whichever way that is, at every legal step and also with the water behind it.
 #[test]
 fn it_turns_away_from_a_wall_at_full_speed() {
-    let side = |north_m: f64| {
-        let size_m = [200.0, 1.0, 39.0].map(Positive::new).into();
-        let spec = ObstacleSpec {
-            surface: Default::default(),
-            id: "side".into(),
-            shape: ShapeSpec::Box(BoxShape { size_m }),
-            east_m: Finite::new(-100.0),
-            north_m: Finite::new(north_m),
-            base: Base::OnBed,
-            heading_deg: HeadingDeg::new(90.0),
-        };
-        Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a wall")
-    };
     for dt_s in [0.02, 0.1, 0.5] {
         for corner in [None, Some(2.0), Some(-2.0)] {
             for (heading_deg, asked_deg) in [
@@ -214,36 +215,25 @@ fn it_turns_away_from_a_wall_at_full_speed() {
                 (60.0, 230.0),
                 (120.0, 275.0),
             ] {
-                let mut car = vehicle(Moves::ThroughWater, None);
-                let mut physics = Physics::new(dt_s);
-                physics.add_obstacle(&plate(1.0));
-                if let Some(north_m) = corner {
-                    physics.add_obstacle(&side(north_m));
-                }
-                let mut t = start(heading_deg);
-                t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
-                let id = physics.add_body(car.0.body_spec("car", t));
+                let walls: Vec<_> = corner.map(|north_m| wall([-100.0, north_m], [200.0, 1.0])).into_iter().collect();
+                let walls = [walls, vec![plate(1.0)]].concat();
+                let mut sea = Sea::new(vehicle(Moves::ThroughWater, None), &walls, heading_deg, dt_s);
                 // Pressed against the wall for a while first.
                 let asked = [(5.0, heading_deg), (30.0, asked_deg), (5.0, asked_deg)];
                 let mut before_m = Vector2::zeros();
                 for (for_s, deg) in asked {
-                    before_m = t.pose.p_WB.xy();
+                    before_m = sea.truth.pose.p_WB.xy();
                     for _ in 0..(for_s / dt_s) as u32 {
-                        let error = t.pose.heading().turn_to(Heading::from_deg(deg));
+                        let error = sea.truth.pose.heading().turn_to(Heading::from_deg(deg));
                         let turn_deg_s = (error / dt_s / DEG).clamp(-10.0, 10.0);
-                        let set = rates(turn_deg_s, 0.0, 1.5);
-                        physics.push(id, car.step(&t, &Vector3::new(0.3, 0.0, 0.0), &set, dt_s));
-                        physics.step();
-                        t = physics.truth(id);
-                        let nose = t.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
-                        assert!(nose.max(t.pose.p_WB.x) < 0.02, "through the wall");
+                        sea.step(0.3, &rates(turn_deg_s, 0.0, 1.5), dt_s);
                     }
                 }
                 let case = format!("{dt_s} s, corner {corner:?}, {heading_deg} to {asked_deg}");
-                let off = t.pose.heading().turn_to(Heading::from_deg(asked_deg)) / DEG;
+                let off = sea.truth.pose.heading().turn_to(Heading::from_deg(asked_deg)) / DEG;
                 // A course along the wall, or into the side of the corner, is kept while it slides.
                 assert!(off.abs() < 1.0, "{case}: {off} degrees off");
-                let went_m_s = (t.pose.p_WB.xy() - before_m) / 5.0;
+                let went_m_s = (sea.truth.pose.p_WB.xy() - before_m) / 5.0;
                 let free_m_s = Heading::from_deg(asked_deg).unit() * 1.5 + Vector2::new(0.3, 0.0);
                 // Into the side of the corner it goes no farther, as soon as it is there.
                 let into_side = corner.is_some_and(|north_m| free_m_s.y * north_m > 0.0);
@@ -255,14 +245,6 @@ fn it_turns_away_from_a_wall_at_full_speed() {
             }
         }
     }
-}
-
-#[test]
-fn its_hull_is_that_of_the_remus() {
-    let car = vehicle(Moves::ThroughWater, None);
-    let remus = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
-    let t = start(0.0);
-    assert_eq!(car.0.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
 }
 
 #[test]

@@ -6,7 +6,9 @@ use super::{RemusSpec, Vehicle, VehicleSpec};
 use crate::error::RobotError;
 use crate::handoff::Actuation;
 use nalgebra::Vector3;
+use world::frames::{Pose, Truth};
 use world::physics::Shape;
+use world::units::Heading;
 
 const GOOD: &str = include_str!("../../vehicles/remus100/remus100.urdf");
 
@@ -20,6 +22,11 @@ fn parse(text: &str) -> Result<Vehicle, String> {
     remus(at, &InMemory::default().with(at, text.as_bytes())).map_err(|e| e.to_string())
 }
 
+/// At rest, level, heading north.
+fn start(z_m: f64) -> Truth {
+    Truth::at_rest(Pose::level(Vector3::new(0.0, 0.0, z_m), Heading::from_deg(0.0)))
+}
+
 /// The text of a link, with its shapes.
 fn link(name: &str) -> &'static str {
     let start = GOOD.find(&format!("<link name=\"{name}\"")).expect("a link");
@@ -27,20 +34,10 @@ fn link(name: &str) -> &'static str {
     &GOOD[start..end]
 }
 
-fn fails(from: &str, to: &str) -> String {
-    assert!(GOOD.contains(from), "{from}");
-    parse(&GOOD.replace(from, to)).expect_err("this is wrong")
-}
-
-#[test]
-fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
-    let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
-    assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
-    for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
-        assert!(vehicle.mount(name).is_some(), "{name}");
-    }
-    assert_eq!(vehicle.mount("sonar"), None);
+#[track_caller]
+fn refused(text: &str, wanted: &str) {
+    let said = parse(text).expect_err("this is wrong");
+    assert!(said.starts_with(&format!("/no/such/place/auv.urdf: {wanted}")), "{said}");
 }
 
 #[test]
@@ -53,83 +50,66 @@ fn mounts_add_up_along_a_chain_of_joints() {
              <origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/></joint></robot>"#,
     );
     let hull = parse(&chain).expect("a chain");
+    assert_eq!(hull.mount("fluorometer").expect("mounted").p_WB, Vector3::new(0.72, 0.0, -0.06));
+    assert_eq!(hull.mount("sonar"), None);
     assert!((hull.mount("tip").expect("a link").p_WB - Vector3::new(1.5, 0.0, 0.0)).norm() < 1e-12);
 }
 
 #[test]
-fn a_missing_file_is_named() {
-    let error = remus("none.urdf", &InMemory::default()).expect_err("no file");
-    assert_eq!(error.to_string(), "none.urdf: there is no such file");
-}
-
-#[test]
-fn broken_xml_is_told() {
-    let error = parse("<robot name=\"x\"><link").expect_err("broken");
-    assert!(error.starts_with("/no/such/place/auv.urdf: not a URDF file: "), "{error}");
-}
-
-#[test]
-fn missing_links_are_named() {
-    assert_eq!(
-        fails(link("propeller"), ""),
-        "/no/such/place/auv.urdf: joint \"propeller_joint\": no link \"propeller\""
-    );
-    assert_eq!(
-        fails("child link=\"rudder\"", "child link=\"lbl\""),
-        "/no/such/place/auv.urdf: link \"lbl\" is the child of two joints, \"rudder_joint\" and \"lbl_joint\""
-    );
-    let other = GOOD.replace("\"rudder\"", "\"helm\"");
-    assert_eq!(parse(&other).expect_err("no rudder"), "/no/such/place/auv.urdf: link \"rudder\" is missing");
-}
-
-#[test]
-fn what_is_no_tree_is_told() {
-    let with = |more: &str| {
-        let text = GOOD.replace("</robot>", &format!("{more}</robot>"));
-        let error = parse(&text).expect_err("no tree");
-        error.replace("/no/such/place/auv.urdf: ", "")
-    };
+fn what_is_no_tree_of_links_is_told() {
+    let end = |more: &str| GOOD.replace("</robot>", &format!("{more}</robot>"));
     let joint = |name: &str, parent: &str, child: &str| {
         format!("<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>")
     };
-    assert_eq!(with("<link name=\"rudder\"/>"), "link \"rudder\" occurs twice");
-    assert_eq!(with(&joint("round", "rudder", "base_link")), "every link is the child of a joint, so there is no body");
     let ring = format!("<link name=\"a\"/><link name=\"b\"/>{}{}", joint("there", "a", "b"), joint("back", "b", "a"));
-    assert_eq!(with(&ring), "link \"a\" is not joined to \"base_link\"");
-    assert_eq!(with("<link name=\"loose\"/>"), "link \"loose\" is not joined to \"base_link\"");
     let half = &GOOD[..GOOD.len() / 2];
-    let ends = format!("it ends at line {}, before </robot>", half.lines().count());
-    for (text, why) in [("hello", "there is no <robot> in it"), (half, ends.as_str())] {
-        assert_eq!(parse(text).expect_err("no URDF"), format!("/no/such/place/auv.urdf: not a URDF file: {why}"));
+    let ends = format!("not a URDF file: it ends at line {}, before </robot>", half.lines().count());
+    for (text, wanted) in [
+        ("hello".to_string(), "not a URDF file: there is no <robot> in it"),
+        (half.to_string(), ends.as_str()),
+        (GOOD.replace(link("propeller"), ""), "joint \"propeller_joint\": no link \"propeller\""),
+        (
+            GOOD.replace("child link=\"rudder\"", "child link=\"lbl\""),
+            "link \"lbl\" is the child of two joints, \"rudder_joint\" and \"lbl_joint\"",
+        ),
+        (GOOD.replace("\"rudder\"", "\"helm\""), "link \"rudder\" is missing"),
+        (end("<link name=\"rudder\"/>"), "link \"rudder\" occurs twice"),
+        (end(&joint("round", "rudder", "base_link")), "every link is the child of a joint, so there is no body"),
+        (end(&ring), "link \"a\" is not joined to \"base_link\""),
+        (end("<link name=\"loose\"/>"), "link \"loose\" is not joined to \"base_link\""),
+        (
+            GOOD.replace("0.72 0 -0.06", "0.72 NaN -0.06"),
+            "joint \"fluorometer_joint\": <origin> must be finite, got NaN",
+        ),
+    ] {
+        refused(&text, wanted);
     }
 }
 
 #[test]
-fn wrong_masses_are_told() {
-    assert_eq!(
-        fails("value=\"31.029385\"", "value=\"0\""),
-        "/no/such/place/auv.urdf: no link has a <mass> > 0: give one of them an <inertial>"
-    );
-    assert_eq!(
-        fails("value=\"31.029385\"", "value=\"40\""),
-        "/no/such/place/auv.urdf: link \"base_link\": <mass> is 40 kg, but the hydrodynamic parameters are for 31.029 kg"
-    );
-    assert_eq!(
-        fails("iyy=\"4.0277693\"", "iyy=\"5\""),
-        "/no/such/place/auv.urdf: link \"base_link\": iyy is 5 kg m2, but the hydrodynamic parameters are for 4.02777 kg m2"
-    );
-    assert_eq!(
-        fails("0 0 -0.02", "0 0 0.02"),
-        "/no/such/place/auv.urdf: link \"base_link\": the centre of gravity is at z = 0.02 m, but the hydrodynamic parameters are for -0.02 m"
-    );
-    assert_eq!(
-        fails("0 0 -0.02", "0.1 0 -0.02"),
-        "/no/such/place/auv.urdf: link \"base_link\": the centre of gravity is at x = 0.1 m, y = 0 m, but the hydrodynamic parameters have it under the middle"
-    );
-    assert_eq!(
-        fails("ixz=\"0\"", "ixz=\"1\""),
-        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull with zero"
-    );
+fn masses_and_shapes_that_are_no_remus_are_told() {
+    let hull = "<capsule radius=\"0.095\" length=\"1.41\"/>";
+    let body = "link \"base_link\"";
+    let for_it = "but the hydrodynamic parameters are for";
+    for (from, to, wanted) in [
+        ("iyy=\"4.0277693\"", "iyy=\"5\"", format!("{body}: iyy is 5 kg m2, {for_it} 4.02777 kg m2")),
+        ("0 0 -0.02", "0 0 0.02", format!("{body}: the centre of gravity is at z = 0.02 m, {for_it} -0.02 m")),
+        (
+            "0 0 -0.02",
+            "0.1 0 -0.02",
+            format!("{body}: the centre of gravity is at x = 0.1 m, y = 0 m, but the hydrodynamic parameters have it"),
+        ),
+        ("ixz=\"0\"", "ixz=\"1\"", format!("{body}: ixz is 1 kg m2, {for_it} a hull with zero")),
+        (hull, "<sphere radius=\"-1\"/>", format!("{body}, collision 1: sphere radius must be > 0, got -1")),
+        (
+            hull,
+            "<sphere radius=\"1e3\"/>",
+            format!("{body}, collision 1: reaches 1000.0 m from the body's origin; at most 10 m"),
+        ),
+    ] {
+        assert!(GOOD.contains(from), "{from}");
+        refused(&GOOD.replace(from, to), &wanted);
+    }
 }
 
 /// A mass within 1 % of the parameters' is the vehicle's: it has that weight, and `check` reports it.
@@ -142,8 +122,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
     assert_eq!(built_in.doubts(), [""; 0]);
 
     let hull = heavy(&GOOD.replace("value=\"31.029385\"", "value=\"31.2\""));
-    assert_eq!(hull.coefficients().expect("a torpedo").mass_kg, 31.2);
-    assert_eq!(hull.coefficients().expect("a torpedo").rigid_mass()[(0, 0)], 31.2);
+    let c = hull.coefficients().expect("a torpedo");
+    assert_eq!((c.mass_kg, c.rigid_mass()[(0, 0)]), (31.2, 31.2));
     assert_eq!(
         hull.doubts(),
         ["weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
@@ -155,8 +135,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
             .replace("0 0 -0.02", "0.0001 0 -0.0201")
             .replace("ixy=\"0\"", "ixy=\"0.0005\""),
     );
-    assert_eq!(hull.coefficients().expect("a torpedo").inertia_kg_m2.y, 4.05);
-    assert_eq!(hull.coefficients().expect("a torpedo").z_g_m, 0.0201);
+    let c = hull.coefficients().expect("a torpedo");
+    assert_eq!((c.inertia_kg_m2.y, c.z_g_m), (4.05, 0.0201));
     assert_eq!(
         hull.doubts(),
         [
@@ -179,14 +159,8 @@ fn masses_of_all_links_add_up() {
         );
         parse(&GOOD.replace(link("rudder"), &fin))
     };
-    assert_eq!(
-        with("0.5").expect_err("1.6 % more"),
-        "/no/such/place/auv.urdf: link \"base_link\": <mass> is 31.529385 kg, but the hydrodynamic parameters are for 31.029 kg"
-    );
-    assert_eq!(
-        with("-1").expect_err("no mass"),
-        "/no/such/place/auv.urdf: link \"rudder\": <mass> must be >= 0 kg, got -1"
-    );
+    let said = with("0.5").expect_err("1.6 % more");
+    assert!(said.contains("<mass> is 31.529385 kg, but the hydrodynamic parameters are for 31.029 kg"), "{said}");
     let hull = with("0.005").expect("a small fin");
     assert!((hull.coefficients().expect("a torpedo").mass_kg - 31.034385).abs() < 1e-12);
     // 0.005 kg 0.8 m behind the middle, less the effect of the moved centre of gravity.
@@ -197,10 +171,7 @@ fn masses_of_all_links_add_up() {
 /// The weight is the URDF's: left alone under water, the heavier vehicle sinks.
 #[test]
 fn a_heavier_hull_sinks() {
-    let start = world::frames::Truth::at_rest(world::frames::Pose::level(
-        Vector3::new(0.0, 0.0, -50.0),
-        world::units::Heading::from_deg(0.0),
-    ));
+    let start = start(-50.0);
     let still = world::fields::WaterSample {
         velocity: Vector3::zeros(),
         gradient: nalgebra::Matrix3::zeros(),
@@ -221,25 +192,6 @@ fn a_heavier_hull_sinks() {
 }
 
 #[test]
-fn wrong_geometry_is_told() {
-    let hull = "<capsule radius=\"0.095\" length=\"1.41\"/>";
-    assert_eq!(
-        fails(hull, "<mesh filename=\"hull.stl\"/>"),
-        "/no/such/place/auv.urdf: link \"base_link\", collision 1: mesh \"hull.stl\": there is no such file"
-    );
-    assert_eq!(
-        fails(hull, "<sphere radius=\"-1\"/>"),
-        "/no/such/place/auv.urdf: link \"base_link\", collision 1: sphere radius must be > 0, got -1"
-    );
-    assert_eq!(
-        fails(hull, "<sphere radius=\"1e3\"/>"),
-        "/no/such/place/auv.urdf: link \"base_link\", collision 1: reaches 1000.0 m from the body's origin; at most 10 m"
-    );
-    let nose = "0.72 0 -0.06";
-    assert!(fails(nose, "0.72 NaN -0.06").ends_with("<origin> must be finite, got NaN"));
-}
-
-#[test]
 fn a_mesh_beside_the_urdf_becomes_a_hull() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
     let text =
@@ -247,11 +199,7 @@ fn a_mesh_beside_the_urdf_becomes_a_hull() {
     // The mesh lies beside the URDF, not beside the scenario.
     let files = InMemory::default().with("hulls/auv.urdf", text.as_bytes()).with("hulls/hull.obj", obj.as_bytes());
     let vehicle = remus("hulls/auv.urdf", &files).expect("a vehicle with a mesh");
-    let start = world::frames::Truth::at_rest(world::frames::Pose::level(
-        Vector3::zeros(),
-        world::units::Heading::from_deg(0.0),
-    ));
-    let (_, shape) = vehicle.body_spec("auv", start).shapes.remove(0);
+    let (_, shape) = vehicle.body_spec("auv", start(0.0)).shapes.remove(0);
     let Shape::Hull { points_m } = shape else {
         panic!("a hull of points, not {shape:?}");
     };

@@ -95,13 +95,6 @@ mod tests {
     }
 
     #[test]
-    fn the_visibility_asked_for_comes_back() {
-        for v in [0.5, 3.0, 8.0, 30.0, 60.0] {
-            assert!((water(v).unwrap().visibility_m() - v).abs() < 1e-12 * v);
-        }
-    }
-
-    #[test]
     fn daylight_falls_off_as_jerlov_has_it() {
         // Jerlov 1976, table XXVII, between its steps of 25 nm: at 495, 530, 565, 600 and 635 nm, 1/m.
         let table = [

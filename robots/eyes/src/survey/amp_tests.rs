@@ -3,7 +3,7 @@
 use crate::StandardEyes;
 use crate::testing::{seen, smelling};
 use nalgebra::{Vector2, Vector3};
-use robots::handoff::{Behaviour, Decision, Manoeuvre, Outcome, SidescanPing, Verdict, Vertical};
+use robots::handoff::{Behaviour, Decision, Manoeuvre, SidescanPing, Verdict, Vertical};
 use robots::strategy::{AfterDeclaration, Amp, AmpSpec, Strategy};
 use world::seeds::Stream;
 use world::units::Heading;
@@ -26,17 +26,15 @@ impl Desk {
         }
     }
 
-    /// A tick at a place, on a heading; during a survey the sidescan hears a bare bed if `sonar`.
-    fn tick(&mut self, p: Vector2<f64>, heading: Heading, smells: bool, arrived: bool, sonar: bool) -> Decision {
+    /// A tick at a place, on a heading; the sidescan hears a bare bed.
+    fn tick(&mut self, p: Vector2<f64>, heading: Heading, smells: bool, arrived: bool) -> Decision {
         self.t_s += 0.1;
         let mut o = smelling(seen(self.t_s, p, heading.deg(), Some(Vector2::new(0.0, -0.2))), smells);
         o.guidance.goal_id = self.goal_id;
         o.guidance.done = arrived;
-        if sonar {
-            let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
-            o.sidescan =
-                Some(SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level });
-        }
+        let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
+        o.sidescan =
+            Some(SidescanPing { p_BS: Vector3::zeros(), max_m: 20.0, port_db: level.clone(), starboard_db: level });
         let d = self.amp.step(&o, &mut self.rng);
         self.goal_id = d.goal.id;
         d
@@ -48,16 +46,16 @@ impl Desk {
         let north = Heading::from_deg(350.0);
         for k in 0..3 {
             let p = Vector2::new(0.0, f64::from(k));
-            self.tick(p, north, true, false, false);
+            self.tick(p, north, true, false);
             self.t_s += 6.0;
-            let d = self.tick(p, north, false, false, false);
+            let d = self.tick(p, north, false, false);
             assert_eq!(d.behaviour, Behaviour::TrackOut);
         }
-        self.tick(Vector2::new(0.0, 20.0), north, false, true, false)
+        self.tick(Vector2::new(0.0, 20.0), north, false, true)
     }
 
     /// Flies the lines of the survey until it ends.
-    fn survey(&mut self, mut d: Decision, sonar: bool) -> Decision {
+    fn survey(&mut self, mut d: Decision) -> Decision {
         for _ in 0..2 {
             let Manoeuvre::FollowLine { from, to } = d.goal.manoeuvre else {
                 panic!("a survey follows lines: {d:?}");
@@ -67,10 +65,10 @@ impl Desk {
             for k in 1..50 {
                 let p = from + (to - from) * (f64::from(k) / 50.0);
                 // Detections count nothing here.
-                d = self.tick(p, heading, true, false, sonar);
+                d = self.tick(p, heading, true, false);
                 assert_eq!((d.behaviour, d.declared), (Behaviour::Survey, None));
             }
-            d = self.tick(to, heading, false, true, sonar);
+            d = self.tick(to, heading, false, true);
         }
         d
     }
@@ -83,7 +81,7 @@ fn a_declaration_is_surveyed_and_rejected_where_there_is_nothing() {
     assert_eq!(first.behaviour, Behaviour::Survey);
     let declared = first.declared.unwrap();
     assert_eq!((declared.number, declared.verdict), (0, Verdict::Unchecked));
-    let end = desk.survey(first, true);
+    let end = desk.survey(first);
     let again = end.declared.unwrap();
     assert_eq!((again.number, again.verdict, again.surveyed), (0, Verdict::Rejected, None));
     assert_eq!(again.position, declared.position);
@@ -94,15 +92,4 @@ fn a_declaration_is_surveyed_and_rejected_where_there_is_nothing() {
     // The next one is another.
     let second = desk.declare();
     assert_eq!(second.declared.unwrap().number, 1);
-}
-
-#[test]
-fn unheard_it_goes_home_and_completes() {
-    let mut desk = Desk::new();
-    let first = desk.declare();
-    let end = desk.survey(first, false);
-    assert_eq!(end.declared.unwrap().verdict, Verdict::Unchecked);
-    assert_eq!((end.behaviour, end.picture), (Behaviour::GoHome, false));
-    let home = desk.tick(Vector2::new(10.0, -250.0), Heading::from_deg(180.0), false, true, false);
-    assert_eq!(home.outcome, Some(Outcome::Completed));
 }

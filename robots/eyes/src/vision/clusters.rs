@@ -103,16 +103,8 @@ mod tests {
         assert_eq!(got[1], Fate::OffPivot(distance([200, 0, 0], [255, 85, 0])));
         assert_eq!(got[2], Fate::OffReference(50.0));
         assert_eq!(got[3], Fate::Kept((400.0_f64 + 400.0 + 400.0).sqrt()));
-        assert_eq!(got.map_kept(), [true, false, false, true]);
-    }
-
-    trait KeptClusters {
-        fn map_kept(&self) -> Vec<bool>;
-    }
-    impl KeptClusters for Vec<Fate> {
-        fn map_kept(&self) -> Vec<bool> {
-            self.iter().map(|f| f.kept()).collect()
-        }
+        let kept: Vec<bool> = got.iter().map(|f| f.kept()).collect();
+        assert_eq!(kept, [true, false, false, true]);
     }
 
     /// A pattern at a limit stays ("greater than" drops): 40 farther from the reference, 45 from the pivot.

@@ -82,20 +82,19 @@ mod tests {
         assert!((got - want).abs() < 1e-9, "{got} against {want}");
     }
 
-    /// Equal colours: the whole triangle Matched, centroid ρ_M/3. Colours far apart: the whole of Unmatched.
+    /// Equal colours: the whole triangle Matched, centroid ρ_M/3. Colours far apart: the whole of Unmatched. Half Zero,
+    /// half Positive: both triangles cut at 1/2, so the middle of the range.
     #[test]
-    fn ends_are_the_centroids_of_the_triangles() {
-        let f = papers();
-        near(f.difference([0.0; 3]), 20.0 / 3.0);
-        near(f.difference([35.0, -35.0, 10.0]), 20.0 / 3.0);
-        near(f.difference([0.0, 0.0, 200.0]), 255.0 - 20.0 / 3.0);
-        near(f.difference([-255.0, 0.0, 0.0]), 255.0 - 20.0 / 3.0);
-    }
-
-    /// Half Zero, half Positive: both triangles cut at 1/2, so the middle of the range.
-    #[test]
-    fn half_way_is_the_middle() {
-        near(papers().difference([0.0, 117.5, 0.0]), 127.5);
+    fn ends_are_the_centroids_of_the_triangles_and_half_way_is_the_middle() {
+        for (d, want) in [
+            ([0.0; 3], 20.0 / 3.0),
+            ([35.0, -35.0, 10.0], 20.0 / 3.0),
+            ([0.0, 117.5, 0.0], 127.5),
+            ([0.0, 0.0, 200.0], 255.0 - 20.0 / 3.0),
+            ([-255.0, 0.0, 0.0], 255.0 - 20.0 / 3.0),
+        ] {
+            near(papers().difference(d), want);
+        }
     }
 
     /// 68 levels: w_m = 0.8, w_u = 0.2. A triangle of base ρ and height 1 cut at w has the area ρ(w − w²/2) and,

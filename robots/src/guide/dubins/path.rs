@@ -197,14 +197,8 @@ mod tests {
 
     #[test]
     fn straight_ahead_is_straight() {
-        let p = DubinsPath::shortest(
-            pose(0.0, 0.0, 30.0),
-            {
-                let u = Heading::from_deg(30.0).unit() * 100.0;
-                pose(u.x, u.y, 30.0)
-            },
-            15.0,
-        );
+        let end = Heading::from_deg(30.0).unit() * 100.0;
+        let p = DubinsPath::shortest(pose(0.0, 0.0, 30.0), pose(end.x, end.y, 30.0), 15.0);
         assert!((p.length_m() - 100.0).abs() < 1e-6);
     }
 

@@ -1,6 +1,6 @@
 use super::*;
-use crate::handoff::testing::{area, seen};
-use crate::handoff::{FlowEstimate, Vertical};
+use crate::handoff::testing::{area, seen, steered};
+use crate::handoff::{Setpoint, Vertical};
 use proptest::prelude::*;
 
 const DT_S: f64 = 0.1;
@@ -27,15 +27,11 @@ impl Boat {
         boat
     }
 
-    fn moves(&mut self, heading: Heading, water_speed: f64, dt_s: f64) {
-        let v = heading.unit() * water_speed + self.flow;
-        let right = heading.turned(std::f64::consts::FRAC_PI_2).unit();
+    fn moves(&mut self, heading: Heading, water_speed_m_s: f64, dt_s: f64) {
+        let set = Setpoint { heading, water_speed_m_s, vertical: Vertical::Altitude(2.0) };
+        let v = steered(&mut self.est, &set, self.flow);
         self.est.position += v * dt_s;
         self.est.t_s += dt_s;
-        self.est.attitude.heading = heading;
-        self.est.v_ground_body.x = v.dot(&heading.unit());
-        self.est.v_ground_body.y = -v.dot(&right);
-        self.est.flow = Some(FlowEstimate { velocity: self.flow, age_s: 0.0 });
     }
 
     fn step(&mut self, goal: &Goal) -> GuidanceStatus {

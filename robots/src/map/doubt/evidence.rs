@@ -249,13 +249,4 @@ mod tests {
         // A long time after it a reading is new.
         assert!((told(200.0, false, 0.5) - 0.5).abs() < 1e-9);
     }
-
-    #[test]
-    fn chances_that_say_nothing_are_refused() {
-        let doubt = DoubtSpec { missed: Fraction::new(1.0), ..DoubtSpec::default() };
-        let text = Evidence::new(Fraction::new(0.1), &doubt, 1.0).expect_err("refused").to_string();
-        assert_eq!(text, "map.doubt.missed: must be less than 1, got 1");
-        let text = Evidence::new(Fraction::new(0.0), &DoubtSpec::default(), 1.0).expect_err("refused").to_string();
-        assert_eq!(text, "map.false_detection: must be greater than 0 and less than 1, got 0");
-    }
 }

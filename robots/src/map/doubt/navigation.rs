@@ -166,6 +166,16 @@ mod tests {
         DoubtSpec { fix_m: NonNegative::new(fix_m), drift_m_s: NonNegative::new(drift_m_s), ..DoubtSpec::default() }
     }
 
+    /// A row of cells, an even map of it, and a block of readings with an error of two cells.
+    fn row() -> (Vec<f64>, Block) {
+        let grid = Arc::new(grid([41, 1, 1]));
+        let even = vec![0.0; 41];
+        let stated = NavigationError::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error");
+        let mut block = Block::new(stated, &grid, &even);
+        block.fixed(0.0, &even);
+        (even, block)
+    }
+
     #[test]
     fn weights_have_sum_and_variance_of_the_gaussian() {
         let mut w = Vec::new();
@@ -183,11 +193,7 @@ mod tests {
     /// itself.
     #[test]
     fn readings_of_a_block_share_their_error() {
-        let grid = Arc::new(grid([41, 1, 1]));
-        let even = vec![0.0; 41];
-        let stated = NavigationError::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error");
-        let mut block = Block::new(stated, &grid, &even);
-        block.fixed(0.0, &even);
+        let (even, mut block) = row();
         let near = |i: usize, c: f64| math::exp(-0.5 * (i as f64 - c) * (i as f64 - c)) + 1e-9;
         let [a, b] = [20.0, 21.0].map(|c| (0..41).map(|i| near(i, c)).collect::<Vec<f64>>());
         let mut ln_p = even.clone();
@@ -224,13 +230,9 @@ mod tests {
         assert!((stated.sigma_m(60.0) - 5.0).abs() < 1e-12);
         assert_eq!(NavigationError::from_doubt(&doubt(0.0, 0.0)), None);
         // Two blocks with the same reading: the second narrows what the first has left.
-        let grid = Arc::new(grid([41, 1, 1]));
-        let even = vec![0.0; 41];
-        let mut block =
-            Block::new(NavigationError::from_doubt(&doubt(2.0 * grid.cell_m[0], 0.0)).expect("an error"), &grid, &even);
+        let (even, mut block) = row();
         let one: Vec<f64> = (0..41).map(|i| if i == 20 { 1.0 } else { 1e-9 }).collect();
-        let mut ln_p = even.clone();
-        block.fixed(0.0, &even);
+        let mut ln_p = even;
         block.update(1.0, &one, 1.0, &mut ln_p);
         block.update(2.0, &one, 1.0, &mut ln_p);
         let ratio = ln_p[20] - ln_p[22];

@@ -12,15 +12,18 @@ use proptest::prelude::*;
 use world::math;
 use world::ranges::Positive;
 
+/// Cells down to 10 m.
+fn cells([along, across, vertical]: [u32; 3]) -> GridSpec {
+    GridSpec { along, across, vertical, bottom_depth_m: Some(Positive::new(10.0)), ..GridSpec::default() }
+}
+
+fn build(spec: &HmmSpec) -> Hmm {
+    Hmm::new(spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper")
+}
+
 fn hmm(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
-    let spec = HmmSpec {
-        grid: GridSpec {
-            along: n[0],
-            across: n[1],
-            vertical: n[2],
-            bottom_depth_m: Some(Positive::new(10.0)),
-            ..GridSpec::default()
-        },
+    let mut hmm = build(&HmmSpec {
+        grid: cells(n),
         trajectory: TrajectorySpec {
             sigma_x_m_rts: Positive::new(sigma),
             sigma_y_m_rts: Positive::new(0.7 * sigma),
@@ -29,9 +32,7 @@ fn hmm(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
             ..TrajectorySpec::default()
         },
         ..HmmSpec::default()
-    };
-    let grid = spec.grid.build(&paper_area()).expect("grid");
-    let mut hmm = Hmm::new(&spec, grid).expect("mapper");
+    });
     for u in flows {
         hmm.push_step(&[*u]);
     }
@@ -157,19 +158,7 @@ fn odour_came_up_the_flow_from_the_age_that_fits() {
 
 #[test]
 fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
-    let spec = HmmSpec {
-        grid: GridSpec {
-            along: 4,
-            across: 4,
-            vertical: 5,
-            bottom_depth_m: Some(Positive::new(10.0)),
-            ..GridSpec::default()
-        },
-        sheared: true,
-        ..HmmSpec::default()
-    };
-    let grid = spec.grid.build(&paper_area()).expect("grid");
-    let mut hmm = Hmm::new(&spec, grid).expect("mapper");
+    let mut hmm = build(&HmmSpec { grid: cells([4, 4, 5]), sheared: true, ..HmmSpec::default() });
     // Two seconds near the surface, two near the bed, in opposite flows.
     for (t, z, u) in [(0.0, -1.0, 30.0), (1.0, -1.0, 30.0), (2.0, -9.0, 30.0), (3.0, -9.0, -30.0), (4.0, -9.0, -30.0)] {
         hmm.step(&MapObservation {
@@ -199,7 +188,6 @@ fn the_chain_is_as_long_as_the_look_back() {
 #[test]
 fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
     let spec = HmmSpec { odour_every_s: Some(Positive::new(10.0)), walk_steps: 6, ..HmmSpec::default() };
-    let build = |spec: &HmmSpec| Hmm::new(spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
     let (mut asked, mut silent) = (build(&spec), build(&HmmSpec::default()));
     let mut times = Vec::new();
     for t in 0..60 {
@@ -232,7 +220,7 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
 #[test]
 fn odour_at_the_vehicles_place_stands_for_a_cell() {
     let make = |n: [u32; 2], places: u32| {
-        let spec = HmmSpec {
+        let mut hmm = build(&HmmSpec {
             grid: GridSpec { along: n[0], across: n[1], places, ..GridSpec::default() },
             trajectory: TrajectorySpec {
                 sigma_x_m_rts: Positive::new(4.0),
@@ -242,8 +230,7 @@ fn odour_at_the_vehicles_place_stands_for_a_cell() {
                 ..TrajectorySpec::default()
             },
             ..HmmSpec::default()
-        };
-        let mut hmm = Hmm::new(&spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
+        });
         for u in [[9.0, 1.0], [11.0, -4.0], [7.0, 3.0]] {
             hmm.push_step(&[u]);
         }

@@ -36,7 +36,7 @@ fn the_map_is_that_of_the_equations_written_out() {
     let grid = f.with.grid.clone();
     f.kernel = Kernel::new(&grid, &f.spec.trajectory);
     f.with.watch.history = f.spec.trajectory.history(1.0);
-    let mut plume = testing::ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
+    let mut plume = testing::ToyPlume::slow();
     let mut detections = 0;
     for t in 1..=300 {
         let seen = plume.seen(f64::from(t));
@@ -79,13 +79,4 @@ fn roughened_particles_stay_in_the_area() {
     }
     assert!((within(-3.0, 100.0) - 3.0).abs() < 1e-12);
     assert!((within(103.0, 100.0) - 97.0).abs() < 1e-12);
-}
-
-#[test]
-fn a_number_out_of_range_is_refused() {
-    let spec = ParticleFilterSpec { particles: 3, ..ParticleFilterSpec::default() };
-    let grid = spec.grid.build(&testing::paper_area()).expect("grid");
-    let e = ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map"));
-    let text = e.expect_err("three are too few").to_string();
-    assert_eq!(text, "map.particles: must be from 10 to 100000, got 3");
 }

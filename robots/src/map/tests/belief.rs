@@ -1,18 +1,12 @@
 //! Beliefs stay beliefs: sums, hours of updates, memory, and no preferred place or direction.
 
-use crate::map::bayesian::BayesianSpec;
-use crate::map::catalogue::MapSpec;
-use crate::map::hmm::HmmSpec;
-use crate::map::kernel::Kernel;
 use crate::map::kernel::flow_history::FlowHistory;
 use crate::map::log_belief::LogBelief;
 use crate::map::mapper::Mapper;
 use crate::map::over_cells::OverCells;
-use crate::map::particle_filter::ParticleFilterSpec;
 use crate::map::pomdp;
-use crate::map::pomdp::PomdpSpec;
 use crate::map::spec::{GridSpec, TrajectorySpec};
-use crate::map::testing::{grid, p_by_hand, paper_area};
+use crate::map::testing::{build, every, grid, p_by_hand, paper_area};
 use crate::map::watch::MapObservation;
 use crate::map::workings::CellsSpec;
 use nalgebra::{Rotation2, Vector2, Vector3};
@@ -22,33 +16,18 @@ use world::ranges::{Fraction, NonNegative, Positive};
 use world::seeds::Stream;
 use world::units::Heading;
 
-pub(super) fn all(grid: &GridSpec, trajectory: &TrajectorySpec, particles: u32) -> [MapSpec; 4] {
-    let (grid, trajectory) = (grid.clone(), trajectory.clone());
-    [
-        MapSpec::new(PomdpSpec(CellsSpec {
-            grid: grid.clone(),
-            trajectory: trajectory.clone(),
-            ..CellsSpec::default()
-        })),
-        MapSpec::new(BayesianSpec(CellsSpec {
-            grid: grid.clone(),
-            trajectory: trajectory.clone(),
-            ..CellsSpec::default()
-        })),
-        MapSpec::new(HmmSpec { grid: grid.clone(), trajectory: trajectory.clone(), ..HmmSpec::default() }),
-        MapSpec::new(ParticleFilterSpec { grid, trajectory, particles, ..ParticleFilterSpec::default() }),
-    ]
-}
-
-fn small() -> (GridSpec, TrajectorySpec) {
-    let grid = GridSpec { along: 7, across: 6, ..GridSpec::default() };
-    let trajectory = TrajectorySpec {
-        lookback_s: Positive::new(20.0),
-        sigma_x_m_rts: Positive::new(2.0),
-        sigma_y_m_rts: Positive::new(2.0),
-        ..TrajectorySpec::default()
-    };
-    (grid, trajectory)
+fn small() -> CellsSpec {
+    let sigma = Positive::new(2.0);
+    CellsSpec {
+        grid: GridSpec { along: 7, across: 6, ..GridSpec::default() },
+        trajectory: TrajectorySpec {
+            lookback_s: Positive::new(20.0),
+            sigma_x_m_rts: sigma,
+            sigma_y_m_rts: sigma,
+            ..TrajectorySpec::default()
+        },
+        ..CellsSpec::default()
+    }
 }
 
 fn random_walk(rng: &mut Stream, n: u32) -> MapObservation {
@@ -71,19 +50,14 @@ fn assert_sound(mapper: &dyn Mapper, what: &str) {
 
 #[test]
 fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
-    let (grid, trajectory) = small();
-    for spec in all(&grid, &trajectory, 200) {
-        // The particle filter takes one exponential per particle and release, so this test uses fewer of both.
-        let spec = match spec.get::<ParticleFilterSpec>() {
-            Some(p) => MapSpec::new(ParticleFilterSpec {
-                particles: 20,
-                trajectory: TrajectorySpec { lookback_s: Positive::new(4.0), ..trajectory.clone() },
-                ..p.clone()
-            }),
-            None => spec,
-        };
+    // The particle filter takes one exponential per particle and release, so here it has fewer of both.
+    let mut short = small();
+    short.trajectory.lookback_s = Positive::new(4.0);
+    let [pomdp, bayesian, hmm, _] = every(&small(), 20);
+    let [.., particles] = every(&short, 20);
+    for spec in [pomdp, bayesian, hmm, particles] {
         let mut rng = Stream::new(3, "auv0", "walk");
-        let mut mapper = spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("mapper");
+        let mut mapper = build(&spec);
         for n in 0..100_002 {
             mapper.step(&random_walk(&mut rng, n));
         }
@@ -94,10 +68,9 @@ fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
 
 #[test]
 fn an_hour_without_a_detection_or_with_nothing_else_does_not_underflow() {
-    let trajectory = TrajectorySpec::default();
     for detected in [false, true] {
-        for spec in all(&GridSpec::default(), &trajectory, 200) {
-            let mut mapper = spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("mapper");
+        for spec in every(&CellsSpec::default(), 200) {
+            let mut mapper = build(&spec);
             for n in 0..3600 {
                 let t = f64::from(n);
                 mapper.step(&MapObservation {
@@ -147,13 +120,8 @@ fn numbers_of_a_map_by_hand() {
 /// The filter's belief is Bayes' rule with the products written out, update by update.
 #[test]
 fn the_pomdp_map_equals_a_brute_force_product() {
-    let (grid_spec, trajectory) = small();
-    let spec = CellsSpec {
-        grid: grid_spec,
-        trajectory: TrajectorySpec { merge: Fraction::new(0.0), ..trajectory.clone() },
-        false_detection: Fraction::new(1e-3),
-        ..CellsSpec::default()
-    };
+    let mut spec = CellsSpec { false_detection: Fraction::new(1e-3), ..small() };
+    spec.trajectory.merge = Fraction::new(0.0);
     let grid = Arc::new(spec.grid.build(&paper_area()).expect("grid"));
     let mut mapper = OverCells::new(&spec, (*grid).clone(), pomdp::weigh).expect("mapper");
     let mut history = FlowHistory::new(1.0, 20.0, true);
@@ -173,7 +141,7 @@ fn the_pomdp_map_equals_a_brute_force_product() {
         };
         detections += usize::from(detected);
         let at = grid.cell(&seen.p_W).expect("inside");
-        let p = p_by_hand(&grid, &trajectory, &history, at);
+        let p = p_by_hand(&grid, &spec.trajectory, &history, at);
         for (i, b) in by_hand.iter_mut().enumerate() {
             let gamma: f64 = p.iter().map(|l| 1.0 - 0.9 * l[i]).product();
             *b *= if detected { 1e-3 + (1.0 - 1e-3) * (1.0 - gamma) } else { gamma };
@@ -193,13 +161,12 @@ fn the_pomdp_map_equals_a_brute_force_product() {
 
 #[test]
 fn neither_place_nor_direction_of_the_area_matters() {
-    let trajectory = TrajectorySpec::default();
     let here = paper_area();
     let shift = Vector2::new(3000.0, -700.0);
     // Turning the axis from 90° to 30° is a turn of 60° to the left.
     let turn = Rotation2::new(60.0_f64.to_radians());
     let there = Area { centre: turn * here.centre + shift, axis: Heading::from_deg(30.0), ..here };
-    for spec in all(&GridSpec::default(), &trajectory, 200) {
+    for spec in every(&CellsSpec::default(), 200) {
         let build = |area: &Area| spec.build(area, Stream::new(3, "auv0", "map")).expect("mapper");
         let (mut a, mut b) = (build(&here), build(&there));
         let mut rng = Stream::new(4, "auv0", "walk");
@@ -220,37 +187,20 @@ fn neither_place_nor_direction_of_the_area_matters() {
 }
 
 #[test]
-fn memory_is_bounded_by_the_look_back() {
-    let spec = TrajectorySpec { lookback_s: Positive::new(100.0), ..TrajectorySpec::default() };
-    let grid = Arc::new(grid([10, 10, 1]));
-    let mut kernel = Kernel::new(&grid, &spec);
-    let mut history = FlowHistory::new(1.0, 100.0, true);
-    for n in 0..20_000 {
-        history.record(f64::from(n) * 0.5, Some([0.1, 0.0]));
-        if n % 100 == 99 {
-            kernel.aim(&history, 55);
-            assert!(kernel.sets() <= 100 && history.len() <= 102);
-        }
-    }
-}
-
-#[test]
 fn odd_grids_are_refused_with_the_legal_range() {
-    let area = paper_area();
-    let of = |g: GridSpec| g.build(&area).expect_err("refused").to_string();
+    let of = |g: GridSpec| g.build(&paper_area()).expect_err("refused").to_string();
     let d = GridSpec::default;
-    assert_eq!(of(GridSpec { along: 0, ..d() }), "map.grid.along: must be at least 1, got 0");
-    assert_eq!(
-        of(GridSpec { vertical: 5, ..d() }),
-        "map.grid.bottom_depth_m: must be given when vertical is more than 1"
-    );
     let upside_down = GridSpec { top_depth_m: NonNegative::new(5.0), bottom_depth_m: Some(Positive::new(2.0)), ..d() };
-    assert_eq!(of(upside_down), "map.grid.bottom_depth_m: must be greater than top_depth_m, 5, got 2");
-    let huge = GridSpec { along: 4000, across: 4000, ..d() };
-    assert_eq!(of(huge), "map.grid: must have at most 1000000 cells, got 16000000");
     let short = TrajectorySpec { lookback_s: Positive::new(0.5), ..TrajectorySpec::default() };
-    assert_eq!(
-        short.check().expect_err("refused").to_string(),
-        "map.trajectory.lookback_s: must hold from 1 to 100000 releases, 1 s apart, got 0.5"
-    );
+    let particles = every(&small(), 3)[3].build(&paper_area(), Stream::new(3, "auv0", "map"));
+    for (said, wanted) in [
+        (of(GridSpec { along: 0, ..d() }), "map.grid.along: must be at least 1, got 0"),
+        (of(GridSpec { vertical: 5, ..d() }), "map.grid.bottom_depth_m: must be given when vertical is more than 1"),
+        (of(upside_down), "map.grid.bottom_depth_m: must be greater than top_depth_m, 5, got 2"),
+        (of(GridSpec { along: 4000, across: 4000, ..d() }), "map.grid: must have at most 1000000 cells, got 16000000"),
+        (short.check().expect_err("refused").to_string(), "map.trajectory.lookback_s: must hold from 1 to 100000"),
+        (particles.expect_err("refused").to_string(), "map.particles: must be from 10 to 100000, got 3"),
+    ] {
+        assert!(said.starts_with(wanted), "{said}");
+    }
 }

@@ -1,15 +1,13 @@
 //! What a map may doubt: places within a cell, strength and size of releases, errors of navigation and of the flow,
 //! readings that repeat each other.
 
-use crate::map::bayesian::BayesianSpec;
 use crate::map::catalogue::MapSpec;
 use crate::map::doubt::evidence::{DoubtSpec, Repeats};
 use crate::map::hmm::HmmSpec;
 use crate::map::mapper::Mapper;
-use crate::map::particle_filter::ParticleFilterSpec;
 use crate::map::pomdp::PomdpSpec;
 use crate::map::spec::{GridSpec, TrajectorySpec};
-use crate::map::testing::{ToyPlume, grid, paper_area};
+use crate::map::testing::{ToyPlume, build, every, grid, paper_area};
 use crate::map::watch::MapObservation;
 use crate::map::workings::CellsSpec;
 use nalgebra::{Vector2, Vector3};
@@ -44,33 +42,8 @@ fn doubtful() -> DoubtSpec {
     }
 }
 
-fn build(spec: &MapSpec) -> Box<dyn Mapper> {
-    spec.build(&paper_area(), Stream::new(3, "auv0", "map")).expect("legal")
-}
-
 fn pomdp(spec: &CellsSpec) -> Box<dyn Mapper> {
     build(&MapSpec::new(PomdpSpec(spec.clone())))
-}
-
-fn every(spec: &CellsSpec) -> [MapSpec; 4] {
-    let (grid, trajectory, doubt) = (&spec.grid, &spec.trajectory, &spec.doubt);
-    [
-        MapSpec::new(PomdpSpec(spec.clone())),
-        MapSpec::new(BayesianSpec(spec.clone())),
-        MapSpec::new(HmmSpec {
-            grid: grid.clone(),
-            trajectory: trajectory.clone(),
-            doubt: doubt.clone(),
-            ..HmmSpec::default()
-        }),
-        MapSpec::new(ParticleFilterSpec {
-            grid: grid.clone(),
-            trajectory: trajectory.clone(),
-            doubt: doubt.clone(),
-            particles: 300,
-            ..ParticleFilterSpec::default()
-        }),
-    ]
 }
 
 fn refused(spec: &MapSpec) -> String {
@@ -97,9 +70,9 @@ fn every_map_with_every_doubt_stays_a_belief() {
     spec.trajectory.merge = Fraction::new(0.3);
     spec.trajectory.initial_m = NonNegative::new(0.5);
     spec.doubt = doubtful();
-    for map in every(&spec) {
+    for map in every(&spec, 300) {
         let mut mapper = build(&map);
-        let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
+        let mut plume = ToyPlume::slow();
         for t in 1..=240 {
             mapper.step(&MapObservation { fixed: t % 30 == 0, ..plume.seen(f64::from(t)) });
             let b = mapper.belief();
@@ -161,7 +134,7 @@ fn strengths_are_weighted_by_what_they_predict() {
         let mut spec = plain();
         spec.doubt.strengths = strengths.iter().map(|s| Positive::new(*s)).collect();
         let mut mapper = pomdp(&spec);
-        let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
+        let mut plume = ToyPlume::slow();
         for t in 1..=120 {
             mapper.step(&plume.seen(f64::from(t)));
         }
@@ -206,7 +179,7 @@ fn an_error_that_readings_share_widens_the_map() {
         spec.grid.places = 3;
         spec.doubt.fix_m = NonNegative::new(fix_m);
         let mut mapper = pomdp(&spec);
-        let mut plume = ToyPlume::new([20.0, 40.0].into(), |_| [0.6, 0.05].into(), 4);
+        let mut plume = ToyPlume::slow();
         for t in 0..=100 {
             mapper.step(&MapObservation { fixed: t == 5, ..plume.seen(f64::from(t)) });
         }
@@ -219,30 +192,42 @@ fn an_error_that_readings_share_widens_the_map() {
 
 #[test]
 fn odd_doubts_are_refused_with_the_legal_range() {
-    let mut spec = plain();
-    spec.grid.places = 2;
-    let says = "map.grid.places: must be odd and from 1 to 9, got 2";
-    for map in every(&spec) {
-        assert_eq!(refused(&map), says);
+    let cells = |change: &dyn Fn(&mut CellsSpec)| {
+        let mut spec = plain();
+        change(&mut spec);
+        every(&spec, 300).to_vec()
+    };
+    let first = |change: &dyn Fn(&mut CellsSpec)| cells(change)[..1].to_vec();
+    let hmm = |change: &dyn Fn(&mut HmmSpec)| {
+        let mut spec = HmmSpec::default();
+        change(&mut spec);
+        vec![MapSpec::new(spec)]
+    };
+    let m = Positive::new;
+    for (maps, says) in [
+        (cells(&|s| s.grid.places = 2), "map.grid.places: must be odd and from 1 to 9, got 2"),
+        (
+            first(&|s| (s.grid.places, s.grid.along) = (9, 2000)),
+            "map.grid: must have at most 1000000 places, got 1620000",
+        ),
+        (
+            cells(&|s| s.doubt.strengths = vec![m(1.0), m(1e3)]),
+            "map.doubt.strengths: must be from 0.01 to 100 each, got 1000",
+        ),
+        (first(&|s| s.doubt.strengths = vec![m(1.0); 10]), "map.doubt.strengths: must be at most 9, got 10"),
+        (cells(&|s| s.doubt.missed = Fraction::new(1.0)), "map.doubt.missed: must be less than 1, got 1"),
+        (
+            first(&|s| s.false_detection = Fraction::new(0.0)),
+            "map.false_detection: must be greater than 0 and less than 1, got 0",
+        ),
+        (
+            hmm(&|s| (s.odour_every_s, s.grid.places) = (Some(m(60.0)), 3)),
+            "map.odour_every_s: must not be given with grid.places 3",
+        ),
+        (hmm(&|s| s.trajectory.initial_m = NonNegative::new(1e4)), "map.trajectory.initial_m: must be at most "),
+    ] {
+        for map in maps {
+            assert!(refused(&map).starts_with(says), "{}", refused(&map));
+        }
     }
-    spec.grid.places = 9;
-    spec.grid.along = 2000;
-    let says = "map.grid: must have at most 1000000 places, got 1620000";
-    assert_eq!(refused(&MapSpec::new(PomdpSpec(spec))), says);
-    let mut spec = plain();
-    spec.doubt.strengths = vec![Positive::new(1.0), Positive::new(1e3)];
-    let says = "map.doubt.strengths: must be from 0.01 to 100 each, got 1000";
-    for map in every(&spec) {
-        assert_eq!(refused(&map), says);
-    }
-    spec.doubt.strengths = vec![Positive::new(1.0); 10];
-    let says = "map.doubt.strengths: must be at most 9, got 10";
-    assert_eq!(refused(&MapSpec::new(PomdpSpec(spec))), says);
-    let mut hmm = HmmSpec { odour_every_s: Some(Positive::new(60.0)), ..HmmSpec::default() };
-    hmm.grid.places = 3;
-    let says = "map.odour_every_s: must not be given with grid.places 3: odour is shown for one place in a cell";
-    assert_eq!(refused(&MapSpec::new(hmm)), says);
-    let mut hmm = HmmSpec::default();
-    hmm.trajectory.initial_m = NonNegative::new(1e4);
-    assert!(refused(&MapSpec::new(hmm)).starts_with("map.trajectory.initial_m: must be at most "));
 }

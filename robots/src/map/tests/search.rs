@@ -1,11 +1,9 @@
 //! Each mapper finds the source of a small plume that differs from its own model.
 
-use super::belief::all;
-use crate::map::spec::{GridSpec, TrajectorySpec};
-use crate::map::testing::{ToyPlume, paper_area};
+use crate::map::testing::{ToyPlume, build, every};
+use crate::map::workings::CellsSpec;
 use nalgebra::Vector2;
 use world::ranges::Positive;
-use world::seeds::Stream;
 
 /// The paper's source, cell (8, 12).
 fn source() -> Vector2<f64> {
@@ -22,11 +20,12 @@ fn swinging(t_s: f64) -> Vector2<f64> {
 
 #[test]
 fn the_source_is_found_in_steady_and_in_swinging_flow() {
-    let trajectory = TrajectorySpec { lookback_s: Positive::new(150.0), ..TrajectorySpec::default() };
+    let mut spec = CellsSpec::default();
+    spec.trajectory.lookback_s = Positive::new(150.0);
     for flow in [steady as fn(f64) -> Vector2<f64>, swinging] {
-        for spec in all(&GridSpec::default(), &trajectory, 1000) {
+        for spec in every(&spec, 1000) {
             let mut plume = ToyPlume::new(source(), flow, 11);
-            let mut mapper = spec.build(&paper_area(), Stream::new(1, "auv0", "map")).expect("mapper");
+            let mut mapper = build(&spec);
             let first = mapper.belief().entropy_nat;
             for n in 0..600 {
                 mapper.step(&plume.seen(f64::from(n)));

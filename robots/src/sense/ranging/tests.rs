@@ -1,25 +1,13 @@
 //! Tests of the forward ranging.
 
-use super::super::testing::{BED, assert_normal, at, nose_up, run};
+use super::super::testing::{BED, assert_normal, at, nose_up, run, slope};
 use super::*;
-use nalgebra::Vector2;
-use std::path::Path;
-use world::obstacles::{Base, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg};
+use crate::handoff::testing::block;
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
-use world::units::Heading;
 
 fn pile(east_m: f64, north_m: f64) -> Obstacles {
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "pile".into(),
-        shape: ShapeSpec::Cylinder(CylinderShape { radius_m: Positive::new(0.5), height_m: Positive::new(8.0) }),
-        east_m: Finite::new(east_m),
-        north_m: Finite::new(north_m),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacles(vec![Obstacle::build(&spec, &BED, Path::new(".")).unwrap()])
+    Obstacles(vec![block(&BED, "pile", [east_m, north_m], [1.0, 1.0, 8.0])])
 }
 
 fn ranging(spec: RangingSpec) -> Ranging {
@@ -74,13 +62,7 @@ fn noise_and_dropout_are_those_asked_for() {
 
 #[test]
 fn beams_that_look_down_end_on_the_bed() {
-    let slope = Terrain::Slope {
-        middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(0.0).unit(),
-        shallow_m: 4.0,
-        deep_m: 14.0,
-        run_m: 100.0,
-    };
+    let slope = slope(0.0, 9.0);
     let fan = RangingSpec { rows: 5, height_deg: NonNegative::new(40.0), ..quiet() };
     for truth in [at(0.0, 0.0, -5.0), nose_up(at(0.0, 0.0, -5.0), -10.0)] {
         let scan = ping(fan.clone(), &truth, &Obstacles::default(), &slope);
@@ -98,16 +80,4 @@ fn beams_that_look_down_end_on_the_bed() {
         }
         assert!(met > 40, "{met}");
     }
-}
-
-#[test]
-fn impossible_fans_are_refused() {
-    let says = |spec: RangingSpec| {
-        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
-    };
-    assert!(says(RangingSpec { beams: 0, ..quiet() }).starts_with("sensors.ranging.beams: must be at least 1"));
-    assert!(says(RangingSpec { beams: 200, rows: 200, ..quiet() }).contains("at most 1024"));
-    assert!(says(RangingSpec { width_deg: NonNegative::new(400.0), ..quiet() }).contains("from 0 to 360"));
-    assert!(says(RangingSpec { min_range_m: NonNegative::new(40.0), ..quiet() }).contains("greater than min_range_m"));
-    assert!(says(RangingSpec { rate_hz: Positive::new(80.0), ..quiet() }).contains("at most 50 Hz"));
 }

@@ -1,12 +1,10 @@
 //! Tests of the sidescan sonar.
 
-use super::super::testing::{BED, at, bare, run};
+use super::super::testing::{BED, at, bare, run, slope};
 use super::*;
 use crate::handoff::testing;
-use nalgebra::Vector2;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
-use world::units::Heading;
 
 /// A block of a metre on the bed.
 fn block(east_m: f64, north_m: f64, bed: &Terrain) -> Obstacles {
@@ -103,13 +101,7 @@ fn speckle_is_rayleigh_in_amplitude() {
 #[test]
 fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
     // Rising to the east by one in ten.
-    let slope = Terrain::Slope {
-        middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(90.0).unit(),
-        shallow_m: 3.0,
-        deep_m: 13.0,
-        run_m: 100.0,
-    };
+    let slope = slope(90.0, 8.0);
     let bare = mean(&low(), &Obstacles::default(), &slope, 400);
     let level = mean(&low(), &Obstacles::default(), &BED, 400);
     // At 15 m the ray meets the rising bed at a greater angle: sin of asin(1.99 / 15) against 2 / 15 is the same, but
@@ -132,15 +124,4 @@ fn off_a_survey_it_is_silent_unless_told() {
         s.read(&Clock::new(0.02), &t, &bare(&BED), surveying).is_some()
     };
     assert_eq!([read(false, false), read(false, true), read(true, false)], [false, true, true]);
-}
-
-#[test]
-fn what_cannot_be_is_refused() {
-    let says = |spec: SidescanSpec| {
-        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("impossible").to_string()
-    };
-    let default = SidescanSpec::default;
-    assert!(says(SidescanSpec { samples: 0, ..default() }).contains("from 1 to 4096"));
-    assert!(says(SidescanSpec { rate_hz: Positive::new(40.0), ..default() }).contains("at most 37.5 Hz"));
-    assert!(says(SidescanSpec { tilt_deg: NonNegative::new(100.0), ..default() }).contains("at most 90"));
 }

@@ -8,5 +8,3 @@ pub use spec::{AmpSpec, Detections, StartAt};
 
 #[cfg(test)]
 mod switch_tests;
-#[cfg(test)]
-mod trial_tests;

@@ -354,11 +354,6 @@ impl Strategy for MapAndPlan {
 
 #[cfg(test)]
 impl MapAndPlan {
-    /// How far the newest path leads.
-    pub(super) fn reach(&self) -> Option<crate::plan::Reach> {
-        self.pilot.reach()
-    }
-
     /// Cells that were sensed to be solid.
     pub(super) fn sensed(&self) -> usize {
         self.pilot.room().sensed()

@@ -129,12 +129,6 @@ impl Pilot {
         self.follow.as_ref().map(|f| f.points().to_vec()).unwrap_or_default()
     }
 
-    /// How far the newest path leads.
-    #[cfg(test)]
-    pub(super) fn reach(&self) -> Option<Reach> {
-        self.reach
-    }
-
     /// Forgets the path.
     pub(super) fn drop_path(&mut self) {
         self.follow = None;

@@ -4,10 +4,9 @@ use super::super::setting::Setting;
 use super::super::survey::AfterDeclaration;
 use super::super::wishes::VerticalSpec;
 use super::*;
-use crate::handoff::testing::seen;
+use crate::handoff::testing::{seen, sure_of};
 use crate::handoff::{Beam, Behaviour, Belief, BeliefGrid, Manoeuvre, Observation, Outcome, RangeScan, Vertical};
 use crate::plan::testing::block;
-use crate::plan::{PlannerSpec, PotentialFieldParams, Reach};
 use crate::strategy::testing::{Blind, Ticked};
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
@@ -36,32 +35,11 @@ fn spec() -> MapAndPlanSpec {
     }
 }
 
-/// A map whose source is in the cell of a point.
-fn belief(at: Vector3<f64>, updates: u64) -> Belief {
-    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 1]);
+/// A map over so many levels whose source is in the cell of a point.
+fn belief(at: Vector3<f64>, levels: usize) -> Belief {
+    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, levels]);
     let best = grid.cell(&at).expect("inside");
-    let mut p = vec![0.5 / 999.0; 1000];
-    p[best] = 0.5;
-    Belief {
-        t_s: 0.0,
-        updates,
-        informed: true,
-        grid: Arc::new(grid),
-        p: Arc::new(p),
-        best,
-        entropy_nat: 4.0,
-        credible_95: 9000.0,
-        odour: None,
-    }
-}
-
-/// The same with four levels of 2 m.
-fn belief_of_space(at: Vector3<f64>) -> Belief {
-    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 4]);
-    let best = grid.cell(&at).expect("inside");
-    let mut p = vec![1e-4; grid.len()];
-    p[best] = 0.6;
-    Belief { grid: Arc::new(grid), p: Arc::new(p), best, ..belief(at, 1) }
+    sure_of(grid, best, 0.6)
 }
 
 /// The vehicle on its own.
@@ -188,26 +166,6 @@ fn what_no_chart_has_the_ranging_finds() {
 }
 
 #[test]
-fn the_potential_field_stays_in_the_dead_end_that_a_star_leaves() {
-    let u = || {
-        vec![
-            block("back", 41.5, 50.0, [3.0, 34.0, 8.0]),
-            block("north", 53.0, 65.5, [20.0, 3.0, 8.0]),
-            block("south", 53.0, 34.5, [20.0, 3.0, 8.0]),
-        ]
-    };
-    let field = MapAndPlanSpec { planner: PlannerSpec::new(PotentialFieldParams::default()), ..spec() };
-    for (spec, comes) in [(spec(), true), (field, false)] {
-        let mut d = Drive::new(&spec, u(), u(), [85.0, 48.0], 270.0);
-        d.belief = Some(belief(Vector3::new(21.25, 50.0, -4.0), 1));
-        d.step();
-        assert_eq!(matches!(d.strategy.reach(), Some(Reach::Caught(_))), !comes);
-        let (_, closest) = d.run(150.0, [21.25, 50.0]);
-        assert_eq!(closest < 6.0, comes, "{closest}");
-    }
-}
-
-#[test]
 fn a_cell_that_is_solid_through_and_through_is_no_target() {
     let mut d = Drive::new(&spec(), vec![papers_block()], vec![papers_block()], [80.0, 20.0], 0.0);
     // The second likeliest cell is that of the source.
@@ -245,7 +203,7 @@ fn goes_up_and_down_in_a_room_of_space() {
     // A sill from side to side, 4 m high on a bed 8 m deep.
     let sill = || vec![block("sill", 50.0, 50.0, [6.0, 100.0, 3.0])];
     let mut d = Drive::new(&spec, sill(), sill(), [90.0, 50.0], 270.0);
-    d.belief = Some(belief_of_space(Vector3::new(21.25, 50.0, -5.0)));
+    d.belief = Some(belief(Vector3::new(21.25, 50.0, -5.0), 4));
     let first = d.step();
     assert_eq!(first.behaviour, Behaviour::FollowPath);
     let over = first.shown.planned.iter().filter(|p| (p.x - 50.0).abs() < 3.0).map(|p| p.z);
@@ -261,7 +219,7 @@ fn a_map_of_space_declares_a_height_and_a_flat_one_does_not() {
         d.belief = Some(belief);
         d.run(300.0, [31.25, 50.0]).0.declared.expect("declared").z_m
     };
-    assert_eq!(declared(belief_of_space(at)), Some(-5.0));
+    assert_eq!(declared(belief(at, 4)), Some(-5.0));
     assert_eq!(declared(belief(at, 1)), None);
 }
 

@@ -1,17 +1,16 @@
 //! The switching between subregions, with observations written by hand.
 
 use super::{EdgeSpec, Entry, GridSpec, RegionsSpec, Subregions, SubregionsSpec};
-use crate::handoff::testing::{seen, smelling};
-use crate::handoff::{Behaviour, Goal, Manoeuvre, Outcome, RegionState};
-use crate::strategy::testing::Ticked;
-use crate::strategy::testing::setting;
+use crate::handoff::testing::seen;
+use crate::handoff::{Behaviour, Outcome, RegionState};
+use crate::strategy::testing::{Desk, Ticked, point_of, setting};
 use crate::strategy::{AmpSpec, OpenLoopSpec, StrategySpec, VerticalSpec};
 use nalgebra::Vector2;
 use std::num::NonZeroU32;
 use world::ranges::{NonNegative, Positive};
-use world::seeds::Stream;
 
 const TIMEOUT_S: f64 = 600.0;
+const FLOW: Option<Vector2<f64>> = Some(Vector2::new(-0.02, -0.2));
 
 /// The area's south half, then its north half.
 fn spec(entry: Entry) -> SubregionsSpec {
@@ -30,83 +29,25 @@ fn spec(entry: Entry) -> SubregionsSpec {
     }
 }
 
-/// A mission and its last goal; the flow goes south, a little westward.
-struct Desk {
-    mission: Subregions,
-    rng: Stream,
-    t_s: f64,
-    goal: Option<Goal>,
-    flow: Option<Vector2<f64>>,
+/// A mission; the flow goes south, a little westward.
+fn desk(entry: Entry) -> Desk<Subregions> {
+    let mission = Subregions::new(&spec(entry), &setting(6.0, false)).expect("a legal spec");
+    Desk { flow: FLOW, ..Desk::new(mission) }
 }
 
-impl Desk {
-    fn new(spec: &SubregionsSpec) -> Self {
-        Self {
-            mission: Subregions::new(spec, &setting(6.0, false)).expect("a legal spec"),
-            rng: Stream::new(1, "auv0", "strategy"),
-            t_s: 0.0,
-            goal: None,
-            flow: Some(Vector2::new(-0.02, -0.2)),
-        }
-    }
-
-    /// A mission that has just begun to search the first region.
-    fn searching() -> Self {
-        let mut d = Self::new(&spec(Entry::Centre));
-        d.quiet(-200.0);
-        let begun = d.arrive(-150.0);
-        assert_eq!(begun.shown.regions.now, Some(0));
-        d
-    }
-
-    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Ticked {
-        self.t_s += 0.1;
-        let at = Vector2::new(0.0, north);
-        let mut o = smelling(seen(self.t_s, at, 350.0, self.flow), smells);
-        if let Some(goal) = self.goal {
-            o.guidance.goal_id = goal.id;
-            o.guidance.done = arrived;
-        }
-        o.guidance.aborted = aborted;
-        let decision = Ticked::step(&mut self.mission, &o, &mut self.rng);
-        self.goal = Some(decision.goal);
-        decision
-    }
-
-    fn quiet(&mut self, north: f64) -> Ticked {
-        self.tick(north, false, false, false)
-    }
-
-    fn smell(&mut self, north: f64) -> Ticked {
-        self.tick(north, true, false, false)
-    }
-
-    fn arrive(&mut self, north: f64) -> Ticked {
-        self.tick(north, false, true, false)
-    }
-
-    /// Detects at `north` and loses the plume there.
-    fn point(&mut self, north: f64) -> Ticked {
-        self.smell(north);
-        self.t_s += 5.0;
-        self.quiet(north + 1.0)
-    }
-
-    /// Three points close together and the end of Track-Out: the inner strategy declares.
-    fn declare(&mut self, north: f64) -> Ticked {
-        for k in 0..3 {
-            let out = self.point(north + f64::from(k));
-            assert_eq!(out.behaviour, Behaviour::TrackOut);
-        }
-        self.arrive(north + 20.0)
-    }
+/// A mission that has just begun to search the first region.
+fn searching() -> Desk<Subregions> {
+    let mut d = desk(Entry::Centre);
+    d.quiet(-200.0);
+    let begun = d.arrive(-150.0);
+    assert_eq!(begun.shown.regions.now, Some(0));
+    d
 }
 
-fn point_of(d: &Ticked) -> Vector2<f64> {
-    match d.goal.manoeuvre {
-        Manoeuvre::GoToPoint { point, .. } => point,
-        other => panic!("wanted a point, got {other:?}"),
-    }
+/// Three points close together and the end of Track-Out: the inner strategy declares.
+fn declare(d: &mut Desk<Subregions>, north: f64) -> Ticked {
+    d.near_the_source(north);
+    d.arrive(north + 20.0)
 }
 
 fn states(d: &Ticked) -> Vec<RegionState> {
@@ -115,11 +56,11 @@ fn states(d: &Ticked) -> Vec<RegionState> {
 
 #[test]
 fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
-    let mut d = Desk::new(&spec(Entry::DownFlowCorner));
+    let mut d = desk(Entry::DownFlowCorner);
     d.flow = None;
     // Without a flow there is no down-flow direction: go to the middle until the flow is known.
     assert_eq!(point_of(&d.quiet(-250.0)), Vector2::new(0.0, -150.0));
-    d.flow = Some(Vector2::new(-0.02, -0.2));
+    d.flow = FLOW;
     let first = d.quiet(-250.0);
     // South-west corner (-200, -300), 20 m inside.
     assert!((point_of(&first) - Vector2::new(-180.0, -280.0)).norm() < 1e-9);
@@ -136,19 +77,19 @@ fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
 
 #[test]
 fn arrival_of_the_transit_is_none_of_the_search() {
-    let mut d = Desk::searching();
+    let mut d = searching();
     let find = d.goal.expect("a goal was given");
     // The guidance still reports the transit as done: the search's own goal remains.
     let mut o = seen(d.t_s + 0.1, Vector2::new(0.0, -150.0), 350.0, d.flow);
     (o.guidance.goal_id, o.guidance.done) = (find.id - 1, true);
-    let next = Ticked::step(&mut d.mission, &o, &mut d.rng);
+    let next = Ticked::step(&mut d.strategy, &o, &mut d.rng);
     assert_eq!((next.behaviour, next.goal), (Behaviour::Find, find));
     assert_eq!(states(&next), [RegionState::Searching, RegionState::Waiting]);
 }
 
 #[test]
 fn a_time_out_does_not_call_the_region_source_free() {
-    let mut d = Desk::searching();
+    let mut d = searching();
     d.smell(-100.0);
     let from = d.t_s;
     d.t_s += TIMEOUT_S - 1.0;
@@ -166,11 +107,11 @@ fn a_time_out_does_not_call_the_region_source_free() {
 
 #[test]
 fn a_declaration_inside_ends_the_search_of_its_region() {
-    let mut d = Desk::searching();
-    let end = d.declare(-150.0);
-    let first = end.declared.expect("three points within 2 m");
+    let mut d = searching();
+    let end = declare(&mut d, -150.0);
+    let first = end.declared.expect("three points within 2.5 m");
     assert_eq!((first.number, first.region), (0, Some(0)));
-    assert_eq!((first.rule, first.position), ("AlongFlow", Vector2::new(0.0, -148.0)));
+    assert_eq!((first.rule, first.position), ("AlongFlow", Vector2::new(0.0, -147.5)));
     assert_eq!((end.behaviour, end.shown.regions.now), (Behaviour::GoTo, None));
     assert_eq!(states(&end), [RegionState::Declared, RegionState::Waiting]);
     // It is not declared twice, and no detection counts on the way.
@@ -180,13 +121,13 @@ fn a_declaration_inside_ends_the_search_of_its_region() {
     let begun = d.arrive(150.0);
     assert_eq!((begun.behaviour, begun.shown.regions.now), (Behaviour::Find, Some(1)));
     assert!(begun.shown.lost_points.is_empty());
-    let second = d.declare(150.0).declared.expect("three points within 2 m");
+    let second = declare(&mut d, 150.0).declared.expect("three points within 2.5 m");
     assert_eq!((second.number, second.region), (1, Some(1)));
 }
 
 #[test]
 fn a_plume_traced_to_the_up_flow_edge_is_declared_there() {
-    let mut d = Desk::searching();
+    let mut d = searching();
     // The edge is at 0 m N; within 20 m of it, a detection is enough.
     let near = d.smell(-21.0);
     assert_eq!((near.declared, near.behaviour), (None, Behaviour::TrackIn));
@@ -201,7 +142,7 @@ fn a_plume_traced_to_the_up_flow_edge_is_declared_there() {
 
 #[test]
 fn to_come_near_the_edge_without_a_detection_declares_nothing() {
-    let mut d = Desk::searching();
+    let mut d = searching();
     d.smell(-60.0);
     for north in [-30, -10, 5] {
         let now = d.quiet(f64::from(north));
@@ -211,8 +152,8 @@ fn to_come_near_the_edge_without_a_detection_declares_nothing() {
 
 #[test]
 fn home_after_the_last_region_and_completed_there() {
-    let mut d = Desk::searching();
-    d.declare(-150.0);
+    let mut d = searching();
+    declare(&mut d, -150.0);
     d.arrive(150.0);
     d.t_s += TIMEOUT_S;
     let home = d.quiet(200.0);
@@ -227,8 +168,8 @@ fn home_after_the_last_region_and_completed_there() {
 
 #[test]
 fn a_cage_abort_ends_the_mission_wherever_it_is() {
-    for searching in [false, true] {
-        let mut d = if searching { Desk::searching() } else { Desk::new(&spec(Entry::Centre)) };
+    for begun in [false, true] {
+        let mut d = if begun { searching() } else { desk(Entry::Centre) };
         let end = d.tick(0.0, true, false, true);
         assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Aborted)));
         assert_eq!(end.declared, None);

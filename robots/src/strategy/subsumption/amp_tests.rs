@@ -1,11 +1,11 @@
 //! The switching diagram and the layers are two ways to combine the same behaviours: with Pang's parameters both do
-//! the same for the same observations.
+//! the same for the same observations, and a cage abort ends both wherever they are.
 
 use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
-use crate::handoff::Behaviour;
 use crate::handoff::testing::{fixed, seen, smelling};
+use crate::handoff::{Behaviour, Outcome};
 use crate::memory::FixMove;
 use crate::strategy::testing::{Blind, Ticked, setting};
 use crate::strategy::{Amp, AmpSpec};
@@ -88,7 +88,7 @@ proptest! {
     ) {
         let mut both = Both::new(if whole { FixMove::Whole } else { FixMove::Stay });
         let (mut t_s, mut p, mut flow_deg) = (0.0, Vector2::zeros(), 180.0f64);
-        let mut just_declared = false;
+        let (mut just_declared, mut over) = (false, false);
         for (event, east, north, nose) in events {
             t_s += if matches!(event, Event::Silence) { 5.1 } else { 0.1 };
             p += Vector2::new(east, north);
@@ -114,7 +114,8 @@ proptest! {
             };
             prop_assert_eq!(sorted(&a), sorted(&b));
             prop_assert_eq!(a.outcome, b.outcome);
-            if a.outcome.is_some() {
+            over = a.outcome.is_some();
+            if over {
                 break;
             }
             just_declared = a.declared.is_some();
@@ -124,6 +125,12 @@ proptest! {
             } else {
                 prop_assert_eq!(a.behaviour, Behaviour::GoHome);
             }
+        }
+        let mut aborted = smelling(seen(t_s + 0.1, p, 0.0, None), true);
+        aborted.guidance.aborted = true;
+        for d in both.step(&aborted, false) {
+            let end = if over { Outcome::Completed } else { Outcome::Aborted };
+            prop_assert_eq!((d.behaviour, d.outcome), (Behaviour::Done, Some(end)));
         }
     }
 }

@@ -1,21 +1,19 @@
 //! Which compositions are refused, and how the map takes part.
 
-use super::testing::{Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said};
+use super::testing::{all, declare, desk, find, go_home, maintain, plume_map, reacquire, said};
 use super::{LayerSpec, Subsumption, SubsumptionSpec};
 use crate::behave::AvoidParams;
-use crate::handoff::{Behaviour, Manoeuvre};
-use crate::strategy::testing::setting;
+use crate::handoff::Behaviour;
+use crate::strategy::testing::{point_of, setting};
 use nalgebra::Vector2;
 
 #[test]
 fn the_map_leads_the_search_once_and_nothing_but_the_search() {
-    let mut d = Desk::new(all());
+    let mut d = desk(all());
     d.map = Some(Vector2::new(50.0, 100.0));
     let led = d.quiet(0.0);
     assert_eq!((said(&led).as_str(), led.behaviour), ("s....H.", Behaviour::FollowPath));
-    let Manoeuvre::GoToPoint { point, .. } = led.goal.manoeuvre else {
-        panic!("it goes to a place");
-    };
+    let point = point_of(&led);
     // 30 m down-flow, to the south, of the middle of a cell of 10 m.
     assert!((point - Vector2::new(50.0, 70.0)).norm() < 10.0, "{point:?}");
     // The obstacle has priority over the map, although its layer is lower.

@@ -22,5 +22,3 @@ mod compose_tests;
 mod switch_tests;
 #[cfg(test)]
 mod testing;
-#[cfg(test)]
-mod trial_tests;

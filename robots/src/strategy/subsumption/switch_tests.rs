@@ -1,15 +1,15 @@
 //! Which layer controls the vehicle, and which ones that silences, with observations written by hand.
 
-use super::testing::{Desk, all, avoid, declare, find, go_home, maintain, reacquire, said};
-use super::{LayerSpec, MaintainSpec, SubsumptionSpec};
+use super::testing::{all, avoid, declare, desk, find, go_home, maintain, reacquire, said};
+use super::{LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::handoff::{Behaviour, Manoeuvre, Outcome};
 use crate::memory::FixMove;
-use crate::strategy::Strategy;
+use crate::strategy::testing::{Desk, setting};
 use nalgebra::Vector2;
 
 #[test]
-fn find_holds_until_a_detection_and_maintain_until_the_loss() {
-    let mut d = Desk::new(all());
+fn find_holds_until_a_detection_and_maintain_from_then_on() {
+    let mut d = desk(all());
     let names: Vec<_> = d.quiet(0.0).shown.layers.iter().map(|l| l.name).collect();
     let want = ["find", "maintain", "reacquire", "declare", "avoid", "plume_map", "go_home"];
     assert_eq!(names, want);
@@ -20,17 +20,12 @@ fn find_holds_until_a_detection_and_maintain_until_the_loss() {
     assert_eq!(tracked.goal.id, first.goal.id + 1);
     // The course changes under one id.
     assert_eq!(d.smell(2.0).goal.id, tracked.goal.id);
-    d.t_s += 5.0;
-    let out = d.quiet(12.0);
-    assert_eq!((said(&out).as_str(), out.behaviour), ("sH.....", Behaviour::TrackOut));
-    let lost = d.arrive(20.0);
-    assert_eq!((said(&lost).as_str(), lost.behaviour), ("s.H....", Behaviour::Reacquire));
 }
 
 #[test]
 fn a_detection_interrupts_the_reacquisition_and_its_end_gives_the_search_back() {
-    let mut d = Desk::new(all());
-    d.point(0.0);
+    let mut d = desk(all());
+    assert_eq!(said(&d.point(0.0)), "sH.....");
     assert_eq!(said(&d.arrive(20.0)), "s.H....");
     assert_eq!(said(&d.smell(21.0)), "sH.....");
     d.t_s += 5.0;
@@ -48,7 +43,7 @@ fn a_detection_interrupts_the_reacquisition_and_its_end_gives_the_search_back() 
 #[test]
 fn without_a_track_out_the_silence_is_it() {
     let silent = MaintainSpec { track_out: None, ..MaintainSpec::default() };
-    let mut d = Desk::new(vec![find(), LayerSpec::Maintain(silent), reacquire(), declare()]);
+    let mut d = desk(vec![find(), LayerSpec::Maintain(silent), reacquire(), declare()]);
     assert_eq!(d.smell(0.0).behaviour, Behaviour::TrackIn);
     // Tian's Fig. 4a: without detections the vehicle is in Track-Out, on the same course.
     let silence = d.quiet(1.0);
@@ -61,15 +56,16 @@ fn without_a_track_out_the_silence_is_it() {
 
 #[test]
 fn declare_beats_reacquire_and_go_home_inhibits_all() {
-    let mut d = Desk::new(all());
-    d.near_the_source();
+    let mut d = desk(all());
+    d.near_the_source(0.0);
+    assert_eq!(d.quiet(15.0).declared, None, "it waits for Track-Out's end");
     let end = d.arrive(20.0);
     assert_eq!(said(&end), "s.sH...");
     let declared = end.declared.expect("three points within 2.5 m");
     assert_eq!((declared.position, declared.rule), (Vector2::new(0.0, 2.5), "AlongFlow"));
     for smells in [false, true] {
         d.obstacle = smells;
-        let home = d.tick(20.0, smells, false);
+        let home = d.tick(20.0, smells, false, false);
         assert_eq!((said(&home).as_str(), home.behaviour), ("iiiiiiH", Behaviour::GoHome));
         assert_eq!((home.declared, home.outcome), (None, None));
         assert!(matches!(home.goal.manoeuvre, Manoeuvre::GoToPoint { .. }));
@@ -81,16 +77,16 @@ fn declare_beats_reacquire_and_go_home_inhibits_all() {
 
 #[test]
 fn declare_beats_maintain_when_a_detection_ends_track_out() {
-    let mut d = Desk::new(all());
-    d.near_the_source();
+    let mut d = desk(all());
+    d.near_the_source(0.0);
     let end = d.smell(15.0);
     assert_eq!((said(&end).as_str(), end.declared.is_some()), ("ss.H...", true));
 }
 
 #[test]
 fn avoid_beats_declare_for_the_time_of_the_obstacle() {
-    let mut d = Desk::new(all());
-    d.near_the_source();
+    let mut d = desk(all());
+    d.near_the_source(0.0);
     d.obstacle = true;
     let before = d.goal.expect("under way").id;
     let away = d.quiet(15.0);
@@ -111,7 +107,7 @@ fn avoid_beats_declare_for_the_time_of_the_obstacle() {
 
 #[test]
 fn layers_under_avoid_go_on_watching_and_get_their_goal_back() {
-    let mut d = Desk::new(all());
+    let mut d = desk(all());
     let search = d.quiet(0.0).goal.manoeuvre;
     d.obstacle = true;
     assert_eq!(said(&d.quiet(0.0)), "s...H..");
@@ -129,8 +125,8 @@ fn layers_under_avoid_go_on_watching_and_get_their_goal_back() {
 
 #[test]
 fn above_go_home_avoid_is_heeded_on_the_way_home() {
-    let mut d = Desk::new(vec![find(), maintain(), declare(), go_home(), avoid()]);
-    d.near_the_source();
+    let mut d = desk(vec![find(), maintain(), declare(), go_home(), avoid()]);
+    d.near_the_source(0.0);
     assert!(d.arrive(20.0).declared.is_some());
     assert_eq!(said(&d.quiet(20.0)), "iiiH.");
     d.obstacle = true;
@@ -140,22 +136,11 @@ fn above_go_home_avoid_is_heeded_on_the_way_home() {
 
 #[test]
 fn without_go_home_the_declaration_is_the_end() {
-    let mut d = Desk::new(vec![find(), maintain(), reacquire(), declare()]);
-    d.near_the_source();
+    let mut d = desk(vec![find(), maintain(), reacquire(), declare()]);
+    d.near_the_source(0.0);
     let end = d.arrive(20.0);
     assert!(end.declared.is_some());
     assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Completed)));
-}
-
-#[test]
-fn a_cage_abort_ends_the_mission() {
-    let mut d = Desk::new(all());
-    d.smell(0.0);
-    let mut o = d.seen(0.0, true);
-    o.guidance.aborted = true;
-    let end = d.planner.step(&o, &mut d.rng);
-    assert_eq!((end.behaviour, end.outcome), (Behaviour::Done, Some(Outcome::Aborted)));
-    assert_eq!(d.smell(0.0).outcome, Some(Outcome::Aborted));
 }
 
 #[test]
@@ -163,7 +148,7 @@ fn lost_points_move_with_a_fix_when_told() {
     for (fixes, north) in [(FixMove::Stay, 0.0), (FixMove::Whole, 7.0)] {
         let mut spec = SubsumptionSpec::with_layers(all());
         spec.fixes = fixes;
-        let mut d = Desk::of(&spec);
+        let mut d = Desk::new(Subsumption::new(&spec, &setting(8.0, true)).expect("these layers make sense"));
         d.point(0.0);
         d.jump = Vector2::new(0.0, 7.0);
         assert_eq!(d.quiet(20.0).shown.lost_points, [Vector2::new(0.0, north)]);

@@ -175,40 +175,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_does_not_go_together_is_named() {
-        assert!(ColourSpec::default().check("colours").is_ok());
-        let of = |change: &dyn Fn(&mut ColourSpec)| {
-            let mut spec = ColourSpec::default();
-            change(&mut spec);
-            spec.check("colours").unwrap_err().to_string()
-        };
-        for (said, field) in [
-            (of(&|s| s.alpha1 = NonNegative::new(200.0)), "colours.alpha1: must be below alpha2 (200), got 200"),
-            (of(&|s| s.alpha2 = Positive::new(256.0)), "colours.alpha2: must be at most 255"),
-            (of(&|s| s.rho_m = Positive::new(255.0)), "colours.rho_m: must be below 255"),
-            (of(&|s| s.epsilon = Positive::new(300.0)), "colours.epsilon: must be at most 255"),
-            (of(&|s| s.plume_passes = 57), "from 1 to 60, got 61"),
-        ] {
-            assert!(said.contains(field), "{said}");
-        }
-    }
-
-    #[test]
-    fn a_verifier_that_could_never_verify_is_refused() {
+    fn a_verifier_that_could_never_verify_is_refused_with_its_field() {
         assert!(VerifierSpec::default().check("v").is_ok());
         let of = |change: &dyn Fn(&mut VerifierSpec)| {
             let mut spec = VerifierSpec::default();
             change(&mut spec);
             spec.check("v").unwrap_err().to_string()
         };
-        assert_eq!(
-            of(&|s| s.least_dye = Positive::new(0.8)),
-            "v.least_dye: must be above 0 and at most most_dye, 0.7, got 0.8"
-        );
-        assert_eq!(
-            of(&|s| s.least_contrast = Positive::new(1.5)),
-            "v.least_contrast: must be above 0 and at most 1, got 1.5"
-        );
-        assert_eq!(of(&|s| s.colours.alpha2 = Positive::new(300.0)), "v.colours.alpha2: must be at most 255, got 300");
+        for (said, wanted) in [
+            (
+                of(&|s| s.colours.alpha1 = NonNegative::new(200.0)),
+                "v.colours.alpha1: must be below alpha2 (200), got 200",
+            ),
+            (of(&|s| s.colours.alpha2 = Positive::new(256.0)), "v.colours.alpha2: must be at most 255"),
+            (of(&|s| s.colours.rho_m = Positive::new(255.0)), "v.colours.rho_m: must be below 255"),
+            (of(&|s| s.colours.epsilon = Positive::new(300.0)), "v.colours.epsilon: must be at most 255"),
+            (of(&|s| s.colours.plume_passes = 57), "from 1 to 60, got 61"),
+            (
+                of(&|s| s.least_contrast = Positive::new(1.5)),
+                "v.least_contrast: must be above 0 and at most 1, got 1.5",
+            ),
+        ] {
+            assert!(said.contains(wanted), "{said}");
+        }
     }
 }

@@ -147,14 +147,6 @@ mod tests {
     }
 
     #[test]
-    fn both_defaults_fit_the_machine() {
-        for spec in [CrabSpec::default(), CrabSpec::adaptive()] {
-            let r = spec.rules(&layout()).expect("legal");
-            assert!((r.sweep_left_m[0] - 0.3).abs() < 1e-12 && (r.sweep_left_m[1] + 0.3).abs() < 1e-12);
-        }
-    }
-
-    #[test]
     fn more_than_the_machine_has_is_refused() {
         assert_eq!(
             refused(|s| s.sweep.span_m = Positive::new(1.2)),

@@ -220,10 +220,10 @@ mod tests {
         let spec = StopSpec::Experience(Experience::default());
         // 2.5 times 1 Hz; in a richer plume 2.5 times 1.4 Hz; in a poor one the least threshold; never above the
         // greatest.
-        assert_eq!(stops(&spec, &[1.0, 1.0, 1.0, 2.0, 3.0]), [false, false, false, false, true]);
-        assert_eq!(stops(&spec, &[1.4, 1.4, 1.4, 3.0, 3.9]), [false, false, false, false, true]);
-        assert_eq!(stops(&spec, &[0.1, 0.1, 0.1, 0.7, 1.4]), [false, false, false, false, true]);
-        assert_eq!(stops(&spec, &[3.0, 3.0, 3.0, 3.5, 4.6]), [false, false, false, false, true]);
+        for (first, below, above) in [(1.0, 2.0, 3.0), (1.4, 3.0, 3.9), (0.1, 0.7, 1.4), (3.0, 3.5, 4.6)] {
+            let stops = stops(&spec, &[first, first, first, below, above]);
+            assert_eq!(stops, [false, false, false, false, true], "{first} Hz");
+        }
         assert_eq!(StopRule::new(&spec).trail_end(), Some(2));
     }
 

@@ -78,43 +78,6 @@ fn all_of_a_block_is_read() {
     assert_eq!(b.doubts, Vec::<String>::new());
 }
 
-#[test]
-fn damping_resists_and_axes_turn() {
-    let b = blocks(UUV);
-    let linear = Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
-    assert_eq!(b.linear, Matrix6::from_diagonal(&linear));
-    let quadratic = Vector6::new(11.0, 12.0, 13.0, 14.0, 15.0, 16.0);
-    assert_eq!(b.quadratic, Matrix6::from_diagonal(&quadratic));
-    let mass = Vector6::new(1.0, 30.0, 31.0, 0.1, 4.0, 5.0);
-    assert_eq!(b.added_mass.diagonal(), mass);
-    // Right and down turn together, so Y_r, N_v, Z_q and M_w stay.
-    assert_eq!(b.added_mass[(1, 5)], -2.0);
-    assert_eq!(b.added_mass[(2, 4)], 1.5);
-    assert_eq!(b.forward[(0, 0)], 0.5);
-    assert_eq!(b.forward[(1, 1)], 7.0);
-    assert_eq!(b.forward[(1, 5)], -8.0);
-    assert_eq!(b.forward[(5, 1)], -9.0);
-    assert_eq!(b.forward[(5, 5)], 10.0);
-}
-
-/// A body that rolls about forward gets a side force from Y_p, and Y changes its sign with the axes, p does not.
-#[test]
-fn entries_between_forward_and_the_rest_change_sign() {
-    let mut frd = [0.0; 36];
-    frd[6 + 3] = -7.0; // Y_p
-    frd[18 + 1] = -8.0; // K_v
-    frd[5] = -9.0; // X_r
-    frd[30 + 1] = -10.0; // N_v
-    frd[6 + 5] = -11.0; // Y_r
-    let text = with(UUV, "-1 -2 -3 -4 -5 -6", &row(&frd));
-    let b = blocks(&text);
-    assert_eq!(b.linear[(1, 3)], -7.0);
-    assert_eq!(b.linear[(3, 1)], -8.0);
-    assert_eq!(b.linear[(0, 5)], -9.0);
-    assert_eq!(b.linear[(5, 1)], 10.0);
-    assert_eq!(b.linear[(1, 5)], 11.0);
-}
-
 /// The force in uuv_simulator's axes, turned, is the force of the turned blocks.
 #[test]
 fn turned_blocks_give_the_turned_force() {
@@ -131,89 +94,57 @@ fn what_is_missing_is_zero_and_told() {
     let start = UUV.find("<added_mass>").expect("there");
     let end = UUV.find("</hydrodynamic_model>").expect("there");
     let b = blocks(&format!("{}{}", &UUV[..start], &UUV[end..]));
-    assert_eq!(b.added_mass, Matrix6::zeros());
-    assert_eq!(b.forward, Matrix6::zeros());
-    assert_eq!(
-        b.doubts,
-        [
-            "line 18, <hydrodynamic_model>: has no <added_mass>: taken as zero",
-            "line 18, <hydrodynamic_model>: has no <linear_damping>: taken as zero",
-            "line 18, <hydrodynamic_model>: has no <quadratic_damping>: taken as zero",
-        ]
-    );
+    assert_eq!((b.added_mass, b.forward), (Matrix6::zeros(), Matrix6::zeros()));
+    let missing = ["added_mass", "linear_damping", "quadratic_damping"];
+    assert_eq!(b.doubts, missing.map(|m| format!("line 18, <hydrodynamic_model>: has no <{m}>: taken as zero")));
     let bare = with(UUV, "      <fluid_density>1025.0</fluid_density>\n", "");
     assert_eq!(blocks(&bare).density_kg_m3, None);
 }
 
+/// Odd numbers are read as they stand; what uuv_simulator does not read is ignored.
 #[test]
-fn a_neutral_body_says_no_volume() {
-    let told = "<neutrally_buoyant>0";
-    let b = blocks(&with(UUV, told, "<neutrally_buoyant>true"));
-    assert!(b.neutral);
-    assert_eq!(b.volume_m3, None);
-    assert_eq!(b.doubts, ["line 11, <volume>: ignored, because <neutrally_buoyant> is true"]);
-}
-
-#[test]
-fn odd_signs_are_told_and_read_as_there() {
-    let text = with(UUV, "-1 -2 -3 -4 -5 -6", "1 -2 3 -4 -5 -6");
-    let b = blocks(&text);
-    assert_eq!((b.linear[(0, 0)], b.linear[(1, 1)]), (-1.0, 2.0));
-    assert_eq!(
-        b.doubts,
-        ["line 28, <linear_damping>: is positive in X_u = 1, Z_w = 3: read as uuv_simulator does, so it drives the \
-             body on; what resists is negative"]
-    );
-    let b = blocks(&with(UUV, "0 30 0 0 0 -2", "0 -30 0 0 0 -2"));
-    assert_eq!(b.added_mass[(1, 1)], -30.0);
-    assert_eq!(b.doubts, ["line 20, <added_mass>: is negative in Y_v = -30: read as it stands, so it takes mass away"]);
-}
-
-#[test]
-fn odd_matrices_are_told() {
-    assert_eq!(
-        doubts(UUV, "0 -2 0 0 0 5", "0 -3 0 0 0 5"),
-        ["line 20, <added_mass>: is not symmetric in Y_r = -2, N_v = -3: read as it stands"]
-    );
+fn what_is_odd_or_ignored_is_told() {
+    let mut full = [0.0; 36];
+    (full[0], full[5]) = (-3.0, 4.0);
+    let full = row(&full);
+    for (from, to, told) in [
+        ("-1 -2 -3 -4 -5 -6", "1 -2 3 -4 -5 -6", "28, <linear_damping>: is positive in X_u = 1, Z_w = 3: read as"),
+        ("0 30 0 0 0 -2", "0 -30 0 0 0 -2", "20, <added_mass>: is negative in Y_v = -30: read as it stands"),
+        ("0 -2 0 0 0 5", "0 -3 0 0 0 5", "20, <added_mass>: is not symmetric in Y_r = -2, N_v = -3: read as it stands"),
+        ("-11 -12 -13 -14 -15 -16", &full, "37, <quadratic_damping>: X_r = 4 off the diagonal: ignored"),
+        (
+            "<neutrally_buoyant>0",
+            "<neutrally_buoyant>true",
+            "11, <volume>: ignored, because <neutrally_buoyant> is true",
+        ),
+        ("<debug>0</debug>", "<depth>0</depth>", "8, <depth>: ignored: uuv_simulator has no such element"),
+        ("<debug>0</debug>", "<link name=\"arm\"><volume>1</volume></link>", "8, <link>: ignored: it has no"),
+        ("<box>", "<bounding_box>1 1 1</bounding_box><box>", "12, <bounding_box>: ignored"),
+        ("<box>", "<metacentric_width>0.3</metacentric_width><box>", "12, <metacentric_width>: ignored"),
+        ("<box>", "<offset_volume>0.3</offset_volume><box>", "12, <offset_volume>: ignored, as in uuv_simulator"),
+    ] {
+        let doubts = blocks(&with(UUV, from, to)).doubts.join("\n");
+        assert!(doubts.starts_with(&format!("line {told}")) && doubts.lines().count() == 1, "{doubts}");
+    }
     // As rounded in a table.
-    assert_eq!(doubts(UUV, "0 -2 0 0 0 5", "0 -2.001 0 0 0 5"), Vec::<String>::new());
+    assert_eq!(doubts(UUV, "0 -2 0 0 0 5", "0 -2.001 0 0 0 5"), [""; 0]);
+    let odd = blocks(&with(UUV, "-1 -2 -3 -4 -5 -6", "1 -2 3 -4 -5 -6"));
+    assert_eq!((odd.linear[(0, 0)], odd.linear[(1, 1)]), (-1.0, 2.0));
+    let light = blocks(&with(UUV, "0 30 0 0 0 -2", "0 -30 0 0 0 -2"));
+    assert_eq!(light.added_mass[(1, 1)], -30.0);
+    let off = blocks(&with(UUV, "-11 -12 -13 -14 -15 -16", &full));
+    assert_eq!((off.quadratic[(0, 0)], off.quadratic[(0, 5)]), (3.0, 0.0));
+    let neutral = blocks(&with(UUV, "<neutrally_buoyant>0", "<neutrally_buoyant>true"));
+    assert_eq!((neutral.neutral, neutral.volume_m3), (true, None));
+}
+
+#[test]
+fn six_numbers_are_a_diagonal() {
     let start = UUV.find("1.0 0 0 0").expect("there");
     let end = UUV.find("</added_mass>").expect("there");
     let b = blocks(&format!("{}1 2 3 4 5 6{}", &UUV[..start], &UUV[end..]));
-    assert_eq!(b.added_mass[(5, 5)], 6.0);
+    assert_eq!(b.added_mass, Matrix6::from_diagonal(&Vector6::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)));
     assert_eq!(b.doubts, ["line 20, <added_mass>: 6 numbers are taken as the diagonal; uuv_simulator itself needs 36"]);
-    let mut full = [0.0; 36];
-    (full[0], full[5]) = (-3.0, 4.0);
-    let b = blocks(&with(UUV, "-11 -12 -13 -14 -15 -16", &row(&full)));
-    assert_eq!(b.quadratic[(0, 0)], 3.0);
-    assert_eq!(b.quadratic[(0, 5)], 0.0);
-    assert_eq!(b.doubts, ["line 37, <quadratic_damping>: X_r = 4 off the diagonal: ignored, as in uuv_simulator"]);
-}
-
-#[test]
-fn what_is_ignored_is_told() {
-    let box_end = "        </box>\n";
-    for (more, why) in [
-        ("<bounding_box>1 1 1</bounding_box>", "<bounding_box>: ignored: uuv_simulator has no such element"),
-        (
-            "<metacentric_width>0.3</metacentric_width>",
-            "<metacentric_width>: ignored: the body is taken as under water; `floats: true` takes it as a craft on the \
-             surface",
-        ),
-        (
-            "<offset_volume>0.3</offset_volume>",
-            "<offset_volume>: ignored, as in uuv_simulator, where only a service can set it while it runs",
-        ),
-    ] {
-        let told = doubts(UUV, box_end, &format!("{box_end}{more}"));
-        assert_eq!(told, [format!("line 17, {why}")]);
-    }
-    assert_eq!(
-        doubts(UUV, "<debug>0</debug>", "<depth>0</depth>"),
-        ["line 8, <depth>: ignored: uuv_simulator has no such element"]
-    );
-    let arm = r#"<debug>0</debug><link name="arm"><volume>1</volume></link>"#;
-    assert_eq!(doubts(UUV, "<debug>0</debug>", arm), ["line 8, <link>: ignored: it has no <hydrodynamic_model>"]);
 }
 
 /// Numbers for an element.
