@@ -117,10 +117,7 @@ impl Plume {
         let sources = place(specs, area, terrain)?;
         let grid = FlowGrid::new(area, terrain, settings.grid);
         Ok(Self {
-            releases: sources
-                .iter()
-                .map(|s| ReleaseTimes::new(s.release.rate_hz.get(), s.release.poisson, seed, &s.id))
-                .collect(),
+            releases: sources.iter().map(|s| ReleaseTimes::new(&s.release, seed, &s.id)).collect(),
             keys: sources.iter().map(|s| seeds::key(seed, &s.id, "drift")).collect(),
             stores: sources.iter().map(|s| Store::new(Size::new(&s.release), s.filament_kg)).collect(),
             sources,

@@ -7,5 +7,5 @@ mod times;
 
 pub use buoyancy::{BuoyancySpec, CompositionSpec, Curve, DissolvedSpec, Solute};
 pub use placing::{clear, misplaced, place};
-pub use source::{NozzleSpec, ReleaseSpec, Source, SourceSpec};
+pub use source::{NozzleSpec, PulseSpec, ReleaseSpec, Source, SourceSpec};
 pub use times::ReleaseTimes;

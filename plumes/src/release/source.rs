@@ -4,7 +4,8 @@
 //!
 //! *Parameters*: `rate_g_s` mass released (g/s); `release.rate_hz` filaments per second (1/s; 5 to 10);
 //! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001); `release.vertical_size_limit_m`
-//! greatest vertical size (m; none); `release.structure` (0), see the filaments' `structure`; `release.eddy_size_m` (m; none), see the filaments' `size`; `release.nozzle` (none).
+//! greatest vertical size (m; none); `release.structure` (0), see the filaments' `structure`; `release.pulse` (none);
+//! `release.eddy_size_m` (m; none), see the filaments' `size`; `release.nozzle` (none).
 //!
 //! *Deviations*: the paper counts molecules in arbitrary units; here the quantity is mass. The vertical limit is not in
 //! the paper. In stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament cannot
@@ -77,8 +78,27 @@ pub struct ReleaseSpec {
     /// How much of the variance that stirring makes and mixing leaves a probe meets below the size of a filament: 0 is
     /// none, 1 all. With it, a release needs its volume or a nozzle.
     pub structure: Fraction,
+    /// When it is open; always, if nothing is said. `rate_g_s` is then what it releases while it is open.
+    pub pulse: Option<PulseSpec>,
     /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
+}
+
+/// A source that opens and closes by the clock of the water, which begins with the spin-up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PulseSpec {
+    /// Time for which it is open, s.
+    pub on_s: Positive,
+    /// Time for which it is then closed, s.
+    pub off_s: Positive,
+}
+
+impl PulseSpec {
+    /// Whether it is open at a time, s.
+    pub(crate) fn open(&self, t_s: f64) -> bool {
+        t_s.rem_euclid(self.on_s.get() + self.off_s.get()) < self.on_s.get()
+    }
 }
 
 /// A round nozzle in the stream.
@@ -193,6 +213,7 @@ impl Default for ReleaseSpec {
             buoyancy: BuoyancySpec::Neutral,
             volume_l_s: None,
             structure: Fraction::new(0.0),
+            pulse: None,
             nozzle: None,
         }
     }

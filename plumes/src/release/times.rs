@@ -2,11 +2,13 @@
 //!
 //! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (5 to 10 filaments a second).
 //!
-//! *Parameters*: `rate_hz`: mean number a second, 1/s (5 to 10); `poisson`: waiting times exponential or equal.
+//! *Parameters*: `rate_hz`: mean number a second, 1/s (5 to 10); `poisson`: waiting times exponential or equal; `pulse`
+//! (none): only while the source is open.
 //!
 //! *Deviations*: the paper releases at equal intervals. Here random times are the default, because equal intervals
 //! interfere with the sampling of a sensor and leave gaps that no real water has.
 
+use super::source::{PulseSpec, ReleaseSpec};
 use world::bits::{Reader, Unreadable, Writer};
 use world::seeds::{Seed, Stream};
 
@@ -14,14 +16,20 @@ use world::seeds::{Seed, Stream};
 #[derive(Clone, Debug)]
 pub struct ReleaseTimes {
     rate_hz: f64,
+    pulse: Option<PulseSpec>,
     draws: Option<Stream>,
     next_s: Option<f64>,
 }
 
 impl ReleaseTimes {
     /// Times of the source called `id` under the run's `seed`; nothing is released before the first `until`.
-    pub fn new(rate_hz: f64, poisson: bool, seed: Seed, id: &str) -> Self {
-        Self { rate_hz, draws: poisson.then(|| Stream::new(seed, id, "release")), next_s: None }
+    pub fn new(release: &ReleaseSpec, seed: Seed, id: &str) -> Self {
+        Self {
+            rate_hz: release.rate_hz.get(),
+            pulse: release.pulse.clone(),
+            draws: release.poisson.then(|| Stream::new(seed, id, "release")),
+            next_s: None,
+        }
     }
 
     /// Passes all times in (`from_s`, `until_s`] to `take`, in order; the source opens at the first call's `from_s`.
@@ -31,7 +39,9 @@ impl ReleaseTimes {
             None => from_s + self.wait(),
         };
         while next <= until_s {
-            take(next);
+            if self.pulse.as_ref().is_none_or(|pulse| pulse.open(next)) {
+                take(next);
+            }
             next += self.wait();
         }
         self.next_s = Some(next);
@@ -44,7 +54,7 @@ impl ReleaseTimes {
 
     /// Writes how far it has come.
     pub(crate) fn keep(&self, to: &mut Writer) {
-        let Self { rate_hz: _, draws, next_s } = self;
+        let Self { rate_hz: _, pulse: _, draws, next_s } = self;
         if let Some(draws) = draws {
             draws.keep(to);
         }
@@ -71,9 +81,14 @@ impl ReleaseTimes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use world::ranges::Positive;
 
     fn times(poisson: bool, step_s: f64) -> Vec<f64> {
-        let mut r = ReleaseTimes::new(5.0, poisson, 3.into(), "s1");
+        pulsed(None, poisson, step_s)
+    }
+
+    fn pulsed(pulse: Option<PulseSpec>, poisson: bool, step_s: f64) -> Vec<f64> {
+        let mut r = ReleaseTimes::new(&ReleaseSpec { poisson, pulse, ..ReleaseSpec::default() }, 3.into(), "s1");
         let mut out = Vec::new();
         for n in 0..(1000.0 / step_s) as usize {
             r.until(n as f64 * step_s, (n + 1) as f64 * step_s, |t| out.push(t));
@@ -85,6 +100,16 @@ mod tests {
     fn times_do_not_depend_on_the_step() {
         assert_eq!(times(true, 0.5), times(true, 20.0));
         assert_eq!(times(false, 0.5), times(false, 20.0));
+    }
+
+    /// A source that opens for 1 s in 4 releases what a steady one does in that time, and nothing else.
+    #[test]
+    fn a_pulsed_source_is_open_a_part_of_the_time() {
+        let pulse = PulseSpec { on_s: Positive::new(1.0), off_s: Positive::new(3.0) };
+        for poisson in [true, false] {
+            let steady = times(poisson, 20.0).into_iter().filter(|t| t % 4.0 < 1.0);
+            assert_eq!(pulsed(Some(pulse.clone()), poisson, 0.5), steady.collect::<Vec<_>>());
+        }
     }
 
     #[test]

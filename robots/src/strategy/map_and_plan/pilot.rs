@@ -50,7 +50,6 @@ pub(super) struct Pilot {
     bed: Terrain,
     spec: MapAndPlanSpec,
     follow: Option<Follow>,
-    reach: Option<Reach>,
     wish: Vector3<f64>,
     revision: Revision,
     planned_s: f64,
@@ -79,7 +78,6 @@ impl Pilot {
             bed: setting.bed.clone(),
             spec: spec.clone(),
             follow: None,
-            reach: None,
             wish: Vector3::zeros(),
             planned_s: f64::NEG_INFINITY,
             evade: spec.evade.map(|e| Evade::new(e, spec.hull_m.get())),
@@ -159,7 +157,6 @@ impl Pilot {
             let mut follow = Follow::new(&path, self.spec.look_ahead_m.get());
             steer = Some(follow.step(&at));
             self.follow = Some(follow);
-            self.reach = Some(path.reach);
             self.wish = wish;
             self.planned_s = seen.t_s;
             self.revision = self.room.revision().clone();

@@ -156,7 +156,7 @@ mod tests {
         most_source most_yellow mu peakedness pitch_damping pitch_gain plate prediction_error probability pull \
         push quantum_yield ratio reach reject_at resample_below roll_damping roughening salinity saturation \
         scale_error shaft_share share silence soft_edge span_efficiency spreading stern_per_pitch strengths \
-        stretch target texture threshold thrust thrust_share torque torque_share transverse verify_at \
+        stretch structure target texture threshold thrust thrust_share torque torque_share transverse verify_at \
         volume_share wake_share white_balance";
 
     #[test]

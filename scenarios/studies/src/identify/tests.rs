@@ -134,7 +134,7 @@ fn a_folder_gets_tables_a_picture_and_the_next_campaign() {
     let names: Vec<String> = files.iter().map(|f| f.file_name().unwrap().to_string_lossy().into()).collect();
     assert_eq!(names, ["IDENTIFICATION.md", "draws.csv", "pairs.svg", "pairs.png", "next.ron"]);
     let csv = std::fs::read_to_string(&files[1]).unwrap();
-    assert_eq!(csv.lines().next(), Some("draw,distance,runs,time.limit_s,terrain.depth_m,found,error"));
+    assert_eq!(csv.lines().next(), Some("draw,standard_errors_away,runs,time.limit_s,terrain.depth_m,found,error"));
     assert_eq!(csv.lines().count(), 401);
     let page = std::fs::read_to_string(&files[0]).unwrap();
     assert!(page.contains("| time.limit_s | 10 to 110 |"), "{page}");

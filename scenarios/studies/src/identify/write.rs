@@ -74,7 +74,7 @@ fn unknowns(found: &Identification) -> Table {
 }
 
 fn nearest(found: &Identification) -> Table {
-    let mut heads: Vec<String> = vec!["draw".into(), "distance".into(), "runs".into()];
+    let mut heads: Vec<String> = vec!["draw".into(), "standard errors away".into(), "runs".into()];
     heads.extend(found.figures.iter().map(|f| f.name.clone()));
     let row = |d: &JudgedDraw| {
         let mut cells = vec![d.draw.name.clone(), format!("{:.1}", d.distance), d.draw.runs.len().to_string()];
@@ -127,7 +127,7 @@ fn somebodys(path: &Path) -> ReportError {
 }
 
 fn draws(found: &Identification) -> String {
-    let mut heads = ["draw", "distance", "runs"].map(str::to_string).to_vec();
+    let mut heads = ["draw", "standard_errors_away", "runs"].map(str::to_string).to_vec();
     heads.extend(found.marginals.iter().map(|m| m.unknown.path.clone()));
     heads.extend(found.figures.iter().map(|f| f.name.replace(',', ";")));
     let row = |d: &JudgedDraw| {

@@ -52,12 +52,12 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
             let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.loaded(place.condition, arm).unwrap()).collect();
             let runs: Vec<_> = loaded.iter().map(|l| (l, place.seed)).collect();
             // The arms of all these campaigns differ in the searcher alone, but for one that compares steps, one that
-            // draws a temperature of the release, and one that compares flows.
+            // draws temperature and structure of the release, and one that compares flows and releases.
             let lanes = groups(&runs);
             let (want, spins_up) = match template.name {
                 "kinematic_steps" => (vec![1; arms], 1),
-                "crab_identify" => (vec![1, 1, 1, 2, 3], 5),
-                "crab_flow" => (vec![1; arms], 4),
+                "crab_identify" => (vec![1, 1, 1, 1, 2, 2], 6),
+                "crab_flow" => (vec![1; arms], 5),
                 _ => (vec![arms], 1),
             };
             let mut sorted = lanes.clone();
