@@ -75,9 +75,11 @@ mod tests {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog/campaigns");
         assert_eq!(std::fs::read_dir(folder).unwrap().count(), CAMPAIGNS.len());
         for template in CAMPAIGNS {
-            let campaign = load(&Registry::default(), Path::new(template.name)).unwrap();
-            campaign.check().unwrap();
+            let mut campaign = load(&Registry::default(), Path::new(template.name)).unwrap();
             assert!(campaign.n_arms() > 1);
+            // Of thousands of drawn arms, some.
+            campaign.spec.arms.truncate(50);
+            campaign.check().unwrap();
         }
     }
 

@@ -8,6 +8,9 @@ use crate::say::count;
 use studies::campaign::{Campaign, LONGEST, RunName, block_of, load, one_run};
 use world::registry::Registry;
 
+/// Arms that are written out: a campaign may draw thousands.
+const MOST_ARMS: usize = 40;
+
 /// Checks a campaign and counts its runs. Unless `--no-probe` is given, makes the first run to estimate the cost.
 pub(super) fn plan(registry: &Registry, args: &PlanArgs) -> Result<Exit, Failure> {
     let campaign = load(registry, &args.file)?;
@@ -32,8 +35,12 @@ pub(super) fn plan(registry: &Registry, args: &PlanArgs) -> Result<Exit, Failure
         blocks(runs, block.next_multiple_of(campaign.n_arms()));
     }
     say::line(format_args!("  {}", seeds.describe()));
-    for arm in &campaign.spec.arms {
+    let arms = &campaign.spec.arms;
+    for arm in arms.iter().take(MOST_ARMS) {
         say::line(format_args!("  arm {}: {}", arm.name, arm.describe()));
+    }
+    if arms.len() > MOST_ARMS {
+        say::line(format_args!("  and {} more arms", arms.len() - MOST_ARMS));
     }
     let shown = conditions.min(12);
     for condition in (0..shown).filter(|_| conditions > 1) {
