@@ -162,7 +162,7 @@ impl Plume {
         self
     }
 
-    /// Lets buoyant releases rise, and those with structure be stirred. `flow` is the water into which they are released.
+    /// Lets buoyant releases rise, and those with structure be stirred. `flow` is the water into which they go.
     ///
     /// # Errors
     /// If a release cannot be made, if one that is buoyant or has structure does not say its volume, or if a probe would

@@ -7,5 +7,6 @@ mod times;
 
 pub use buoyancy::{BuoyancySpec, CompositionSpec, Curve, DissolvedSpec, Solute};
 pub use placing::{clear, misplaced, place};
-pub use source::{NozzleSpec, PulseSpec, ReleaseSpec, Source, SourceSpec};
+pub(crate) use source::VISCOSITY_M2_S;
+pub use source::{NozzleSpec, PulseSpec, ReleaseSpec, Source, SourceSpec, ThreadStart};
 pub use times::ReleaseTimes;

@@ -20,6 +20,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
+use world::fields::Flow;
 use world::ranges::{Finite, Fraction, NonNegative, Positive};
 
 /// A source as in the scenario file.
@@ -130,6 +131,30 @@ impl NozzleSpec {
     }
 }
 
+/// What a thread of filaments is at its source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThreadStart {
+    /// Buoyancy of the released volume by its mixing.
+    pub curve: Curve,
+    /// Volume released, m³/s.
+    pub volume_m3_s: f64,
+    /// Radius at which it leaves the source, m.
+    pub radius_m: f64,
+}
+
+/// Kinematic viscosity of water at 20 °C, m²/s.
+pub(crate) const VISCOSITY_M2_S: f64 = 1.0e-6;
+
+/// Resolution of a conductivity probe, m (Webster, Volyanskyy & Weissburg 2012, section 3). Within it, structure must be
+/// strained and not carried apart.
+const LEAST_EDDY_M: f64 = 5e-4;
+
+/// Kolmogorov's length in water of a dissipation (m²/s³), m.
+fn finest_eddies_m(dissipation_m2_s3: f64) -> f64 {
+    let per_m4 = dissipation_m2_s3 / (VISCOSITY_M2_S * VISCOSITY_M2_S * VISCOSITY_M2_S);
+    1.0 / per_m4.sqrt().sqrt()
+}
+
 impl ReleaseSpec {
     /// The same release with the values that a nozzle sets: filaments with the variance of its disc, (d/4)², one
     /// standard deviation apart.
@@ -147,13 +172,32 @@ impl ReleaseSpec {
         }
     }
 
-    /// Buoyancy of the n-th source's release in water of this density; `None` if it is neutral.
+    /// Of the n-th source, at its place in the water: the thread of which its filaments are pieces. `None` if it is neutral
+    /// and has no structure.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
-    pub fn curve(&self, n: usize, density_kg_m3: f64) -> Result<Option<Curve>, PlumeError> {
-        let curve = self.buoyancy.curve(density_kg_m3);
-        curve.map_err(|(field, problem)| PlumeError::new(format!("sources[{n}].release.buoyancy.{field}"), problem))
+    pub fn thread(&self, n: usize, flow: &dyn Flow, p_W: &Vector3<f64>) -> Result<Option<ThreadStart>, PlumeError> {
+        let wrong = |field: &str, problem| PlumeError::new(format!("sources[{n}].release.{field}"), problem);
+        let structured = self.structure.get() > 0.0;
+        let curve = self.buoyancy.curve(flow.density(p_W, 0.0));
+        let curve = match curve.map_err(|(field, problem)| wrong(&format!("buoyancy.{field}"), problem))? {
+            Some(curve) => curve,
+            None if structured => Curve::constant(0.0),
+            None => return Ok(None),
+        };
+        let finest_m = finest_eddies_m(flow.dissipation(p_W, 0.0));
+        if structured && finest_m < LEAST_EDDY_M {
+            let problem = format!(
+                "must be 0 in this water: its finest eddies at the source are {:.2} mm large, and the model of structure \
+                 needs at least {:.1} mm, which a probe averages over",
+                1e3 * finest_m,
+                1e3 * LEAST_EDDY_M
+            );
+            return Err(wrong("structure", problem));
+        }
+        let (volume_m3_s, radius_m) = self.outflow(n)?;
+        Ok(Some(ThreadStart { curve, volume_m3_s, radius_m }))
     }
 
     /// Volume that the n-th source releases (m³/s), and the radius at which it leaves it (m): the nozzle's, or that of a
@@ -161,7 +205,7 @@ impl ReleaseSpec {
     ///
     /// # Errors
     /// If the release says neither a volume nor a nozzle, or both.
-    pub fn outflow(&self, n: usize) -> Result<(f64, f64), PlumeError> {
+    fn outflow(&self, n: usize) -> Result<(f64, f64), PlumeError> {
         match (&self.nozzle, self.volume_l_s) {
             (Some(nozzle), None) => Ok((nozzle.volume_m3_s(), 0.5 * nozzle.diameter_m.get())),
             (None, Some(volume)) => Ok((1e-3 * volume.get(), 2.0 * self.initial_size_m.get())),

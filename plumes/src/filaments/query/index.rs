@@ -79,7 +79,7 @@ impl Index {
         let of_store = |(s, bands): (&Store, &[OnceLock<Groups>; MOST])| {
             let (mut mean, mut strongest) = (0.0, None);
             near(q, &spot, s, bands, |group, band| mean += group.felt(q, &spot, s, band));
-            let Some(((structure, rise), _)) = s.structure.zip(s.rise.as_ref()).zip((mean > 0.0).then_some(())) else {
+            let (Some(structure), Some(rise), true) = (&s.structure, &s.rise, mean > 0.0) else {
                 return mean;
             };
             near(q, &spot, s, bands, |group, band| group.strongest(q, &spot, s, band, &mut strongest));

@@ -19,6 +19,7 @@ fn a_buoyant_release_in_the_pond_is_fine() {
         "buoyancy: Composition(temperature_c: 30), volume_l_s: 1",
         "buoyancy: Composition(solutes: [(what: Ethanol, g_l: 100)]), nozzle: (diameter_m: 0.05, speed_m_s: 0.1)",
         "buoyancy: Neutral",
+        "structure: 0.5, volume_l_s: 1, pulse: (on_s: 2, off_s: 3)",
     ] {
         assert_eq!(said(buoyancy), "", "{buoyancy}");
     }
@@ -31,6 +32,9 @@ fn impossible_releases_are_named() {
         ("buoyancy: Excess(-2), volume_l_s: 1, nozzle: (diameter_m: 0.05, speed_m_s: 0.1)", "leave it out"),
         ("buoyancy: Excess(-2000), volume_l_s: 1", "from -500 to 500 kg/m³"),
         ("buoyancy: Excess(-2), volume_l_s: 0", "must be"),
+        ("structure: 0.5", "needs the volume"),
+        ("structure: 1.5, volume_l_s: 1", "from 0 to 1"),
+        ("pulse: (on_s: 0, off_s: 1)", "must be > 0"),
         ("buoyancy: Composition(solutes: [(what: Brine, g_l: 10)]), volume_l_s: 1", "SodiumChloride"),
         ("buoyancy: Composition(solutes: [(what: Propanol, g_l: 900)]), volume_l_s: 1", "must be at most 280"),
         (

@@ -21,6 +21,7 @@
 //! also counts as dilution. Surface and bed take up its momentum. Elements of one thread do not act on each other.
 
 use crate::release::Curve;
+pub(crate) use crate::release::VISCOSITY_M2_S;
 
 /// Entrainment of a jet, top-hat: √2 · 0.057 (Lee & Cheung 1990; 0.0535 of Fischer et al. 1979, Mixing in Inland and
 /// Coastal Waters).
@@ -41,8 +42,6 @@ pub(crate) const LAMINAR: f64 = 100.0;
 pub(crate) const STRAIN: f64 = 0.3;
 /// Between those of salt, 1.5e-9, and 2-propanol, 1.0e-9 (Cussler 2009, Diffusion, table 5.2-1).
 pub(crate) const DIFFUSIVITY_M2_S: f64 = 1.2e-9;
-/// Kinematic viscosity of water at 20 °C, m²/s.
-pub(crate) const VISCOSITY_M2_S: f64 = 1.0e-6;
 /// How far beyond the core the momentum of a steady force reaches: its volume over the core's is 1 + this · ln of the
 /// shared volume over the core's. Fitted to the laminar thread, whose speed then is right to 5 %.
 pub(crate) const REACH: f64 = 1.18;

@@ -24,18 +24,14 @@ use super::rows::Rows;
 use super::size::Size;
 use super::structure::Sheet;
 use crate::error::PlumeError;
-use crate::release::{Curve, Source};
+use crate::release::{Source, ThreadStart};
 use crate::simd::dispatch::InstructionSet;
-use element::VISCOSITY_M2_S;
 pub(crate) use element::{Element, Thread};
 use nalgebra::Vector3;
 pub(crate) use profile::Profile;
 use simd::{ABREAST, RisingLanes};
 use std::ops::Range;
 use world::fields::Flow;
-
-/// Resolution of a conductivity probe, m (Webster, Volyanskyy & Weissburg 2012, section 3).
-const LEAST_EDDY_M: f64 = 5e-4;
 
 /// The elements of a store, parallel to its filaments.
 #[derive(Clone, Debug)]
@@ -50,25 +46,17 @@ pub(crate) struct Rise {
 impl Rise {
     /// Of the n-th source over a bed (m, negative), in this water; `None` if its release is neutral and has no structure.
     pub(crate) fn new(flow: &dyn Flow, n: usize, source: &Source, bed_m: f64) -> Result<Option<Self>, PlumeError> {
-        let density = flow.density(&source.p_W, 0.0);
         let release = &source.release;
-        let structured = release.structure.get() > 0.0;
-        let curve = match release.curve(n, density)? {
-            Some(curve) => curve,
-            None if structured => Curve::constant(0.0),
-            None => return Ok(None),
+        let Some(ThreadStart { curve, volume_m3_s, radius_m }) = release.thread(n, flow, &source.p_W)? else {
+            return Ok(None);
         };
-        if structured {
-            finest_eddies_are_seen(flow, n, &source.p_W)?;
-        }
-        let (volume_m3_s, radius_m) = release.outflow(n)?;
         let rate_hz = release.rate_hz.get();
         Ok(Some(Self {
             thread: Thread {
                 volume_m3: volume_m3_s / rate_hz,
                 rate_hz,
                 outflow_m_s: volume_m3_s / (std::f64::consts::PI * radius_m * radius_m),
-                mixes: structured || curve.changes(),
+                mixes: release.structure.get() > 0.0 || curve.changes(),
                 curve,
             },
             profile: Profile::still(bed_m),
@@ -112,23 +100,6 @@ impl Rise {
             self.grown_m2[n] = self.thread.grown_m2(&self.elements[n], &around) as f32;
         }
     }
-}
-
-/// Structure is strained, not carried apart, within what a probe averages over.
-fn finest_eddies_are_seen(flow: &dyn Flow, n: usize, p_W: &Vector3<f64>) -> Result<(), PlumeError> {
-    let per_m4 = flow.dissipation(p_W, 0.0) / (VISCOSITY_M2_S * VISCOSITY_M2_S * VISCOSITY_M2_S);
-    // Kolmogorov's length.
-    let finest_m = 1.0 / per_m4.sqrt().sqrt();
-    if finest_m > LEAST_EDDY_M {
-        return Ok(());
-    }
-    let problem = format!(
-        "must be 0 in this water: its finest eddies at the source are {:.2} mm large, and the model of structure needs more \
-         than {:.1} mm, which a probe averages over",
-        1e3 * finest_m,
-        1e3 * LEAST_EDDY_M
-    );
-    Err(PlumeError::new(format!("sources[{n}].release.structure"), problem))
 }
 
 /// Size of a filament that its own entrainment has widened, m.

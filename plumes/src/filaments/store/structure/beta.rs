@@ -1,8 +1,8 @@
 //! Quantiles of the beta law.
 //!
-//! *Source*: the incomplete beta function as a continued fraction, DLMF 8.17.22, by the method of Lentz 1976, Appl. Opt.
-//! 15, 668; its inverse by Newton's method within a bracket. `statrs` has both, with logarithms of the platform: the
-//! bits of a run would differ between machines (its values are those of the test).
+//! *Source*: the incomplete beta function as a continued fraction, DLMF 8.17.22, by the method of Lentz 1976, Appl.
+//! Opt. 15, 668; its inverse by Newton's method within a bracket. `statrs` has both, with logarithms of the platform: the
+//! bits of a run would differ between machines.
 //!
 //! *Parameters*: none.
 //!

@@ -1,14 +1,14 @@
 //! Structure below a filament: what a probe meets where filaments give the mean.
 //!
-//! *Source*: see `sheet`. The law of one point is a beta law between nothing and what was released, of which the gamma law
-//! is the limit far from the source.
+//! *Source*: see `sheet`. The law of one point is a beta law between nothing and what was released, of which the gamma
+//! law is the limit far from the source.
 //!
 //! *Parameters*: `share` of the variance that stirring makes and mixing leaves, of a release.
 //!
 //! *Deviations*: a pattern belongs to the filament that contributes most and moves with it; where another contributes
 //! more, another pattern begins, independent of the first. It is a lattice of normal values, linear between them and of
-//! even variance, so its correlation is the same in all directions, though a sheet is thin in one. Below a ten-thousandth of
-//! the variance it is left out.
+//! even variance, so its correlation is the same in all directions, though a sheet is thin in one. A relative variance
+//! below 1e-4 is left out.
 
 mod beta;
 mod sheet;
@@ -20,7 +20,7 @@ use beta::Beta;
 pub(crate) use sheet::Sheet;
 use world::math;
 
-/// Integral scale of the pattern, in cells of its lattice.
+/// Integral scale of the pattern, in cells of its lattice; the test of its correlation holds it to 15 %.
 const SCALE_CELLS: f64 = 0.66;
 
 /// The structure of a release.

@@ -1,12 +1,11 @@
 //! Structure of the dye that is finer than a filament: how much of it is left, and how large it is, at a sheet's time.
 //!
-//! *Source*: stirring without mixing leaves the dye as it was released in a share C̄/C0 of the volume over which it is
-//! spread: variance C̄(C0 − C̄). Molecules that diffuse out of sheets [`mixed`](Sheet) for a time lower C0 to the mean of
-//! the concentration over the sheet's mass, C0·m (Villermaux 2019, Annu. Rev. Fluid Mech. 51, 245), so C̄(C0·m − C̄) is
-//! left until sheets overlap. One point of it has a gamma law (Duplat & Villermaux 2008, J. Fluid Mech. 617, 51; in
-//! boundary layers Cassiani, Bertagni, Marro & Salizzoni 2020, Boundary-Layer Meteorol. 177, 153), here bounded by
-//! what was released: a beta law. A probe averages over a way across the sheets: variance and integral scale of a record with
-//! an exponential correlation (Taylor 1921, Proc. Lond. Math. Soc. 20, 196).
+//! *Source*: stirring without mixing leaves the dye as it was released in a share C/C0 of the volume over which it is
+//! spread: variance C(C0 − C). Molecules that diffuse out of the sheets lower C0 to the mean of the concentration over
+//! the sheet's mass, C0·m (Villermaux 2019, Annu. Rev. Fluid Mech. 51, 245), so C(C0·m − C) is left. One point has a
+//! gamma law (Villermaux & Duplat 2003, Phys. Rev. Lett. 91, 184501; in boundary layers arXiv:2601.20470), here
+//! bounded by what was released: a beta law. A probe averages over a way across the sheets: variance and integral scale
+//! of a record with an exponential correlation (Taylor 1921, Proc. Lond. Math. Soc. 20, 196).
 //!
 //! *Parameters*: `share` of that variance which is there (1: all of it); the way over which a probe averages.
 //!

@@ -103,8 +103,8 @@ fn it_is_correlated_over_the_sheets_thickness() {
     }
 }
 
-/// In the flume: without structure a probe is given the concentration to the bit; with it, as much in the mean, in which
-/// the mean over many keys stands for time.
+/// In the flume: without structure a probe is given the concentration to the bit; with it, as much in the mean. The mean
+/// over many keys stands for time.
 #[test]
 fn the_mean_field_stays() {
     let water = tests_eddies::water(2.5, 2);

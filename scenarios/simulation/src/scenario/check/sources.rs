@@ -7,7 +7,6 @@ use plumes::error::PlumeError;
 use plumes::flow::Water;
 use plumes::release;
 use world::area::Area;
-use world::fields::Flow;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
@@ -21,13 +20,7 @@ pub(super) fn releases(
 ) {
     let placed = release::place(&scenario.sources, area, terrain).unwrap_or_default();
     for (n, source) in placed.iter().enumerate() {
-        let curve = source.release.curve(n, water.density(&source.p_W, 0.0));
-        let problem = match curve {
-            Ok(None) => None,
-            Ok(Some(_)) => source.release.outflow(n).err(),
-            Err(problem) => Some(problem),
-        };
-        if let Some(PlumeError::Invalid { field, problem }) = problem {
+        if let Err(PlumeError::Invalid { field, problem }) = source.release.thread(n, water, &source.p_W) {
             found.push(UnplacedFault::error(field, problem));
         }
     }
