@@ -18,8 +18,12 @@ type Near = [u32; RUNS];
 
 /// The sum of the contributions of a group of `n`, in quanta. Only these `runs` of it (a bit each) may be near.
 pub(crate) fn felt(asked: &GroupQuery, n: usize, runs: u32) -> i64 {
+    let near = near(asked, n, runs);
+    if near == [0; RUNS] {
+        return 0;
+    }
     let (mut moving, mut present, mut total) = (MovingPacket::default(), PresentMembers::default(), 0);
-    each_packet(&near(asked, n, runs), |some| {
+    each_packet(&near, |some| {
         moving.take(asked.s, asked.q.lookup, asked.from, some);
         present.fill(&moving, asked);
         present.seal(asked);
