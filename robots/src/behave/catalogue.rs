@@ -1,7 +1,7 @@
 //! The behaviours by name. Each place for a behaviour in a strategy has its own list of behaviours that can fill it.
 
 use super::behaviour::BehaviourParams;
-use super::{cloverleaf, find, reacquire, track_in, track_out};
+use super::{cast, climb, cloverleaf, find, lawnmower, random_points, reacquire, square_spiral, track_in, track_out};
 use world::catalogue::Entry;
 use world::kind;
 
@@ -11,7 +11,7 @@ kind! {
     /// Behaviours that search the area for the plume while nothing has been detected yet (Find).
     pub FindSpec = Finds of BehaviourParams {
         heading: HEADING,
-        rows: [find::Params],
+        rows: [find::Params, lawnmower::Params, random_points::Params],
         standard: find::Params,
     }
 }
@@ -20,7 +20,7 @@ kind! {
     /// Behaviours that follow the plume towards its source while the vehicle detects it (Track-In).
     pub TrackInSpec = TracksIn of BehaviourParams {
         heading: HEADING,
-        rows: [track_in::Params],
+        rows: [track_in::Params, climb::Params],
         standard: track_in::Params,
     }
 }
@@ -29,7 +29,7 @@ kind! {
     /// Behaviours for the first moments after the plume was lost (Track-Out): they try to return into it at once.
     pub TrackOutSpec = TracksOut of BehaviourParams {
         heading: HEADING,
-        rows: [track_out::Params],
+        rows: [track_out::Params, cast::Params, square_spiral::Params],
         standard: track_out::Params,
     }
 }

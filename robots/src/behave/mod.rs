@@ -2,12 +2,18 @@
 
 mod avoid;
 mod behaviour;
+mod cast;
 mod catalogue;
+mod climb;
 mod cloverleaf;
+mod corners;
 mod find;
 mod go_to;
+mod lawnmower;
 mod open_loop;
+mod random_points;
 mod reacquire;
+mod square_spiral;
 mod survey;
 #[cfg(test)]
 mod testing;

@@ -2,7 +2,8 @@
 //!
 //! *Source*: Pang 2009, section 5.3, Table 1 (after Li 2001).
 //!
-//! *Parameters*: λ, `lambda_s`, s, 5.0; β, `beta_deg`, °, 20.
+//! *Parameters*: λ, `lambda_s`, s, 5.0; β, `beta_deg`, °, 20: 0 goes straight up-flow (the surge of surge-cast).
+//! `active`, true; false is the passive strategy of Li 2001: one side of up-flow until the plume is lost.
 //!
 //! *Deviations*: Table 1 compares ψ_v - ψ_f with 180 without wrapping. Here the rule asks whether the vehicle's
 //! heading is left or right of up-flow. If it is left, LHS = +1 (the vehicle would leave the plume on its left) and
@@ -35,6 +36,10 @@ pub struct Params {
     /// Angle to up-flow, °, less than 90.
     #[default(NonNegative::new(20.0))]
     pub beta_deg: NonNegative,
+    /// Whether each detection turns it to the other side (Li's active strategy); otherwise it keeps the side that it
+    /// began with (his passive one).
+    #[default(true)]
+    pub active: bool,
 }
 
 impl Listed for Params {
@@ -56,6 +61,7 @@ impl BehaviourParams for Params {
 pub struct CounterTurn {
     lambda_s: f64,
     beta_rad: f64,
+    active: bool,
     begun: bool,
     last: Lcdp,
 }
@@ -72,6 +78,7 @@ impl CounterTurn {
         Ok(Self {
             lambda_s: params.lambda_s.get(),
             beta_rad: params.beta_deg.get().to_radians(),
+            active: params.active,
             begun: false,
             last: Lcdp::new_at(0.0, nalgebra::Vector2::zeros()),
         })
@@ -94,6 +101,9 @@ impl Behave for CounterTurn {
         let up_flow = memory.up_flow_or_nose(seen);
         if detects(seen) {
             self.last = Lcdp::here(seen);
+            if self.begun && !self.active {
+                return Stride::Keep;
+            }
         } else if seen.t_s - self.last.t_s > self.lambda_s {
             // Use the copy in the memory if there is one: a navigation fix may have moved it.
             let same = memory.last_detection.filter(|d| d.t_s == self.last.t_s);
@@ -149,6 +159,20 @@ mod tests {
         assert_eq!(step(&mut b, &at(7.0, false), false, &mut m), Stride::Keep);
         assert_eq!(step(&mut b, &at(7.1, false), false, &mut m), Stride::Over);
         assert_eq!(m.lost.first().map(|l| l.position), Some(v(0.0, 2.0)));
+    }
+
+    #[test]
+    fn the_passive_one_keeps_its_side_until_the_plume_is_lost() {
+        let params = Params { active: false, ..Params::default() };
+        let (mut b, mut m) = (CounterTurn::new(&params).expect("legal"), memory(Some(0.0), &[]));
+        let at = |t: f64, nose, smells| smelling(seen(t, v(0.0, t), nose, None), smells);
+        b.enter(&at(0.0, 350.0, true), &m);
+        assert_eq!(course(step(&mut b, &at(0.0, 350.0, true), false, &mut m)).map(f64::round), Some(20.0));
+        assert_eq!(step(&mut b, &at(2.0, 20.0, true), false, &mut m), Stride::Keep);
+        assert_eq!(step(&mut b, &at(7.1, 20.0, false), false, &mut m), Stride::Over);
+        // Left on the left of up-flow at first: the next contact begins from there and leads to the other side.
+        b.enter(&at(9.0, 20.0, true), &m);
+        assert_eq!(course(step(&mut b, &at(9.0, 20.0, true), false, &mut m)).map(f64::round), Some(340.0));
     }
 
     #[test]

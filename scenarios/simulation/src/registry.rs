@@ -173,12 +173,13 @@ mod tests {
         }
     }
 
-    /// An arm of the reproduction table is a use, too.
+    /// An arm of the reproduction table or of a campaign is a use, too.
     #[test]
     fn every_entry_that_is_named_is_used_by_a_scenario() {
-        let rows = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/rows");
-        let rows = std::fs::read_dir(rows)
-            .expect("the rows")
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let rows = ["tests/reference/rows", "scenarios/catalog/campaigns"]
+            .into_iter()
+            .flat_map(|folder| std::fs::read_dir(root.join(folder)).expect("a folder of arms"))
             .map(|e| std::fs::read_to_string(e.expect("a row").path()).expect("text"));
         let own = CATALOG.iter().map(|t| t.text.to_string());
         let text: String = rows.chain(own).collect();

@@ -57,7 +57,8 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
             let (want, spins_up) = match template.name {
                 "kinematic_steps" => (vec![1; arms], 1),
                 "crab_identify" => (vec![1, 1, 1, 1, 2, 2], 6),
-                "crab_flow" => (vec![1; arms], 8),
+                // Two of the eleven have the water of another one.
+                "crab_flow" => (vec![1, 1, 1, 1, 1, 1, 1, 2, 2], 9),
                 _ => (vec![arms], 1),
             };
             let mut sorted = lanes.clone();
