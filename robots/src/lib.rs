@@ -17,6 +17,7 @@ pub mod map;
 pub mod memory;
 pub mod places;
 pub mod plan;
+pub mod policy;
 pub mod searcher;
 pub mod sense;
 pub mod strategy;

@@ -1,5 +1,6 @@
 //! A robot's belief about the source's place: a grid of probabilities, and numbers that planners need.
 
+use super::Outlook;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
@@ -175,4 +176,6 @@ pub struct Belief {
     pub credible_95: f64,
     /// What the map knows of the odour; only of a map that follows odour, and if the scenario asks for it.
     pub odour: Option<Arc<Odour>>,
+    /// What the map expects on the ways that the strategy has last asked about.
+    pub outlook: Option<Arc<Outlook>>,
 }

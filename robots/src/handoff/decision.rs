@@ -1,6 +1,6 @@
 //! What a strategy decides in a tick.
 
-use super::Goal;
+use super::{Goal, WaysAhead};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -254,6 +254,8 @@ pub struct Decision<G: Send + Sync + 'static = Goal> {
     pub declared: Option<Declaration>,
     /// Ask the camera, if there is one, for a picture.
     pub picture: bool,
+    /// Ways about which the map is asked; a new number asks anew.
+    pub ways: Option<WaysAhead>,
     /// Set when the mission is over.
     pub outcome: Option<Outcome>,
 }
@@ -261,7 +263,7 @@ pub struct Decision<G: Send + Sync + 'static = Goal> {
 impl<G: Send + Sync> Decision<G> {
     /// Going for a goal, and nothing else.
     pub fn new(behaviour: Behaviour, goal: G) -> Self {
-        Self { behaviour, goal, declared: None, picture: false, outcome: None }
+        Self { behaviour, goal, declared: None, picture: false, ways: None, outcome: None }
     }
 }
 

@@ -20,6 +20,7 @@ mod readings;
 mod reply;
 mod shown;
 mod side;
+mod ways;
 
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use bounds::Bounds;
@@ -49,6 +50,7 @@ pub use shown::layers::{Layer, LayerState};
 pub use shown::regions::{Region, RegionState, Regions, region_name};
 pub use shown::zone::Zone;
 pub use side::Side;
+pub use ways::{Outlook, WAYS, WaysAhead};
 
 #[cfg(test)]
 pub(crate) mod testing;

@@ -79,6 +79,7 @@ pub(crate) fn sure_of(grid: BeliefGrid, best: usize, most: f64) -> Belief {
         entropy_nat: 1.5,
         credible_95: 100.0,
         odour: None,
+        outlook: None,
     }
 }
 

@@ -47,6 +47,10 @@ impl MapParams for BayesianSpec {
         self.0.check(area)
     }
 
+    fn looks_ahead(&self) -> bool {
+        true
+    }
+
     fn cost(&self, times: &Times) -> Cost {
         self.0.cost(times)
     }

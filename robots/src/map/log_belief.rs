@@ -50,6 +50,7 @@ impl LogBelief {
                 entropy_nat: 0.0,
                 credible_95: 0.0,
                 odour: None,
+                outlook: None,
             },
             work: Vec::with_capacity(n),
             ln_evidence: 0.0,

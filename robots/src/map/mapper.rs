@@ -2,7 +2,7 @@
 
 use super::watch::MapObservation;
 use crate::error::RobotError;
-use crate::handoff::Belief;
+use crate::handoff::{Belief, Outlook, WaysAhead};
 use world::area::Area;
 use world::cost::{Cost, Times};
 use world::registry::Spec;
@@ -14,6 +14,10 @@ pub trait Mapper: std::fmt::Debug + Send + Sync {
     fn step(&mut self, seen: &MapObservation);
     /// The present belief.
     fn belief(&self) -> &Belief;
+    /// What it expects on ways ahead; `None` if it knows no flow yet, or if it does not look ahead.
+    fn outlook(&mut self, _ways: &WaysAhead) -> Option<Outlook> {
+        None
+    }
     /// Logarithm of the probability that the map gave to all that it has observed so far, up to a constant that is the
     /// same for maps of the same kind; 0 if it does not know.
     fn ln_evidence(&self) -> f64 {
@@ -34,6 +38,11 @@ pub trait MapParams: Spec {
     /// # Errors
     /// [`RobotError::Invalid`], with the field below `map`.
     fn check(&self, area: &Area) -> Result<(), RobotError>;
+
+    /// Whether its mapper says what it expects on ways ahead ([`Mapper::outlook`]).
+    fn looks_ahead(&self) -> bool {
+        false
+    }
 
     /// Its memory and time; paths below `map`.
     fn cost(&self, _times: &Times) -> Cost {

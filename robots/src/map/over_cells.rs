@@ -12,7 +12,8 @@ use super::mapper::Mapper;
 use super::watch::{MapObservation, Sighting};
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
-use crate::handoff::{Belief, BeliefGrid};
+use crate::handoff::{Belief, BeliefGrid, Outlook, WAYS, WaysAhead};
+use std::sync::Arc;
 use world::area::Area;
 
 /// Writes into the likelihood what a sighting says of every place; the kernel is aimed at it.
@@ -57,6 +58,26 @@ impl Mapper for OverCells {
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    /// The chance of a detection on a way is that of any of its points, as if they were independent.
+    fn outlook(&mut self, ways: &WaysAhead) -> Option<Outlook> {
+        self.with.watch.history.releases().next()?;
+        let cells = self.belief().grid.len();
+        let mut chances = Vec::with_capacity(WAYS);
+        for way in 0..WAYS {
+            let mut none = vec![1.0; cells];
+            for point in ways.points(way) {
+                let Some(at) = self.with.grid.cell(&point.push(ways.z_m)) else { continue };
+                self.kernel.aim(&self.with.watch.history, at);
+                self.kernel.not_detecting(&mut self.with.likelihood);
+                self.with.over_places(&mut none);
+            }
+            let false_alarm = self.with.evidence.epsilon;
+            let met = |n: f64| false_alarm + (1.0 - false_alarm) * (1.0 - n);
+            chances.push(Arc::new(none.into_iter().map(met).collect()));
+        }
+        Some(Outlook { ways: *ways, chances })
     }
 
     fn ln_evidence(&self) -> f64 {

@@ -46,6 +46,10 @@ impl MapParams for PomdpSpec {
         self.0.check(area)
     }
 
+    fn looks_ahead(&self) -> bool {
+        true
+    }
+
     fn cost(&self, times: &Times) -> Cost {
         self.0.cost(times)
     }

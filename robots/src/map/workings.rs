@@ -103,6 +103,22 @@ impl Workings {
         Self::new(grid, &spec.trajectory, periods, spec.false_detection, &spec.doubt, spec.grid.places)
     }
 
+    /// Multiplies one number per cell by the mean of `likelihood` over its places.
+    pub(super) fn over_places(&self, cells: &mut [f64]) {
+        if self.places == 1 {
+            cells.iter_mut().zip(&self.likelihood).for_each(|(cell, l)| *cell *= l);
+            return;
+        }
+        let grid = &self.belief.belief().grid;
+        let mut sums = vec![0.0; cells.len()];
+        for (i, l) in self.likelihood.iter().enumerate() {
+            let [x, y, z] = self.grid.place(i);
+            sums[grid.index([x / self.places, y / self.places, z])] += l;
+        }
+        let share = 1.0 / (self.places * self.places) as f64;
+        cells.iter_mut().zip(sums).for_each(|(cell, sum)| *cell *= sum * share);
+    }
+
     /// Takes `likelihood` into the belief.
     pub(super) fn update(&mut self, t_s: f64, detected: bool) {
         if let Some(fix_s) = self.watch.fix() {

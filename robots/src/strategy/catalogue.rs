@@ -5,6 +5,7 @@ use super::external::ExternalSpec;
 use super::inspect::InspectSpec;
 use super::map_and_plan::MapAndPlanSpec;
 use super::open_loop::OpenLoopSpec;
+use super::policy_search::PolicySearchSpec;
 use super::route::RouteSpec;
 use super::spec::{Strategies, StrategyParams};
 use super::subregions::SubregionsSpec;
@@ -16,6 +17,6 @@ rows! {
     /// declaration rule, each chosen by name.
     StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
-        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec, ExternalSpec],
+        rows: [AmpSpec, MapAndPlanSpec, PolicySearchSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec, ExternalSpec],
     }
 }

@@ -161,7 +161,14 @@ impl Strategy for External {
         }
         let goal = self.goal.unwrap_or(goal);
         let behaviour = self.behaviour;
-        Decision { behaviour, goal, declared: answer.declared, picture: answer.picture, outcome: self.outcome }
+        Decision {
+            behaviour,
+            goal,
+            declared: answer.declared,
+            picture: answer.picture,
+            ways: None,
+            outcome: self.outcome,
+        }
     }
 
     fn shown(&self) -> Shown {

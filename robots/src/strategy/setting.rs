@@ -17,6 +17,8 @@ pub struct Setting {
     pub chart: Obstacles,
     /// The robot keeps a map of where the source may be.
     pub maps: bool,
+    /// That map says what it expects on ways ahead.
+    pub outlook: bool,
     /// What looks at its pings and pictures.
     pub eyes: Arc<dyn Eyes>,
 }

@@ -29,7 +29,14 @@ impl Eyes for Blind {
 
 /// The usual area over a level bed, with nothing charted.
 pub(crate) fn setting(depth_m: f64, maps: bool) -> Setting {
-    Setting { area: area(), bed: Terrain::Level { depth_m }, chart: Obstacles::default(), maps, eyes: Arc::new(Blind) }
+    Setting {
+        area: area(),
+        bed: Terrain::Level { depth_m },
+        chart: Obstacles::default(),
+        maps,
+        outlook: maps,
+        eyes: Arc::new(Blind),
+    }
 }
 
 /// A strategy's tick. It is read like the decision.

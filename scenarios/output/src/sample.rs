@@ -94,6 +94,7 @@ pub(crate) fn belief(t_s: f64) -> Belief {
         entropy_nat: p.iter().map(|p| -p * math::ln(*p)).sum(),
         credible_95: 7.0 * wide * wide,
         odour: None,
+        outlook: None,
         p: Arc::new(p),
         grid: Arc::new(grid),
     }

@@ -68,6 +68,7 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
         within(Algorithms, "Behaviours of the strategies' own", robots::behave::PARTS),
         chosen.kind::<robots::map::Maps>(Algorithms),
         chosen.kind::<robots::plan::Planners>(Algorithms),
+        chosen.kind::<robots::policy::Policies>(Algorithms),
         chosen.kind::<robots::declare::Declares>(Algorithms),
         chosen.kind::<robots::declare::BeliefRules>(Algorithms),
         within(Algorithms, "Eyes (rheotaxis segment, and a verifier's fields)", eyes::vision::CATALOGUE),

@@ -20,7 +20,7 @@
 
 use super::evidence::DoubtSpec;
 use crate::error::RobotError;
-use crate::handoff::Belief;
+use crate::handoff::{Belief, Outlook, WaysAhead};
 use crate::map::log_belief::LogBelief;
 use crate::map::mapper::Mapper;
 use crate::map::watch::MapObservation;
@@ -161,6 +161,13 @@ impl Mapper for Alternatives {
 
     fn belief(&self) -> &Belief {
         self.belief.belief()
+    }
+
+    /// That of the most credible possibility.
+    fn outlook(&mut self, ways: &WaysAhead) -> Option<Outlook> {
+        let credible = |m: &Member| m.ln_prior + m.ln_weight;
+        let most = self.members.iter_mut().max_by(|a, b| credible(a).total_cmp(&credible(b)))?;
+        most.mapper.outlook(ways)
     }
 
     fn ln_evidence(&self) -> f64 {

@@ -235,6 +235,7 @@ impl Strategy for Amp {
             goal: self.goal,
             declared,
             picture: self.now == Behaviour::Survey && self.post.picture(),
+            ways: None,
             outcome: self.outcome,
         }
     }

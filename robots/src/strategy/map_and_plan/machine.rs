@@ -339,6 +339,7 @@ impl Strategy for MapAndPlan {
             goal: self.goal,
             declared,
             picture: false,
+            ways: None,
             outcome: self.outcome,
         }
     }

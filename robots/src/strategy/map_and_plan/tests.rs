@@ -24,7 +24,7 @@ fn area() -> Area {
 }
 
 fn setting(chart: Vec<Obstacle>) -> Setting {
-    Setting { area: area(), bed: BED, chart: Obstacles(chart), maps: true, eyes: Arc::new(Blind) }
+    Setting { area: area(), bed: BED, chart: Obstacles(chart), maps: true, outlook: true, eyes: Arc::new(Blind) }
 }
 
 fn spec() -> MapAndPlanSpec {

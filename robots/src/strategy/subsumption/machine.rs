@@ -335,6 +335,7 @@ impl Strategy for Subsumption {
             goal: self.goal,
             declared,
             picture: self.outcome.is_none() && self.wants_picture(),
+            ways: None,
             outcome: self.outcome,
         }
     }

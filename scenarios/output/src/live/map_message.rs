@@ -120,6 +120,7 @@ mod tests {
             entropy_nat: 1.0,
             credible_95: 100.0,
             odour: None,
+            outlook: None,
             grid: Arc::new(grid),
         }
     }

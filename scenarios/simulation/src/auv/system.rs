@@ -20,6 +20,7 @@ use robots::handoff::{
 use robots::map::MapObservation;
 use robots::sense::{SensorRequests, SensorSuite, Surroundings};
 use robots::vehicles::Battery;
+use std::sync::Arc;
 use world::clock::Clock;
 use world::frames::{NOT_FINITE, Truth};
 use world::physics::Physics;
@@ -53,8 +54,11 @@ pub(crate) fn estimate_state(mut robots: Query<(&OnboardTime, &Readings, &mut De
     }
 }
 
-pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estimate, &mut Mapping, &mut Belief)>) {
-    for (readings, estimate, mut mapping, mut belief) in &mut robots {
+pub(crate) fn update_map(
+    clock: Res<Clock>,
+    mut robots: Query<(&Readings, &Estimate, &Decision, &mut Mapping, &mut Belief)>,
+) {
+    for (readings, estimate, decision, mut mapping, mut belief) in &mut robots {
         let p = estimate.position;
         mapping.mapper.step(&MapObservation {
             t_s: clock.t_s(),
@@ -65,7 +69,13 @@ pub(crate) fn update_map(clock: Res<Clock>, mut robots: Query<(&Readings, &Estim
         });
         let new = mapping.mapper.belief();
         if new.updates != belief.updates {
-            *belief = new.clone();
+            *belief = Belief { outlook: belief.outlook.take(), ..new.clone() };
+        }
+        // What the strategy has asked in the tick before.
+        if let Some(ways) = decision.ways
+            && belief.outlook.as_ref().is_none_or(|known| known.ways != ways)
+        {
+            belief.outlook = mapping.mapper.outlook(&ways).map(Arc::new);
         }
     }
 }

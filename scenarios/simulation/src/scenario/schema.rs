@@ -198,6 +198,7 @@ impl RobotSpec {
             bed: terrain.clone(),
             chart: Obstacles(obstacles.0.iter().filter(charted).cloned().collect()),
             maps: self.map.is_some(),
+            outlook: self.map.as_ref().is_some_and(|map| map.looks_ahead()),
             eyes: Arc::new(StandardEyes),
         }
     }

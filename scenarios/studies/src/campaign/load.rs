@@ -33,7 +33,8 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "wp_maps",
     "moth_plus",
     "kinematic_steps",
-    "reactive"
+    "reactive",
+    "cognitive"
 ];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario may

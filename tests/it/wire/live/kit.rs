@@ -76,6 +76,7 @@ fn belief() -> Belief {
         entropy_nat: 0.562,
         credible_95: 12.0,
         odour: None,
+        outlook: None,
     }
 }
 

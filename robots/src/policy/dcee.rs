@@ -1,0 +1,49 @@
+//! Goes where it is expected to be near the estimated source, and the estimate to be good.
+//!
+//! *Source*: Chen, Rhodes & Liu 2021 (Automatica 129, 109649): dual control for exploration and exploitation.
+//!
+//! *Parameters*: none. The cost is E[|x̂ − x|² + tr P]: x̂ and P are mean and covariance of the source's place after the
+//! outcome, x is the vehicle's place.
+//!
+//! *Deviations*: outcomes are whether there is a detection on the way, weighed exactly, instead of sampled
+//! concentrations.
+
+use super::choice::{Policy, PolicyParams};
+use super::prospect::Prospect;
+use super::prospect::Way;
+use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// Dual control has no parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Dcee {}
+
+impl Listed for Dcee {
+    const ENTRY: Entry = Entry {
+        name: "Dcee",
+        what: "the way after which distance to the estimated source and its covariance are expected to be least",
+        source: "Chen et al. 2021, Automatica 129, 109649",
+    };
+}
+
+impl PolicyParams for Dcee {
+    fn build(&self) -> Box<dyn Policy> {
+        Box::new(self.clone())
+    }
+}
+
+impl Policy for Dcee {
+    fn choose(&mut self, prospect: &Prospect<'_>, _: &mut Stream) -> usize {
+        let cost = |way: &Way| -> f64 {
+            let of =
+                |(chance, mean, trace): (f64, Vector2<f64>, f64)| chance * ((mean - way.end).norm_squared() + trace);
+            way.outcomes.iter().map(|outcome| of(prospect.moments(outcome))).sum()
+        };
+        prospect.best(|way| -cost(way))
+    }
+}
