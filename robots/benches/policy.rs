@@ -1,5 +1,5 @@
-//! How long a choice takes: four moves on a belief of 53 × 53 cells, the lattice of Loisy & Eloy (2022), and the seven ways
-//! of a vehicle over a map of 40 × 25.
+//! How long a choice takes: four moves on a belief of 53 × 53 cells, a lattice of Loisy & Eloy (2022), and the seven
+//! ways of a vehicle over a map of 40 × 25.
 //!
 //! `cargo bench -p rheotaxis-robots --bench policy`
 

@@ -1,7 +1,7 @@
 //! Searches for the plume on parallel lines across the area, from its down-flow end to its up-flow end and back.
 //!
 //! *Source*: complete coverage, the floor against which plume tracing is compared, as in Tholen et al. 2022 (J. Mar.
-//! Sci. Eng. 10, 7).
+//! Sci. Eng. 10).
 //!
 //! *Parameters*: distance between lines, `spacing_m`, m, 24: the turning circle of a REMUS.
 //!
@@ -39,7 +39,7 @@ impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "Lawnmower",
         what: "find: parallel lines across the area, from its down-flow end to its up-flow end and back",
-        source: "complete coverage; Tholen et al. 2022, J. Mar. Sci. Eng. 10, 7",
+        source: "complete coverage; Tholen et al. 2022, J. Mar. Sci. Eng. 10",
     };
 }
 

@@ -1,9 +1,9 @@
 //! Goes where it is expected to be near the estimated source, and the estimate to be good.
 //!
-//! *Source*: Chen, Rhodes & Liu 2021 (Automatica 129, 109649): dual control for exploration and exploitation.
+//! *Source*: Chen, Rhodes & Liu 2021 (Automatica): dual control for exploitation and exploration in autonomous search.
 //!
-//! *Parameters*: none. The cost is E[|x̂ − x|² + tr P]: x̂ and P are mean and covariance of the source's place after the
-//! outcome, x is the vehicle's place.
+//! *Parameters*: none. The cost is E[|x̂ − x|² + tr P]: x̂ and P are mean and covariance of the source's place
+//! after the outcome, x is the vehicle's place.
 //!
 //! *Deviations*: outcomes are whether there is a detection on the way, weighed exactly, instead of sampled
 //! concentrations.
@@ -27,7 +27,7 @@ impl Listed for Dcee {
     const ENTRY: Entry = Entry {
         name: "Dcee",
         what: "the way after which distance to the estimated source and its covariance are expected to be least",
-        source: "Chen et al. 2021, Automatica 129, 109649",
+        source: "Chen, Rhodes & Liu 2021, Automatica",
     };
 }
 

@@ -1,6 +1,6 @@
 //! Goes where the next measurement is hardest to foretell.
 //!
-//! *Source*: Hutchinson, Liu & Chen 2018 (Mech. Syst. Signal Process. 115, 1): entrotaxis.
+//! *Source*: Hutchinson, Oh & Chen 2018 (Information Fusion 42, 179): entrotaxis.
 //!
 //! *Parameters*: none.
 //!
@@ -25,7 +25,7 @@ impl Listed for Entrotaxis {
     const ENTRY: Entry = Entry {
         name: "Entrotaxis",
         what: "the way on which the outcome is most uncertain",
-        source: "Hutchinson et al. 2018",
+        source: "Hutchinson et al. 2018, Information Fusion 42, 179",
     };
 }
 

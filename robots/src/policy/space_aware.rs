@@ -2,8 +2,8 @@
 //!
 //! *Source*: Loisy & Eloy 2022 (Proc. R. Soc. A 478, 20220118): space-aware infotaxis.
 //!
-//! *Parameters*: none. The cost of a belief is log₂(D + 2^(H−1) − ½), with D the mean distance to the source in steps
-//! and H the entropy in bits: about the logarithm of the steps still to go.
+//! *Parameters*: none. The cost of a belief is log₂(D + 2^(H−1) − ½), with D the mean distance to the source in
+//! steps and H the entropy in bits: about the logarithm of the steps still to go.
 //!
 //! *Deviations*: distances are straight lines in lengths of a way, not steps on a lattice. The cost is not below 0: it
 //! is 0 where the source is met.

@@ -4,12 +4,12 @@
 //! *Source*: the loop of cognitive searchers, as in Vergassola et al. 2007 (Nature 445, 406): update the belief, weigh
 //! the moves, make one. What is weighed is the policy's matter.
 //!
-//! *Parameters*: speed over ground `speed_m_s`, m/s, 1.5; length of a way, `way_m`, m, 48: the published moves of 1 to 2
-//! m times 24 m, the turning circle of a REMUS; find, policy and declaration rule by name.
+//! *Parameters*: speed over ground `speed_m_s`, m/s, 1.5; length of a way, `way_m`, m, 48: the published moves of 1
+//! to 2 m times 24 m, the turning circle of a REMUS; find, policy and declaration rule by name.
 //!
-//! *Deviations*: moves are arcs that a vehicle can turn (see `handoff/ways.rs`), not steps to four neighbours, and the
-//! chance of a detection is that on the whole way. Ways that leave the area are left out. A vehicle that passes over the
-//! source does not notice it: the rule declares, from the map. Obstacles are not planned round.
+//! *Deviations*: moves are arcs that a vehicle can turn (see `handoff/ways.rs`), not steps to four neighbours, and
+//! the chance of a detection is that on the whole way. Ways that leave the area are left out. A vehicle that passes
+//! over the source does not notice it: the rule declares, from the map. Obstacles are not planned round.
 
 use super::about::About;
 use super::setting::Setting;

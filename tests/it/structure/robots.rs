@@ -57,6 +57,7 @@ fn algorithm_files_say_where_they_come_from() {
         "robots/src/track",
         "robots/src/map",
         "robots/src/plan",
+        "robots/src/policy",
         "robots/eyes/src/camera",
         "robots/eyes/src/sidescan",
         "robots/eyes/src/survey",
