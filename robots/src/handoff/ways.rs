@@ -5,15 +5,15 @@ use std::sync::Arc;
 use world::math;
 use world::units::Heading;
 
-/// Arcs from one place: each begins with the heading and ends after the same length. A Copy of numbers, so that what
-/// asks and what answers make the same arcs.
+/// Ways from one place: each begins with the vehicle's heading and has the same length. They follow from these numbers
+/// alone, so that who asks about them and who answers mean the same ways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaysAhead {
     /// Number of the question; each new one has the next number.
     pub number: u32,
-    /// Where they begin (east, north), m, and how high (up), m.
+    /// Where they begin (east, north), m.
     pub from: Vector2<f64>,
-    /// See `from`.
+    /// Height of all of them (up from the still surface), m.
     pub z_m: f64,
     /// Heading at the beginning.
     pub heading: Heading,
