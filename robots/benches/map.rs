@@ -4,6 +4,7 @@
 
 use divan::Bencher;
 use nalgebra::{Vector2, Vector3};
+use robots::handoff::WaysAhead;
 use robots::map::{
     BayesianSpec, CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper, ParticleFilterSpec, PomdpSpec,
     TrajectorySpec,
@@ -122,4 +123,13 @@ fn pomdp_space(bencher: Bencher, flow: [f64; 2]) {
 #[divan::bench(args = [1.0, 5.0], sample_count = 10)]
 fn hmm_space(bencher: Bencher, step_s: f64) {
     run(bencher, &hmm(SPACE, step_s), ALONG, step_s);
+}
+
+/// What the map expects on seven ways of three points each.
+#[divan::bench]
+fn pomdp_outlook(bencher: Bencher) {
+    let mut cruise = Cruise::new(&pomdp(PLANE, 0.3), ALONG, 1.0);
+    let (from, heading) = (Vector2::new(60.0, 50.0), Heading::from_deg(270.0));
+    let ways = WaysAhead { number: 1, from, z_m: -5.0, heading, radius_m: 11.5, length_m: 48.0 };
+    bencher.bench_local(|| cruise.mapper.outlook(&ways));
 }

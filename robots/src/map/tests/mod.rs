@@ -3,4 +3,5 @@
 mod belief;
 mod doubt;
 mod kernel;
+mod outlook;
 mod search;
