@@ -31,6 +31,7 @@ const ENDS: &[(&str, &str)] = &[
     ("m_rts", "m/s^0.5"),
     ("m_s", "m/s"),
     ("m_s2", "m/s2"),
+    ("nat", "nat"),
     ("per_m", "1/m"),
     ("per_s", "1/s"),
     ("rad_s", "rad/s"),
@@ -150,7 +151,7 @@ mod tests {
     /// Shares, factors, weights, coefficients.
     const PURE: &str = "\
         Weak added_roll advance_ratio albedo area_share bed_albedo bed_texture centre_weight clearance_weight \
-        climb contrast contrast_left coverage cross_flow damping drag_0 dropout errors f_number factor \
+        climb contrast contrast_left coverage cross_flow damping discount drag_0 dropout errors f_number factor \
         false_detection fix_gain flicker frontal_drag least least_contrast least_dye least_red least_redness \
         least_source lost_below max_gain mean_cosine merge missed mixing most_dye most_edge most_share \
         most_source most_yellow mu peakedness pitch_damping pitch_gain plate prediction_error probability pull \
