@@ -60,7 +60,8 @@ impl Mapper for OverCells {
         self.with.belief.belief()
     }
 
-    /// The chance of a detection on a way is that of any of its points, as if they were independent.
+    /// The chance of a detection on a way is that of any of its points, as if they were independent. Of the doubts it
+    /// has that of false detections alone: not dye that is missed, sources of other strengths, or repeated readings.
     fn outlook(&mut self, ways: &WaysAhead) -> Option<Outlook> {
         self.with.watch.history.releases().next()?;
         let cells = self.belief().grid.len();

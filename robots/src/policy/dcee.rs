@@ -9,8 +9,7 @@
 //! concentrations.
 
 use super::choice::{Policy, PolicyParams};
-use super::prospect::Prospect;
-use super::prospect::Way;
+use super::prospect::{Prospect, Way};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

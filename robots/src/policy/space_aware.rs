@@ -9,8 +9,7 @@
 //! is 0 where the source is met.
 
 use super::choice::{Policy, PolicyParams};
-use super::prospect::BeliefAfter;
-use super::prospect::Prospect;
+use super::prospect::{BeliefAfter, Prospect};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
