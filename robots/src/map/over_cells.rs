@@ -60,8 +60,7 @@ impl Mapper for OverCells {
         self.with.belief.belief()
     }
 
-    /// The chance of a detection on a way is that of any of its points, as if they were independent. Of the doubts it
-    /// has that of false detections alone: not dye that is missed, sources of other strengths, or repeated readings.
+    /// The chance of a detection on a way is that of any of its points, as if they were independent.
     fn outlook(&mut self, ways: &WaysAhead) -> Option<Outlook> {
         self.with.watch.history.releases().next()?;
         let cells = self.belief().grid.len();
@@ -74,9 +73,7 @@ impl Mapper for OverCells {
                 self.kernel.not_detecting(&mut self.with.likelihood);
                 self.with.over_places(&mut none);
             }
-            let false_alarm = self.with.evidence.epsilon;
-            let met = |n: f64| false_alarm + (1.0 - false_alarm) * (1.0 - n);
-            chances.push(Arc::new(none.into_iter().map(met).collect()));
+            chances.push(Arc::new(none.into_iter().map(|n| self.with.evidence.some(n)).collect()));
         }
         Some(Outlook { ways: *ways, chances })
     }

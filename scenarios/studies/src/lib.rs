@@ -3,6 +3,7 @@
 
 pub mod campaign;
 pub mod distribution;
+pub mod draw;
 pub mod identify;
 pub mod reproduce;
 pub mod score_vision;

@@ -42,7 +42,7 @@ impl Campaign {
         if self.arm(place.arm).name != row.arm || place.seed.number() != row.seed {
             return Err("its row is of another campaign".to_string());
         }
-        let loaded = self.loaded(place.condition, place.arm);
+        let loaded = self.of_run(&place);
         let loaded = loaded.map_err(|e| e.to_string())?;
         let mut trial = Trial::assemble(&loaded, place.seed).map_err(|e| e.to_string())?;
         let mut follower = Follower::new(&loaded, place.seed).map_err(|e| e.to_string())?;

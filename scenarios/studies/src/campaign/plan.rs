@@ -3,6 +3,7 @@
 use super::error::CampaignError;
 use super::spec::{Arm, CampaignSpec, Conditions};
 use super::threads::with_threads;
+use crate::draw::number;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
 use rheotaxis::scenario::{Loaded, set_value};
@@ -125,17 +126,35 @@ impl Campaign {
         named.join("; ")
     }
 
-    /// The scenario of an arm under a condition.
+    /// The scenario of a run.
     ///
     /// # Errors
     /// If a path leads nowhere, or the scenario does not allow a value; both name the arm.
-    pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
-        let (shown, text) = self.text_of(condition, arm)?;
+    pub fn of_run(&self, place: &RunPlace) -> Result<Loaded, CampaignError> {
+        self.loaded(place.condition, place.arm, &|path| number(place.seed, path))
+    }
+
+    /// The scenario of an arm under a condition, with the middle of all that is drawn for a seed.
+    ///
+    /// # Errors
+    /// As [`Campaign::of_run`].
+    pub fn typical(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
+        self.loaded(condition, arm, &|_| 0.5)
+    }
+
+    fn loaded(&self, condition: u64, arm: usize, number: &dyn Fn(&str) -> f64) -> Result<Loaded, CampaignError> {
+        let (shown, text) = self.text_of(condition, arm, number)?;
         Ok(self.base.with_text(Path::new(&shown), text)?)
     }
 
-    /// What errors call the scenario of an arm under a condition, and its text.
-    fn text_of(&self, condition: u64, arm: usize) -> Result<(String, String), CampaignError> {
+    /// What errors call the scenario of an arm under a condition, and its text, where `number` is the number from 0 to 1
+    /// of a path that is drawn for a seed.
+    fn text_of(
+        &self,
+        condition: u64,
+        arm: usize,
+        number: &dyn Fn(&str) -> f64,
+    ) -> Result<(String, String), CampaignError> {
         let named = self.condition_name(condition);
         let mut shown = format!("{} (arm {}", self.base.name, self.arm(arm).name);
         if !named.is_empty() {
@@ -143,8 +162,13 @@ impl Campaign {
         }
         shown.push(')');
         let mut text = self.base.text().into_owned();
-        let condition = self.condition(condition);
-        for (path, value) in condition.iter().chain(&self.arm(arm).set) {
+        let mut all = self.condition(condition);
+        let arm = self.arm(arm);
+        let drawn = self.spec.draw.iter().filter(|draw| draw.in_arm(&arm.name));
+        let drawn: Vec<_> = drawn.map(|draw| (draw.path.clone(), draw.value(number(&draw.path)))).collect();
+        all.extend_from_slice(&drawn);
+        all.extend(arm.set.iter().map(|(path, value)| (path.clone(), filled(value, &drawn))));
+        for (path, value) in &all {
             text = set_value(&text, path, value).map_err(|problem| CampaignError::Override {
                 variant: shown.clone(),
                 path: path.clone(),
@@ -165,10 +189,19 @@ impl Campaign {
 
     fn check_all(&self) -> Result<(), CampaignError> {
         let arms = self.spec.arms.len();
-        let variants = self.spec.n_conditions() * arms as u64;
-        let place = |i: u64| (i / arms as u64, (i % arms as u64) as usize);
+        // With the middle of all that is drawn for a seed, and with each end of it.
+        let ends = (self.spec.draw.iter()).flat_map(|d| d.of.extremes().into_iter().map(|u| Some((d.path.as_str(), u))));
+        let ends: Vec<Option<(&str, f64)>> = std::iter::once(None).chain(ends).collect();
+        let variants = self.spec.n_conditions() * (arms * ends.len()) as u64;
+        let place = |i: u64| {
+            let (i, end) = (i / ends.len() as u64, ends[(i % ends.len() as u64) as usize]);
+            let number = move |path: &str| end.filter(|(of, _)| *of == path).map_or(0.5, |(_, u)| u);
+            (i / arms as u64, (i % arms as u64) as usize, number)
+        };
         // Draws from a few values make the same scenario again and again: each is checked once.
-        let hash_of = |(condition, arm)| Ok(hash(&self.text_of(condition, arm)?.1));
+        let hash_of = |(condition, arm, number)| -> Result<String, CampaignError> {
+            Ok(hash(&self.text_of(condition, arm, &number)?.1))
+        };
         let hashes: Vec<(u64, Result<String, CampaignError>)> =
             (0..variants).into_par_iter().map(|i| (i, hash_of(place(i)))).collect();
         let mut known = BTreeSet::new();
@@ -177,7 +210,8 @@ impl Campaign {
         };
         let new: Vec<_> = hashes.into_iter().filter(new).collect();
         let one = |i: u64| -> Result<(), CampaignError> {
-            let loaded = self.loaded(place(i).0, place(i).1)?;
+            let (condition, arm, number) = place(i);
+            let loaded = self.loaded(condition, arm, &number)?;
             loaded.check()?;
             match controlled(&loaded.scenario) {
                 asking if asking.is_empty() => Ok(()),
@@ -192,6 +226,11 @@ impl Campaign {
             .min_by_key(|(i, _)| *i);
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
+}
+
+/// A value of an arm, with `{PATH}` replaced by what was drawn for this path.
+fn filled(value: &str, drawn: &[(String, String)]) -> String {
+    drawn.iter().fold(value.to_string(), |value, (path, v)| value.replace(&format!("{{{path}}}"), v))
 }
 
 #[cfg(test)]
@@ -214,7 +253,7 @@ mod tests {
     #[test]
     fn every_arm_keeps_the_registry_of_the_base() {
         let registry = Registry::default().carrying(7_u8);
-        let arm = campaign_with(&registry, ARMS).loaded(0, 1).unwrap();
+        let arm = campaign_with(&registry, ARMS).typical(0, 1).unwrap();
         assert_eq!(arm.registry.carried::<u8>().collect::<Vec<_>>(), [&7]);
     }
 
@@ -243,7 +282,7 @@ mod tests {
         assert_eq!(c.condition_name(1), "time.limit_s=10; sources[0].rate_g_s=2");
         assert_eq!(c.condition_name(2), "time.limit_s=20; sources[0].rate_g_s=1");
         assert_eq!(places[12].condition, 2);
-        let changed = c.loaded(2, 0).unwrap().scenario;
+        let changed = c.typical(2, 0).unwrap().scenario;
         assert_eq!(changed.time.limit_s.get(), 20.0);
         assert_ne!(changed.robots, c.base.scenario.robots);
         c.check().unwrap();
@@ -254,12 +293,32 @@ mod tests {
         let c = campaign(&format!(
             r#"{ARMS}, conditions: Random(n: 50, draw: [("time.limit_s", LogUniform(10, 1000)), ("terrain.depth_m", Choice(["9", "11"]))])"#
         ));
-        let limits: Vec<f64> = (0..50).map(|i| c.loaded(i, 0).unwrap().scenario.time.limit_s.get()).collect();
+        let limits: Vec<f64> = (0..50).map(|i| c.typical(i, 0).unwrap().scenario.time.limit_s.get()).collect();
         assert!(limits.iter().all(|l| (10.0..1000.0).contains(l)));
         // Half of them lie below the geometric mean: 25 of 50, standard deviation 3.5; five of these are allowed.
         let below = limits.iter().filter(|l| **l < 100.0).count();
         assert!((8..=42).contains(&below), "{below}");
         assert_eq!(c.condition_name(7), c.clone().condition_name(7));
+    }
+
+    #[test]
+    fn what_a_seed_draws_is_the_same_for_every_arm_and_an_arm_may_name_it() {
+        let c = campaign(
+            r#"seeds: 40, draw: [(path: "sources[0].east_m", of: Uniform(-190, -100))],
+            arms: [(name: "a"), (name: "told", set: [("robots[0].start.east_m", "{sources[0].east_m}")])]"#,
+        );
+        let of = |run: u64| c.of_run(&c.place(run)).unwrap().scenario;
+        let east = |run: u64| of(run).sources[0].east_m.get();
+        for run in (0..80).step_by(2) {
+            assert!(east(run) == east(run + 1) && (-190.0..-100.0).contains(&east(run)));
+            assert_eq!(of(run + 1).robots[0].start.east_m.get(), east(run));
+        }
+        let mut sealed = c.clone();
+        sealed.key = Key::secret("of the contest");
+        assert_ne!(sealed.of_run(&sealed.place(0)).unwrap().scenario.sources, of(0).sources);
+        c.check().unwrap();
+        let beyond = campaign(r#"seeds: 1, arms: [(name: "a")], draw: [(path: "time.limit_s", of: Uniform(-1, 9))]"#);
+        assert!(beyond.check().is_err(), "an end that is not legal");
     }
 
     #[test]

@@ -40,7 +40,7 @@ impl Campaign {
         let arms = if by_arms { self.spec.arms.len() } else { 1 };
         for condition in 0..conditions {
             for arm in 0..arms {
-                what(&self.loaded(condition, arm)?.scenario);
+                what(&self.typical(condition, arm)?.scenario);
             }
         }
         Ok(())

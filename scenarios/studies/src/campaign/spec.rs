@@ -2,6 +2,7 @@
 
 use super::seeds::{MOST, Seeds, number_or_form};
 use crate::distribution::Distribution;
+use crate::draw::Draw;
 use rheotaxis::explain::FileKind;
 use rheotaxis::scenario::{Outline, ScenarioError, UnplacedFault, Version, read, version_first};
 use schemars::JsonSchema;
@@ -41,6 +42,10 @@ pub struct CampaignSpec {
     /// Further arms, drawn at random and called `draw 1`, `draw 2`, ...
     #[serde(default)]
     pub drawn_arms: Option<RandomDraws>,
+    /// Values that are drawn anew for every seed, from the seed and the key. An arm may set what depends on them: in its
+    /// values, `{PATH}` is the value that was drawn for this path.
+    #[serde(default)]
+    pub draw: Vec<Draw>,
     /// The conditions under which they are compared.
     #[serde(default)]
     pub conditions: Conditions,
@@ -183,6 +188,18 @@ impl CampaignSpec {
             }
             for path in drawn.paths().filter(|path| varied.contains(path)) {
                 wrong("drawn_arms.draw", format!("`{path}` is set by the conditions too"));
+            }
+        }
+        for (i, draw) in self.draw.iter().enumerate() {
+            let at = format!("draw[{i}]");
+            if let Some(problem) = draw.of.fault() {
+                wrong(&at, problem);
+            }
+            if varied.contains(&&draw.path) {
+                wrong(&at, format!("`{}` is set by the conditions too", draw.path));
+            }
+            if let Some(astray) = draw.arms.iter().find(|name| !self.arms.iter().any(|arm| arm.name == **name)) {
+                wrong(&at, format!("there is no arm `{astray}`"));
             }
         }
         for (i, arm) in self.arms.iter().enumerate() {

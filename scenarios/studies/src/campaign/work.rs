@@ -7,7 +7,7 @@ pub(crate) mod in_lanes;
 pub(super) mod one_run;
 
 use super::error::CampaignError;
-use super::plan::Campaign;
+use super::plan::{Campaign, RunPlace};
 use super::rows::row::RunRow;
 use in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
 use one_run::RunName;
@@ -159,7 +159,7 @@ impl Work<'_> {
     /// Makes a run alone.
     pub(super) fn one(&self, run: u64) -> Result<RunRow, CampaignError> {
         let place = self.campaign.place(run);
-        let scenarios = self.scenarios(place.condition)?;
+        let scenarios = self.scenarios(run)?;
         let begun = Instant::now();
         let row = one_run(&scenarios[place.arm], &self.name(run));
         self.limits.took(begun.elapsed());
@@ -168,8 +168,7 @@ impl Work<'_> {
 
     /// Makes runs of one seed and condition.
     fn seed(&self, runs: &[u64], heed: LaneLimits<'_>, keep: &mut dyn FnMut(RunRow)) -> Result<(), CampaignError> {
-        let condition = runs.first().map(|run| self.campaign.place(*run).condition);
-        let scenarios = self.scenarios(condition.unwrap_or_default())?;
+        let scenarios = self.scenarios(runs.first().copied().unwrap_or_default())?;
         let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);
         let planned: Vec<PlannedRun<'_>> = runs.iter().map(planned).collect();
         in_lanes(&planned, self.kept, heed, keep);
@@ -187,15 +186,24 @@ impl Work<'_> {
         }
     }
 
-    /// The scenarios of a condition, by arm.
-    fn scenarios(&self, condition: u64) -> Result<Arc<Vec<Loaded>>, CampaignError> {
+    /// The scenarios of a run and of those that differ from it only in their arm, by arm. Where nothing is drawn for each
+    /// seed, those of a condition are kept.
+    fn scenarios(&self, run: u64) -> Result<Arc<Vec<Loaded>>, CampaignError> {
+        let place = self.campaign.place(run);
+        let load = || {
+            let arms = 0..self.campaign.spec.arms.len();
+            let loaded = arms.map(|arm| self.campaign.of_run(&RunPlace { arm, ..place }));
+            Ok(Arc::new(loaded.collect::<Result<Vec<_>, CampaignError>>()?))
+        };
+        if !self.campaign.spec.draw.is_empty() {
+            return load();
+        }
+        let condition = place.condition;
         let mut all = (self.scenarios.lock()).unwrap_or_else(PoisonError::into_inner);
         if let Some(there) = all.get(&condition) {
             return Ok(there.clone());
         }
-        let arms = 0..self.campaign.spec.arms.len();
-        let loaded = arms.map(|arm| self.campaign.loaded(condition, arm));
-        let loaded = Arc::new(loaded.collect::<Result<Vec<_>, _>>()?);
+        let loaded = load()?;
         if all.len() >= CONDITIONS {
             all.clear();
         }

@@ -1,7 +1,6 @@
 //! Our figures beside the papers': rows of `tests/reference/rows`, run over many seeds.
 
 mod compare;
-mod draw;
 mod joint;
 mod kept;
 mod measure;

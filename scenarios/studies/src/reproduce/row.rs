@@ -2,10 +2,10 @@
 
 mod shipped;
 
-use super::draw::{Draw, check};
 use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, ThreadsError};
+use crate::draw::{Draw, check};
 use output::files::ReportError;
 use rheotaxis::scenario::{Loaded, ScenarioError, UnplacedFault, load_text, load_with, set_value, template};
 use schemars::JsonSchema;

@@ -1,10 +1,10 @@
 //! The runs of a row: consecutive seeds, on all cores, until there are enough.
 
 use super::compare::{FigureComparison, compare};
-use super::draw::drawn;
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
 use crate::campaign::{LaneLimits, PlannedRun, RunName, RunRow, in_lanes, pool};
+use crate::draw::drawn;
 use rayon::prelude::*;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;

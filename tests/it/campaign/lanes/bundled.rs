@@ -5,7 +5,9 @@ use rheotaxis::lanes::group_by_ocean;
 use rheotaxis::scenario::{Loaded, cost};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use studies::campaign::{CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run};
+use studies::campaign::{
+    CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunPlace, RunRow, load, one_run, read_rows, run,
+};
 use studies::reproduce::{Plan, RowResult, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
@@ -49,7 +51,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
         let arms = campaign.spec.arms.len();
         for of_seed in rows.chunks(arms) {
             let place = campaign.place(of_seed[0].run);
-            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.loaded(place.condition, arm).unwrap()).collect();
+            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.of_run(&RunPlace { arm, ..place }).unwrap()).collect();
             let runs: Vec<_> = loaded.iter().map(|l| (l, place.seed)).collect();
             // The arms of all these campaigns differ in the searcher alone, but for one that compares steps, one that
             // draws temperature and structure of the release, and one that compares flows and releases.

@@ -190,7 +190,7 @@ fn rerun(registry: &Registry, args: &RerunArgs) -> Result<Exit, Failure> {
     if !condition.is_empty() {
         what += &format!(", {condition}");
     }
-    let (loaded, seed) = (campaign.loaded(place.condition, place.arm)?, place.seed);
+    let (loaded, seed) = (campaign.of_run(&place)?, place.seed);
     let out = args.out.clone().unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
         no_record: !args.record,

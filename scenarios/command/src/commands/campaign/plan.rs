@@ -69,7 +69,7 @@ pub(super) fn plan(registry: &Registry, args: &PlanArgs) -> Result<Exit, Failure
 /// it.
 fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, Failure> {
     let name = RunName { seed: campaign.place(0).seed, ..RunName::default() };
-    let row = one_run(&campaign.loaded(0, 0)?, &name);
+    let row = one_run(&campaign.of_run(&campaign.place(0))?, &name);
     if let Some(error) = row.error {
         return Err(format!("the first run fails: {error}").into());
     }

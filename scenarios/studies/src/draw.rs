@@ -1,4 +1,4 @@
-//! Values of a row's scenario that are drawn anew for every seed.
+//! Values of a scenario that are drawn anew for every seed.
 
 use crate::distribution::Distribution;
 use rheotaxis::scenario::{Loaded, set_value};
@@ -24,15 +24,15 @@ pub struct Draw {
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub(super) fn drawn<'a>(draws: &[Draw], arm: &str, loaded: &'a Loaded, seed: Seed) -> Result<Cow<'a, Loaded>, String> {
-    changed(draws, arm, loaded, &|path| Stream::new(seed, path, "draw").uniform())
+pub(crate) fn drawn<'a>(draws: &[Draw], arm: &str, loaded: &'a Loaded, seed: Seed) -> Result<Cow<'a, Loaded>, String> {
+    changed(draws, arm, loaded, &|path| number(seed, path))
 }
 
 /// Checks that the arms of draws are there and that every value that can be drawn is legal.
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub(super) fn check(draws: &[Draw], arms: &[(String, Loaded)]) -> Result<(), String> {
+pub(crate) fn check(draws: &[Draw], arms: &[(String, Loaded)]) -> Result<(), String> {
     for d in draws {
         if let Some(fault) = d.of.fault() {
             return Err(format!("draw `{}`: {fault}", d.path));
@@ -55,8 +55,19 @@ pub(super) fn check(draws: &[Draw], arms: &[(String, Loaded)]) -> Result<(), Str
     Ok(())
 }
 
+/// The number of a path for a seed, uniform from 0 to 1.
+pub(crate) fn number(seed: Seed, path: &str) -> f64 {
+    Stream::new(seed, path, "draw").uniform()
+}
+
 impl Draw {
-    fn in_arm(&self, arm: &str) -> bool {
+    /// The value at a number from 0 to 1, in RON; numbers with six decimals.
+    pub(crate) fn value(&self, number: f64) -> String {
+        self.of.value(number, |v| format!("{v:.6}"))
+    }
+
+    /// Whether it is drawn in an arm.
+    pub(crate) fn in_arm(&self, arm: &str) -> bool {
         self.arms.is_empty() || self.arms.iter().any(|a| a == arm)
     }
 }
@@ -69,7 +80,7 @@ fn changed<'a>(
 ) -> Result<Cow<'a, Loaded>, String> {
     let mut text = loaded.text();
     for d in draws.iter().filter(|d| d.in_arm(arm)) {
-        let value = d.of.value(number(&d.path), |v| format!("{v:.6}"));
+        let value = d.value(number(&d.path));
         let said = |problem| format!("draw `{}`: {problem}", d.path);
         text = Cow::Owned(set_value(&text, &d.path, &value).map_err(said)?);
     }
