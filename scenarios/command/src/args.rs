@@ -1,5 +1,6 @@
 //! The command line: its subcommands, their arguments and their help.
 
+pub(super) mod arena;
 pub(super) mod cache;
 pub(super) mod campaign;
 pub(super) mod control;
@@ -15,6 +16,7 @@ pub(super) mod vehicle;
 pub(super) mod vision;
 
 use super::version;
+use arena::ArenaArgs;
 use cache::{CacheArgs, CacheCommandArgs};
 use campaign::CampaignArgs;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -112,6 +114,9 @@ pub enum Command {
     /// Compare variants of a scenario over thousands of runs, on one machine or many.
     #[command(long_about = campaign::CAMPAIGN_ABOUT)]
     Campaign(CampaignArgs),
+    /// Let published searchers, and yours, compete in several kinds of water.
+    #[command(long_about = arena::ABOUT)]
+    Arena(ArenaArgs),
     /// Repeat the papers' experiments over many seeds and compare the figures.
     #[command(long_about = reproduce::REPRODUCE_ABOUT)]
     Reproduce(ReproduceArgs),
@@ -240,6 +245,8 @@ pub enum ListKind {
     Sensors,
     /// Vehicles and gantries.
     Vehicles,
+    /// Searchers and families of the arena.
+    Searchers,
 }
 
 /// Arguments of `statistics`.

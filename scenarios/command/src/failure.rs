@@ -5,6 +5,7 @@ use super::say;
 use output::files::ReportError;
 use rheotaxis::scenario::ScenarioError;
 use std::error::Error;
+use studies::arena::ArenaError;
 use studies::campaign::CampaignError;
 use studies::reproduce::ReproduceError;
 use studies::score_vision::ScoreError;
@@ -45,6 +46,9 @@ fn scenario(error: &Failure) -> Option<&ScenarioError> {
         return Some(error);
     }
     if let Some(ReproduceError::Scenario(error)) = error.downcast_ref() {
+        return Some(error);
+    }
+    if let Some(ArenaError::Scenario(error) | ArenaError::Campaign(CampaignError::Scenario(error))) = error.downcast_ref() {
         return Some(error);
     }
     error.downcast_ref()

@@ -3,19 +3,24 @@
 use super::vehicle::capabilities;
 use crate::args::{ListArgs, ListKind};
 use crate::exit::Exit;
+use crate::failure::Failure;
 use crate::say;
 use rheotaxis::registry::{Group, Registry, sections};
 use rheotaxis::scenario::{CATALOG, FolderFiles, parse};
 use robots::guide::GuidanceSpec;
 use robots::vehicles::{SHIPPED, Vehicle, VehicleSpec};
 use std::path::Path;
+use studies::arena;
 
 /// Prints the sections asked for, or all of them.
-pub(crate) fn list(registry: &Registry, args: &ListArgs) -> Exit {
+pub(crate) fn list(registry: &Registry, args: &ListArgs) -> Result<Exit, Failure> {
     let wanted = |kind: ListKind| args.what.is_none_or(|w| w == kind);
     if wanted(ListKind::Scenarios) {
         say::line(format_args!("Scenarios"));
         scenarios();
+    }
+    if args.what == Some(ListKind::Searchers) {
+        return searchers(registry);
     }
     for section in sections(registry) {
         if !wanted(kind(section.group)) {
@@ -30,7 +35,23 @@ pub(crate) fn list(registry: &Registry, args: &ListArgs) -> Exit {
             shipped();
         }
     }
-    Exit::Success
+    Ok(Exit::Success)
+}
+
+/// Prints the searchers and families of the arena.
+fn searchers(registry: &Registry) -> Result<Exit, Failure> {
+    say::line("Searchers of the arena");
+    for searcher in arena::searchers(&[])? {
+        let of = if searcher.privileged { ", told the source: in no ranking" } else { "" };
+        print(&searcher.name, &format!("on a {}{of}", searcher.machine.name()), &searcher.source);
+    }
+    say::line("");
+    say::line("Families of water");
+    for family in arena::families(registry, &[])? {
+        let base = &family.base.scenario;
+        print(&family.name, &family.spec.title, &format!("{}; {}", family.spec.base, base.citation));
+    }
+    Ok(Exit::Success)
 }
 
 /// Prints the vehicles that come with the program as folders, and what each can do.

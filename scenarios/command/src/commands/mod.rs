@@ -1,5 +1,6 @@
 //! The commands, one file for each. They call the libraries and print what those return.
 
+mod arena;
 mod cache;
 mod campaign;
 mod check;
@@ -31,10 +32,11 @@ pub(super) fn dispatch(registry: &Registry, command: Command) -> Result<Exit, Fa
         Command::Rerun(args) => rerun::rerun(registry, &args),
         Command::Check(args) => Ok(check::check(registry, &args)),
         Command::Init(args) => init::init(&args),
-        Command::List(args) => Ok(list::list(registry, &args)),
+        Command::List(args) => list::list(registry, &args),
         Command::Explain(args) => explain::explain(registry, &args),
         Command::Topics(args) => Ok(topics::topics(registry, &args)),
         Command::Listen(args) => listen::listen(registry, &args),
+        Command::Arena(args) => arena::arena(registry, &args),
         Command::Campaign(args) => campaign::campaign(registry, &args.command),
         Command::Reproduce(args) => reproduce::run(registry, &args),
         Command::Cache(args) => cache::cache(&args),

@@ -3,14 +3,10 @@
 use super::error::CampaignError;
 use super::plan::Campaign;
 use super::spec::CampaignSpec;
-use rheotaxis::scenario::{ScenarioError, Template, load_with};
-use std::io::ErrorKind;
+use crate::shipped::{beside, stem, text_of};
+use rheotaxis::scenario::{Template, load_with};
 use std::path::Path;
-use world::files;
 use world::registry::Registry;
-
-/// Longest file read, bytes: a campaign is text of a few kilobytes.
-const LONGEST: u64 = 1 << 20;
 
 macro_rules! catalog {
     ($($name:literal),* $(,)?) => {
@@ -43,29 +39,11 @@ pub const CAMPAIGNS: &[Template] = catalog![
 /// # Errors
 /// If it or its base scenario cannot be read. [`Campaign::check`] checks the scenarios of the arms.
 pub fn load(registry: &Registry, path: &Path) -> Result<Campaign, CampaignError> {
+    let text = text_of(path, CAMPAIGNS, "campaigns")?;
     let shown = path.display().to_string();
-    let refused = |problem: String, help: Option<String>| {
-        let path = shown.clone();
-        CampaignError::from(ScenarioError::File { path, problem, help })
-    };
-    let text = match files::read_text(path, LONGEST) {
-        Ok(text) => text,
-        Err(e) if e.kind() == ErrorKind::NotFound => {
-            let template = CAMPAIGNS.iter().find(|t| t.name == shown);
-            let names: Vec<&str> = CAMPAIGNS.iter().map(|t| t.name).collect();
-            template.map(|t| t.text.to_string()).ok_or_else(|| {
-                let known = format!("campaigns that come with the program: {}", names.join(", "));
-                refused("there is no such file".to_string(), Some(known))
-            })?
-        }
-        Err(e) => return Err(refused(format!("cannot be read: {e}"), None)),
-    };
-    let name = path.file_stem().map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
     let spec = CampaignSpec::parse(&shown, &text)?;
-    let beside = path.parent().unwrap_or(Path::new("")).join(&spec.base);
-    let base = if beside.is_file() { &beside } else { Path::new(&spec.base) };
-    let base = load_with(registry, base)?;
-    Campaign::new(&shown, &name, &text, base)
+    let base = load_with(registry, &beside(path, &spec.base))?;
+    Campaign::new(&shown, &stem(path), &text, base)
 }
 
 #[cfg(test)]

@@ -22,9 +22,10 @@ use plan::plan;
 use report::report;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::Trial;
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use studies::campaign::{Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run};
+use studies::campaign::{Campaign, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run};
 use world::registry::Registry;
 
 /// Runs one of its subcommands.
@@ -41,17 +42,38 @@ pub(crate) fn campaign(registry: &Registry, command: &CampaignCommand) -> Result
 }
 
 fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failure> {
-    let shard = match args.shard {
-        Some(shard) => shard,
-        None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
-    };
     let mut campaign = load(registry, &args.file)?;
     campaign.key = args.key.get();
-    let bar = bar(args.quiet, 0, "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}");
+    let kept = cache::opened(&args.cache).map(Arc::new);
+    let options = RunOptions {
+        shard: share_of(args.shard)?,
+        jobs: args.jobs,
+        block: args.block,
+        max_wall: args.max_wall,
+        force: args.force,
+        kept: kept.clone(),
+    };
+    let exit = run_shown(&campaign, &args.out, &options, args.quiet);
+    cache::tell_fault(kept.as_deref());
+    exit
+}
+
+/// The share that was asked for, or that of the cluster's scheduler.
+pub(super) fn share_of(asked: Option<Shard>) -> Result<Shard, Failure> {
+    match asked {
+        Some(shard) => Ok(shard),
+        None => Ok(Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default()),
+    }
+}
+
+/// Runs what is left of a campaign and shows its progress.
+pub(super) fn run_shown(campaign: &Campaign, out: &Path, options: &RunOptions, quiet: bool) -> Result<Exit, Failure> {
+    let shard = options.shard;
+    let bar = bar(quiet, 0, "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}");
     bar.set_prefix(printable(&campaign.name).into_owned());
     let (failed, share) = (AtomicU64::new(0), AtomicU64::new(0));
     let say_so = |line: &str| {
-        if !args.quiet {
+        if !quiet {
             bar.suspend(|| say::note(line));
         }
     };
@@ -83,25 +105,15 @@ fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failur
         }
         Event::Wrote(_) => {}
     };
-    let kept = cache::opened(&args.cache).map(Arc::new);
-    let options = RunOptions {
-        shard,
-        jobs: args.jobs,
-        block: args.block,
-        max_wall: args.max_wall,
-        force: args.force,
-        kept: kept.clone(),
-    };
-    let ended = run(&campaign, &args.out, &options, stop::listen(), &tell);
+    let ended = run(campaign, out, options, stop::listen(), &tell);
     bar.finish_and_clear();
-    cache::tell_fault(kept.as_deref());
     let exit = match ended? {
         RunEnded::Complete => {
             say_so(&format!(
                 "{}: done, {} in {}",
                 campaign.name,
                 count(share.load(Ordering::Relaxed), "run"),
-                args.out.display()
+                out.display()
             ));
             Exit::Success
         }

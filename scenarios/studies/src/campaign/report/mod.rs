@@ -29,6 +29,7 @@ pub(crate) mod reliable {
 }
 pub use pairs::{Compares, Comparison};
 pub use restricted::RestrictedMean;
+pub(crate) use restricted::{restricted, time_s};
 pub use screen::Film;
 pub(crate) use tables::range;
 pub(crate) use text::{Table, TableColumn, wrapped};

@@ -26,7 +26,7 @@ pub struct RestrictedMean {
 }
 
 /// Time to success, at most the limit, s; `None` for a failed run.
-pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
+pub(crate) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
     let t_s = match (&row.error, row.success) {
         (Some(_), _) => return None,
         (None, false) => limit_s,
@@ -44,7 +44,7 @@ fn success_s(row: &RunRow) -> f64 {
 }
 
 /// From the rows of an arm.
-pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> RestrictedMean {
+pub(crate) fn restricted(rows: &[&RunRow], limit_s: f64) -> RestrictedMean {
     let times: Vec<f64> = rows.iter().filter_map(|r| time_s(r, limit_s)).collect();
     let n = times.len() as u64;
     let at_limit = times.iter().filter(|t| **t >= limit_s).count() as u64;

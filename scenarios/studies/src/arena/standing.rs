@@ -1,0 +1,152 @@
+//! How the searchers of a family did.
+//!
+//! *Source*: restricted mean time, Royston & Parmar 2013 (see `campaign::report`); success weighted by path length, SPL,
+//! Anderson et al. 2018 (arXiv:1807.06757): the mean over all runs of S · L / max(L, P), where L is the path of the
+//! oracle, which is told where the source is, in the same water from the same start.
+//!
+//! *Deviations*: L is the path that the oracle went on the same vehicle, not a shortest path by computation. It may end
+//! within the radius in which a way point counts as reached.
+
+use super::load::Family;
+use super::ranks::{Rank, Scores, ranks};
+use super::searcher::SearcherSpec;
+use crate::campaign::report::{RestrictedMean, restricted, time_s};
+use crate::campaign::stats::{Interval, finite_sorted, positive_mean_interval, quantile, quantile_interval, wilson};
+use crate::campaign::{Campaign, CampaignError, RunRow};
+use std::collections::BTreeMap;
+
+/// A count of runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Count {
+    /// In which it happened.
+    pub of: u64,
+    /// All.
+    pub n: u64,
+}
+
+impl Count {
+    /// The share, and its 95 % interval (Wilson).
+    pub fn share(self) -> (f64, Interval) {
+        (self.of as f64 / (self.n as f64).max(1.0), wilson(self.of, self.n))
+    }
+}
+
+/// A figure and its 95 % interval, if there are enough runs.
+pub(super) type Estimated = (f64, Option<Interval>);
+
+/// The figures of a searcher in a family.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Its name.
+    pub searcher: String,
+    /// It was told what no searcher can know.
+    pub privileged: bool,
+    /// Runs that declared the source within the family's radius.
+    pub success: Count,
+    /// Runs that declared another place.
+    pub astray: Count,
+    /// Runs that failed: they count as neither.
+    pub failed: u64,
+    /// Mean time to success, at most the limit.
+    pub restricted: RestrictedMean,
+    /// Median distance of the declaration from the source, of runs that declared, m.
+    pub error_m: Option<Estimated>,
+    /// Success weighted by path length, if there is an oracle.
+    pub spl: Option<Estimated>,
+    /// Its rank by the restricted mean; none of a privileged one.
+    pub rank: Option<Rank>,
+    /// Time to success, s, of the runs that had any, in order.
+    pub times_s: Vec<f64>,
+}
+
+/// A family and how its searchers did.
+#[derive(Clone, Debug)]
+pub struct Standing {
+    /// Name of the family.
+    pub family: String,
+    /// What it is.
+    pub title: String,
+    /// What counts as success.
+    pub rule: String,
+    /// The time limit, s.
+    pub limit_s: f64,
+    /// The seeds, in words.
+    pub seeds: String,
+    /// Seeds of which every searcher has a row, and those planned.
+    pub done: [u64; 2],
+    /// The searchers, in the order in which they were asked for.
+    pub figures: Vec<Figures>,
+    /// Restricted time as a share of the limit: a row for each such seed, a score for each searcher that is ranked.
+    pub(super) scores: Scores,
+}
+
+/// From the rows of a family's campaign. Only seeds of which every searcher has a row count, for the searchers that end
+/// first are no fair sample.
+///
+/// # Errors
+/// If the campaign's scenarios cannot be read.
+pub fn standing(
+    family: &Family,
+    searchers: &[SearcherSpec],
+    campaign: &Campaign,
+    rows: &[RunRow],
+) -> Result<Standing, CampaignError> {
+    let limit_s = campaign.limit_s()?;
+    let mut by_seed: BTreeMap<u64, Vec<&RunRow>> = BTreeMap::new();
+    rows.iter().for_each(|row| by_seed.entry(row.seed_index).or_default().push(row));
+    by_seed.retain(|_, rows| rows.len() as u64 == campaign.n_arms());
+    by_seed.values_mut().for_each(|rows| rows.sort_by_key(|row| row.run));
+    let arms = campaign.spec.arms.iter().map(|arm| &arm.name);
+    let privileged = |name: &String| searchers.iter().any(|s| s.name == *name && s.privileged);
+    let oracle = arms.clone().position(privileged);
+    let mut figures: Vec<Figures> = Vec::new();
+    for (k, name) in arms.clone().enumerate() {
+        let own: Vec<&RunRow> = by_seed.values().map(|rows| rows[k]).collect();
+        let paths: Option<Vec<f64>> = oracle.map(|o| by_seed.values().map(|rows| rows[o].travelled_m).collect());
+        figures.push(one(name, privileged(name), &own, paths.as_deref(), limit_s));
+    }
+    let ranked: Vec<usize> = (0..figures.len()).filter(|k| !figures[*k].privileged).collect();
+    let score = |row: &RunRow| time_s(row, limit_s).unwrap_or(limit_s) / limit_s;
+    let scores: Scores = (by_seed.values()).map(|rows| ranked.iter().map(|k| score(rows[*k])).collect()).collect();
+    for (k, rank) in ranked.iter().zip(ranks(std::slice::from_ref(&scores))) {
+        figures[*k].rank = Some(rank);
+    }
+    Ok(Standing {
+        family: family.name.clone(),
+        title: family.spec.title.clone(),
+        rule: campaign.success_rules()?.join("; or "),
+        limit_s,
+        seeds: campaign.spec.seeds.describe(),
+        done: [by_seed.len() as u64, campaign.spec.seeds.count()],
+        figures,
+        scores,
+    })
+}
+
+fn one(name: &str, privileged: bool, rows: &[&RunRow], paths: Option<&[f64]>, limit_s: f64) -> Figures {
+    let count = |what: &dyn Fn(&RunRow) -> bool| {
+        Count { of: rows.iter().filter(|row| what(row)).count() as u64, n: rows.len() as u64 }
+    };
+    let errors = finite_sorted(rows.iter().filter_map(|row| row.error_m));
+    let spl: Option<Vec<f64>> = paths.map(|paths| {
+        let each = rows.iter().zip(paths);
+        let weighed = |(row, path): (&&RunRow, &f64)| if row.success { path / path.max(row.travelled_m) } else { 0.0 };
+        each.map(weighed).collect()
+    });
+    let found = rows.iter().filter(|row| row.success);
+    Figures {
+        searcher: name.to_string(),
+        privileged,
+        success: count(&|row| row.success),
+        astray: count(&|row| !row.success && row.declared_s.is_some()),
+        failed: count(&|row| row.error.is_some()).of,
+        restricted: restricted(rows, limit_s),
+        error_m: quantile(&errors, 0.5).map(|m| (m, quantile_interval(&errors, 0.5, 1, name))),
+        spl: spl.filter(|_| !rows.is_empty() && !privileged).map(|spl| {
+            let mean = spl.iter().sum::<f64>() / spl.len() as f64;
+            (mean, positive_mean_interval(&spl).map(|i| Interval { high: i.high.min(1.0), ..i }))
+        }),
+        rank: None,
+        times_s: finite_sorted(found.filter_map(|row| time_s(row, limit_s)).filter(|t| *t < limit_s)),
+    }
+}
