@@ -48,7 +48,9 @@ fn scenario(error: &Failure) -> Option<&ScenarioError> {
     if let Some(ReproduceError::Scenario(error)) = error.downcast_ref() {
         return Some(error);
     }
-    if let Some(ArenaError::Scenario(error) | ArenaError::Campaign(CampaignError::Scenario(error))) = error.downcast_ref() {
+    if let Some(ArenaError::Scenario(error) | ArenaError::Campaign(CampaignError::Scenario(error))) =
+        error.downcast_ref()
+    {
         return Some(error);
     }
     error.downcast_ref()

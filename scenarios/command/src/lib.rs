@@ -13,8 +13,8 @@ mod signals;
 mod stop;
 mod version;
 
-pub use args::cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args::arena::ArenaArgs;
+pub use args::cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args::campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs, StatusArgs,
 };

@@ -2,7 +2,7 @@
 
 use super::cache::CacheArgs;
 use super::key::KeyArgs;
-use super::values::wall_time;
+use super::values::{wall_time, within};
 use std::path::PathBuf;
 use std::time::Duration;
 use studies::campaign::Shard;
@@ -45,6 +45,16 @@ pub struct ArenaArgs {
     /// Stop early enough to end within this time, such as 90s, 55m or 1h30m.
     #[arg(long, value_name = "TIME", value_parser = wall_time)]
     pub max_wall: Option<Duration>,
+    /// How long a question waits until the first program that answers for a searcher outside is there, s of real time.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0,
+        value_parser = within(0.0..=1e6, "must be a number of seconds from 0 to 1e6"))]
+    pub control_wait: f64,
+    /// Configuration file of zenoh (JSON5), by which searchers outside are asked [default: the loopback interface].
+    #[arg(long, value_name = "FILE")]
+    pub zenoh_config: Option<PathBuf>,
+    /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].
+    #[arg(long, value_name = "ENDPOINT")]
+    pub zenoh_listen: Option<String>,
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,

@@ -6,32 +6,39 @@ use crate::args::arena::ArenaArgs;
 use crate::exit::Exit;
 use crate::failure::{Failure, hinted};
 use crate::say;
+use crate::stop;
 use output::files::make_folder;
+use output::live::{LiveAsk, LiveOptions, Plane};
+use rheotaxis::control::Controller;
+use rheotaxis::trial::controlled;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use studies::arena::{Contest, Family, campaign, families, searchers, standing, write};
-use studies::campaign::{Campaign, CampaignError, RunOptions, merge, read_rows};
+use studies::campaign::{Campaign, CampaignError, Outside, RunName, RunOptions, merge, read_rows};
 use world::registry::Registry;
 
 /// Runs what is left of each family, then shows all that there is.
 pub(crate) fn arena(registry: &Registry, args: &ArenaArgs) -> Result<Exit, Failure> {
     let families = families(registry, &args.family)?;
     let searchers = searchers(&args.searcher)?;
-    let contest = Contest {
-        seeds: (!args.quick).then_some(args.seeds),
-        first_seed: args.first_seed,
-        key: args.key.get(),
-    };
+    let contest =
+        Contest { seeds: (!args.quick).then_some(args.seeds), first_seed: args.first_seed, key: args.key.get() };
     // A family for which none of the searchers is made is left out, unless it was asked for.
     let machines: Vec<_> = searchers.iter().map(|s| s.machine).collect();
     let wanted = |f: &&Family| !args.family.is_empty() || machines.contains(&f.spec.machine);
     let mut all: Vec<(&Family, Campaign)> = Vec::new();
+    let mut asked = Vec::new();
     for family in families.iter().filter(wanted) {
         let planned = campaign(family, &searchers, &contest)?;
-        planned.check()?;
+        planned.check_with(true)?;
+        for arm in 0..planned.spec.arms.len() {
+            asked.extend(controlled(&planned.typical(0, arm)?.scenario));
+        }
         all.push((family, planned));
     }
     make_folder(&args.out)?;
+    let outside = if asked.is_empty() { None } else { Some(open(args)?) };
     let shard = share_of(args.shard)?;
     let kept = cache::opened(&args.cache).map(Arc::new);
     let begun = now();
@@ -42,7 +49,14 @@ pub(crate) fn arena(registry: &Registry, args: &ArenaArgs) -> Result<Exit, Failu
             exit = Exit::Unfinished;
             break;
         }
-        let options = RunOptions { shard, jobs: args.jobs, max_wall: left, kept: kept.clone(), ..RunOptions::default() };
+        let options = RunOptions {
+            shard,
+            jobs: args.jobs,
+            max_wall: left,
+            kept: kept.clone(),
+            outside: outside.clone(),
+            ..RunOptions::default()
+        };
         let ended = run_shown(planned, &args.out.join(&family.name), &options, args.quiet);
         exit = ended.map_err(|e| match e.downcast_ref() {
             Some(CampaignError::Differs { .. }) => hinted(e, "give another --out: other searchers, seeds or a key"),
@@ -52,6 +66,37 @@ pub(crate) fn arena(registry: &Registry, args: &ArenaArgs) -> Result<Exit, Failu
     cache::tell_fault(kept.as_deref());
     show(args, registry, &all, &searchers)?;
     Ok(exit)
+}
+
+/// Searchers outside, asked over one session of zenoh.
+struct OverZenoh {
+    ask: LiveAsk,
+    wait: Duration,
+}
+
+impl Outside for OverZenoh {
+    fn controller(&self, run: &RunName, robot: &str, deadline_s: f64) -> Result<Box<dyn Controller>, String> {
+        // Each run has a key of its own, for several go at the same time.
+        let name = format!("arena {} {}", run.arm, run.run);
+        let going = Arc::new(|| !stop::listen().load(Ordering::Relaxed));
+        let times = [Duration::from_secs_f64(deadline_s), self.wait];
+        let asked = self.ask.controller(&name, robot, times, going);
+        asked.map_or_else(|e| Err(e.to_string()), |asked| Ok(Box::new(asked) as Box<dyn Controller>))
+    }
+}
+
+fn open(args: &ArenaArgs) -> Result<Arc<dyn Outside>, Failure> {
+    let mut options = LiveOptions::new("arena".to_string());
+    options.listen = args.zenoh_listen.clone();
+    options.config_file = args.zenoh_config.clone();
+    options.plane = Arc::new(Plane::new(true, None));
+    let ask = LiveAsk::open(&options)?;
+    say::note(format_args!(
+        "searchers outside are asked at {} under rheotaxis/*/ask/*; each run waits up to {} s for one",
+        ask.endpoint(),
+        args.control_wait
+    ));
+    Ok(Arc::new(OverZenoh { ask, wait: Duration::from_secs_f64(args.control_wait) }))
 }
 
 /// Writes page, tables and figures of all rows that there are.

@@ -13,6 +13,8 @@ mod ros2;
 mod topics;
 
 #[cfg(feature = "live")]
+mod ask;
+#[cfg(feature = "live")]
 mod config;
 #[cfg(feature = "live")]
 mod controller;
@@ -47,10 +49,12 @@ pub use ros2::{Qos, Ros2, RosTopic, ros_topics};
 pub use topics::{Payload, Topic, topics};
 
 #[cfg(feature = "live")]
+pub use ask::LiveAsk;
+#[cfg(feature = "live")]
 pub use controller::{Going, LiveController};
 #[cfg(feature = "live")]
 pub use listen::Listener;
 #[cfg(not(feature = "live"))]
-pub use off::{Going, Listener, Live, LiveController, LiveSession};
+pub use off::{Going, Listener, Live, LiveAsk, LiveController, LiveSession};
 #[cfg(feature = "live")]
 pub use session::{Live, LiveSession};

@@ -13,6 +13,39 @@ pub struct LiveSession;
 /// Whether the run goes on.
 pub type Going = Arc<dyn Fn() -> bool + Send + Sync>;
 
+/// Asks searchers outside, not built in (feature `live`).
+#[derive(Debug)]
+pub struct LiveAsk;
+
+impl LiveAsk {
+    /// Fails.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn open(_options: &LiveOptions) -> Result<Self, LiveError> {
+        Err(LiveError::Open { why: "built without the feature `live`".to_owned() })
+    }
+
+    /// Where clients connect: nowhere.
+    pub fn endpoint(&self) -> &str {
+        ""
+    }
+
+    /// Fails.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn controller(
+        &self,
+        _run: &str,
+        _robot: &str,
+        _times: [Duration; 2],
+        _: Going,
+    ) -> Result<LiveController, LiveError> {
+        Err(LiveError::Open { why: "built without the feature `live`".to_owned() })
+    }
+}
+
 /// The controllers of a robot: nobody, because live state is not built in (feature `live`).
 pub struct LiveController;
 

@@ -41,7 +41,8 @@ pub fn campaign(family: &Family, searchers: &[SearcherSpec], contest: &Contest) 
         given.push((name.clone(), filled));
     }
     let count = contest.seeds.unwrap_or(spec.quick.get());
-    let mut text = format!("(version: {}, title: {:?}, base: {:?},\n", rheotaxis::scenario::VERSION, spec.title, spec.base);
+    let mut text =
+        format!("(version: {}, title: {:?}, base: {:?},\n", rheotaxis::scenario::VERSION, spec.title, spec.base);
     writeln!(text, "seeds: Literal(first: {}, count: {count}),\ndraw: [", contest.first_seed).expect(TEXT);
     for (path, of) in &spec.draw {
         writeln!(text, "  (path: {path:?}, of: {}),", of.ron()).expect(TEXT);

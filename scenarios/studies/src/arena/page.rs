@@ -66,7 +66,14 @@ pub fn write(
         }
         if of.len() > 1 {
             let names: Vec<&str> = of.iter().map(|s| s.family.as_str()).collect();
-            section(&format!("All of {}", names.join(", ")), "", &over_families(total), &mut page, &mut markdown, &mut text);
+            section(
+                &format!("All of {}", names.join(", ")),
+                "",
+                &over_families(total),
+                &mut page,
+                &mut markdown,
+                &mut text,
+            );
         }
     }
     for s in standings {

@@ -124,8 +124,9 @@ pub fn standing(
 }
 
 fn one(name: &str, privileged: bool, rows: &[&RunRow], paths: Option<&[f64]>, limit_s: f64) -> Figures {
-    let count = |what: &dyn Fn(&RunRow) -> bool| {
-        Count { of: rows.iter().filter(|row| what(row)).count() as u64, n: rows.len() as u64 }
+    let count = |what: &dyn Fn(&RunRow) -> bool| Count {
+        of: rows.iter().filter(|row| what(row)).count() as u64,
+        n: rows.len() as u64,
     };
     let errors = finite_sorted(rows.iter().filter_map(|row| row.error_m));
     let spl: Option<Vec<f64>> = paths.map(|paths| {

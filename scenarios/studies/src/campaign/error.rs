@@ -31,6 +31,16 @@ pub enum CampaignError {
         /// The robots.
         robots: String,
     },
+    /// Whoever decides in an arm is not there.
+    #[error("run {run} (arm {arm}) has no row, for its searcher outside is not there: {why}; the others are kept")]
+    Deserted {
+        /// The run.
+        run: u64,
+        /// Its arm.
+        arm: String,
+        /// When it was asked.
+        why: String,
+    },
     /// The folder holds another campaign.
     #[error("{} holds runs of another campaign: {}", dir.display(), what.join("; "))]
     Differs {

@@ -184,13 +184,22 @@ impl Campaign {
     /// # Errors
     /// The first mistake, in the order of conditions and arms.
     pub fn check(&self) -> Result<(), CampaignError> {
-        with_threads(|| self.check_all())
+        self.check_with(false)
     }
 
-    fn check_all(&self) -> Result<(), CampaignError> {
+    /// The same, where somebody outside the program may decide in its runs.
+    ///
+    /// # Errors
+    /// As [`Campaign::check`].
+    pub fn check_with(&self, outside: bool) -> Result<(), CampaignError> {
+        with_threads(|| self.check_all(outside))
+    }
+
+    fn check_all(&self, outside: bool) -> Result<(), CampaignError> {
         let arms = self.spec.arms.len();
         // With the middle of all that is drawn for a seed, and with each end of it.
-        let ends = (self.spec.draw.iter()).flat_map(|d| d.of.extremes().into_iter().map(|u| Some((d.path.as_str(), u))));
+        let ends =
+            (self.spec.draw.iter()).flat_map(|d| d.of.extremes().into_iter().map(|u| Some((d.path.as_str(), u))));
         let ends: Vec<Option<(&str, f64)>> = std::iter::once(None).chain(ends).collect();
         let variants = self.spec.n_conditions() * (arms * ends.len()) as u64;
         let place = |i: u64| {
@@ -214,7 +223,7 @@ impl Campaign {
             let loaded = self.loaded(condition, arm, &number)?;
             loaded.check()?;
             match controlled(&loaded.scenario) {
-                asking if asking.is_empty() => Ok(()),
+                asking if asking.is_empty() || outside => Ok(()),
                 asking => Err(CampaignError::Outside { arm: loaded.name.clone(), robots: asking.join(", ") }),
             }
         };

@@ -6,6 +6,7 @@ use super::cost::block_of;
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
+use super::outside::Outside;
 use super::plan::Campaign;
 use super::rows::row::RunRow;
 use super::shard::Shard;
@@ -39,6 +40,8 @@ pub struct RunOptions {
     pub force: bool,
     /// Where spin-ups are kept; without it, each is made.
     pub kept: Option<Arc<SpinUps>>,
+    /// Who decides for robots and gantries whose strategy is `External`; without it, such an arm is refused.
+    pub outside: Option<Arc<dyn Outside>>,
 }
 
 /// How the campaign ended.
@@ -81,6 +84,7 @@ pub fn run(
         campaign,
         limits: &limits,
         kept: options.kept.as_deref(),
+        outside: options.outside.as_deref(),
         threads: threads.min(usize::try_from(campaign.n_runs()).unwrap_or(threads)),
         tell,
         scenarios: Mutex::new(BTreeMap::new()),
@@ -181,7 +185,7 @@ fn settle(campaign: &Campaign, dir: &Path, options: &RunOptions) -> Result<Optio
             return Err(CampaignError::Differs { dir, what });
         }
     }
-    campaign.check()?;
+    campaign.check_with(options.outside.is_some())?;
     make_folder(dir).map_err(|e| OutputError::new(dir, e))?;
     if found.is_none() {
         if !present(dir, &ours)?.is_empty() {

@@ -7,6 +7,7 @@ pub(crate) mod in_lanes;
 pub(super) mod one_run;
 
 use super::error::CampaignError;
+use super::outside::Outside;
 use super::plan::{Campaign, RunPlace};
 use super::rows::row::RunRow;
 use in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
@@ -78,6 +79,7 @@ pub(super) struct Work<'a> {
     pub(super) limits: &'a Limits<'a>,
     pub(super) threads: usize,
     pub(super) kept: Option<&'a SpinUps>,
+    pub(super) outside: Option<&'a dyn Outside>,
     pub(super) tell: &'a (dyn Fn(Event<'_>) + Sync),
     pub(super) scenarios: Mutex<BTreeMap<u64, Arc<Vec<Loaded>>>>,
 }
@@ -111,6 +113,8 @@ impl Work<'_> {
                     // Whatever stops the work, runs under way end and are kept, unless they cannot be.
                     go_on: &|| !ended.load(Ordering::Relaxed),
                     took: &|wall| self.limits.took(wall),
+                    outside: self.outside,
+                    deserted: &|run, why| fail(CampaignError::Deserted { run: run.run, arm: run.arm.clone(), why }),
                 };
                 let made = self.seed(&runs, heed, &mut |row| {
                     (self.tell)(Event::Ran(&row));

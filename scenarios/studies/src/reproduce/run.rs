@@ -77,7 +77,7 @@ pub fn reproduce(
         let n = planned.min(from + BATCH);
         let of_seed = |index: u64| {
             let going = || !stop.load(Ordering::Relaxed);
-            let heed = LaneLimits { begin: &going, go_on: &going, took: &|_| {} };
+            let heed = LaneLimits { begin: &going, go_on: &going, ..LaneLimits::NONE };
             let seed = plan.key.seed(plan.first_seed + index);
             let mut rows = Vec::new();
             seed_runs(reference, |_| true, (index, seed), kept, heed, &mut |row| {

@@ -51,7 +51,8 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
         let arms = campaign.spec.arms.len();
         for of_seed in rows.chunks(arms) {
             let place = campaign.place(of_seed[0].run);
-            let loaded: Vec<Loaded> = (0..arms).map(|arm| campaign.of_run(&RunPlace { arm, ..place }).unwrap()).collect();
+            let loaded: Vec<Loaded> =
+                (0..arms).map(|arm| campaign.of_run(&RunPlace { arm, ..place }).unwrap()).collect();
             let runs: Vec<_> = loaded.iter().map(|l| (l, place.seed)).collect();
             // The arms of all these campaigns differ in the searcher alone, but for one that compares steps, one that
             // draws temperature and structure of the release, and one that compares flows and releases.

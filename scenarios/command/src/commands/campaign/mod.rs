@@ -52,6 +52,7 @@ fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failur
         max_wall: args.max_wall,
         force: args.force,
         kept: kept.clone(),
+        outside: None,
     };
     let exit = run_shown(&campaign, &args.out, &options, args.quiet);
     cache::tell_fault(kept.as_deref());

@@ -3,6 +3,7 @@
 
 use super::one_run::{Gatherer, RunName, failed, guarded, outcome_name};
 use crate::campaign::contained::contained;
+use crate::campaign::outside::{Outside, connect};
 use crate::campaign::rows::row::RunRow;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::lanes::{LaneError, Lanes, group_by_ocean};
@@ -24,11 +25,16 @@ pub(crate) struct LaneLimits<'a> {
     pub(crate) go_on: &'a dyn Fn() -> bool,
     /// Hears the wall time of the runs that went in lanes together.
     pub(crate) took: &'a dyn Fn(Duration),
+    /// Who decides for robots whose strategy is `External`.
+    pub(crate) outside: Option<&'a dyn Outside>,
+    /// Hears of a run whose searcher outside is not there; it has no row.
+    pub(crate) deserted: &'a dyn Fn(&RunName, String),
 }
 
 impl LaneLimits<'_> {
     /// All runs go to their ends.
-    pub(crate) const NONE: LaneLimits<'static> = LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {} };
+    pub(crate) const NONE: LaneLimits<'static> =
+        LaneLimits { begin: &|| true, go_on: &|| true, took: &|_| {}, outside: None, deserted: &|_, _| {} };
 }
 
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
@@ -58,7 +64,7 @@ pub(crate) fn in_lanes(
         let mut left: BTreeSet<usize> = group.iter().copied().collect();
         let together = contained(|| {
             let shared = (&mut spun, kept);
-            together(runs, &group, shared, heed.go_on, &mut |n, row| {
+            together(runs, &group, shared, heed, &mut |n, row| {
                 left.remove(&n);
                 keep(row);
             });
@@ -77,7 +83,7 @@ fn together(
     runs: &[PlannedRun<'_>],
     group: &[usize],
     (spun, kept): (&mut Vec<SpunUp>, Option<&SpinUps>),
-    go_on: &dyn Fn() -> bool,
+    heed: LaneLimits<'_>,
     keep: &mut dyn FnMut(usize, RunRow),
 ) {
     let begun = Instant::now();
@@ -85,9 +91,14 @@ fn together(
     let mut going = 0;
     for &n in group {
         let (name, loaded) = &runs[n];
-        let gatherer = || Ok::<_, LaneError>(Gatherer::new(n, name, loaded, go_on));
+        let gatherer = || Ok::<_, LaneError>(Gatherer::new(n, name, loaded, heed.go_on));
         match lanes.add(loaded, name.seed, gatherer) {
-            Ok(()) => going += 1,
+            Ok(()) => {
+                going += 1;
+                if let (Some(outside), Some((trial, gatherer))) = (heed.outside, lanes.newest()) {
+                    gatherer.deserted = connect(outside, name, loaded, trial).err();
+                }
+            }
             Err(error) => keep(n, failed(name, error.to_string())),
         }
     }
@@ -102,6 +113,10 @@ fn together(
     lanes.run(|gatherer, run| {
         let (n, walls) = (gatherer.run, walls.next());
         let (name, loaded) = &runs[n];
+        if let Some(why) = gatherer.deserted {
+            (heed.deserted)(name, why);
+            return;
+        }
         let row = match run {
             Ok(trial) => guarded(name, || gatherer.row(name, loaded, trial, walls)),
             Err(error) => failed(name, error.to_string()),
@@ -168,7 +183,7 @@ mod tests {
 
     fn rows(runs: &[PlannedRun<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
         let mut rows = Vec::new();
-        let heed = LaneLimits { begin, go_on, took: &|_| {} };
+        let heed = LaneLimits { begin, go_on, ..LaneLimits::NONE };
         in_lanes(runs, None, heed, &mut |row| rows.push(row));
         rows
     }

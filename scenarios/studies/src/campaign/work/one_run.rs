@@ -1,6 +1,7 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
 
 use crate::campaign::contained::contained;
+use crate::campaign::outside::deserted;
 use crate::campaign::rows::row::{DeclarationRow, RunRow};
 use output::results::{
     DeclarationSummary, GantrySummary, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary, SummaryBuilder,
@@ -36,6 +37,8 @@ pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> RunRow) -> RunRow {
 pub(super) struct Gatherer<'a> {
     /// Index of the run among those in lanes.
     pub(super) run: usize,
+    /// Why nobody outside decides any more.
+    pub(super) deserted: Option<String>,
     builder: SummaryBuilder,
     go_on: &'a dyn Fn() -> bool,
 }
@@ -51,7 +54,7 @@ impl<'a> Gatherer<'a> {
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         });
-        Self { run, builder, go_on }
+        Self { run, deserted: None, builder, go_on }
     }
 
     /// The row of the run at its end, with the wall times of its spin-up and mission.
@@ -82,13 +85,18 @@ impl<'a> Gatherer<'a> {
 
 impl Observer for Gatherer<'_> {
     fn see(&mut self, event: &Event) {
-        if let Event::Frame(frame) = event {
-            self.builder.observe(frame);
+        match event {
+            Event::Frame(frame) => self.builder.observe(frame),
+            Event::Exchange(exchange) if deserted(&exchange.response) => {
+                let (robot, heard) = (&exchange.robot, exchange.response.name());
+                self.deserted = Some(format!("{robot} asked at {:.1} s: {heard}", exchange.t_s));
+            }
+            _ => {}
         }
     }
 
     fn goes_on(&mut self) -> bool {
-        (self.go_on)()
+        self.deserted.is_none() && (self.go_on)()
     }
 }
 
