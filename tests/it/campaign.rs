@@ -1,6 +1,7 @@
 //! Campaigns: the same rows however the work is dealt out, and nothing lost when it is cut off.
 
 mod adaptive;
+mod arena;
 mod cache;
 mod cut_off;
 mod damaged;

@@ -15,3 +15,4 @@ mod score;
 mod segment;
 mod spin_up;
 pub(super) mod subregions;
+mod truth;
