@@ -20,12 +20,14 @@ use world::stage::Stage;
 #[derive(Resource, Default)]
 struct Hidden {
     states: Vec<Truth>,
-    away: Option<(Ocean, Physics)>,
+    physics: Option<Physics>,
+    ocean: Option<Ocean>,
 }
 
 /// After the instruments have read: every state is another one, and there are neither water, plume nor bodies.
 fn scramble(world: &mut World) {
-    let mut hidden = Hidden::default();
+    let mut hidden = Hidden { physics: world.remove_resource(), ocean: world.remove_resource(), ..Hidden::default() };
+    assert!(hidden.physics.is_some() && hidden.ocean.is_some(), "there is something to hide");
     for mut truth in world.query::<&mut Truth>().iter_mut(world) {
         hidden.states.push(*truth);
         truth.pose.p_WB = truth.pose.p_WB * -3.0 + Vector3::new(17.0, -40.0, -3.0);
@@ -33,9 +35,14 @@ fn scramble(world: &mut World) {
         truth.v_WB_B = -truth.v_WB_B;
         truth.w_WB_B = Vector3::new(0.3, 0.2, 0.1);
     }
-    hidden.away = world.remove_resource::<Ocean>().zip(world.remove_resource::<Physics>());
-    assert!(hidden.away.is_some(), "there is something to hide");
     world.insert_resource(hidden);
+}
+
+/// Between the halves of a tick the ocean goes to other lanes. That no system of a decision may so much as name it is
+/// checked where systems are added (`Systems::add_blind`).
+fn give_ocean_back(world: &mut World) {
+    let ocean = world.resource_mut::<Hidden>().ocean.take().expect("hidden before");
+    world.insert_resource(ocean);
 }
 
 /// Before the physics: all is as it was.
@@ -45,14 +52,12 @@ fn restore(world: &mut World) {
     for mut truth in world.query::<&mut Truth>().iter_mut(world) {
         *truth = states.next().expect("as many as before");
     }
-    let (ocean, physics) = hidden.away.expect("hidden before");
-    world.insert_resource(ocean);
-    world.insert_resource(physics);
+    world.insert_resource(hidden.physics.expect("hidden before"));
 }
 
 fn scrambled(registry: Registry) -> Registry {
     registry.with_systems(|systems: &mut Systems| {
-        systems.add(Stage::Sense, scramble).add(Stage::Actuate, restore);
+        systems.add(Stage::Sense, scramble).add(Stage::Map, give_ocean_back).add(Stage::Actuate, restore);
     })
 }
 

@@ -70,7 +70,7 @@ pub(in crate::args) const ABOUT: &str = "Lets searchers compete on equal terms. 
      Seeds are public unless --key gives a secret: then flow, source, start and all noise depend on it, and nobody can \
      have tuned on them.\n\n\
      A searcher of your own is a file like those that come with the program (docs/arena.md): its strategy may be one of \
-     your own crate, or External, which asks a program over zenoh; that program may be written in Python.";
+     your own crate, or External, which asks another program (docs/interfaces.md), in Python for instance.";
 
 const AFTER: &str = "\
 Examples:

@@ -1,7 +1,7 @@
 //! Searchers outside the program that decide in the runs of a campaign.
 
 use super::work::one_run::RunName;
-use rheotaxis::control::{Controller, Question, Response};
+use rheotaxis::control::{Controller, Question};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, consulted};
 use std::fmt;
@@ -33,9 +33,4 @@ pub(super) fn connect(outside: &dyn Outside, name: &RunName, loaded: &Loaded, tr
         trial.control(&robot, answer).map_err(|e| e.to_string())?;
     }
     Ok(())
-}
-
-/// Whether this answer says that nobody is there.
-pub(super) fn deserted(response: &Response) -> bool {
-    matches!(response, Response::Absent | Response::Gone)
 }

@@ -104,7 +104,9 @@ impl Work<'_> {
             let mut first = failed.lock().unwrap_or_else(PoisonError::into_inner);
             first.get_or_insert(error);
         };
-        let going = || !ended.load(Ordering::Relaxed) && self.limits.going();
+        // A searcher that is not there ends nothing but its own run: the others of the seed are whole.
+        let halted = AtomicBool::new(false);
+        let going = || !ended.load(Ordering::Relaxed) && !halted.load(Ordering::Relaxed) && self.limits.going();
         let worker = || {
             while going() {
                 let Some(runs) = next() else { break };
@@ -114,7 +116,11 @@ impl Work<'_> {
                     go_on: &|| !ended.load(Ordering::Relaxed),
                     took: &|wall| self.limits.took(wall),
                     outside: self.outside,
-                    deserted: &|run, why| fail(CampaignError::Deserted { run: run.run, arm: run.arm.clone(), why }),
+                    deserted: &|run, why| {
+                        halted.store(true, Ordering::Relaxed);
+                        let mut first = failed.lock().unwrap_or_else(PoisonError::into_inner);
+                        first.get_or_insert(CampaignError::Deserted { run: run.run, arm: run.arm.clone(), why });
+                    },
                 };
                 let made = self.seed(&runs, heed, &mut |row| {
                     (self.tell)(Event::Ran(&row));

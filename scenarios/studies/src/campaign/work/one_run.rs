@@ -1,12 +1,12 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
 
 use crate::campaign::contained::contained;
-use crate::campaign::outside::deserted;
 use crate::campaign::rows::row::{DeclarationRow, RunRow};
 use output::results::{
     DeclarationSummary, GantrySummary, RunInfo, RunSummary, SourceSummary, SourceTruth, Summary, SummaryBuilder,
     SummaryEnd, Totals,
 };
+use rheotaxis::control::Response;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial};
@@ -87,7 +87,7 @@ impl Observer for Gatherer<'_> {
     fn see(&mut self, event: &Event) {
         match event {
             Event::Frame(frame) => self.builder.observe(frame),
-            Event::Exchange(exchange) if deserted(&exchange.response) => {
+            Event::Exchange(exchange) if matches!(exchange.response, Response::Absent | Response::Gone) => {
                 let (robot, heard) = (&exchange.robot, exchange.response.name());
                 self.deserted = Some(format!("{robot} asked at {:.1} s: {heard}", exchange.t_s));
             }
