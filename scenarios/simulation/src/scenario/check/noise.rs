@@ -4,7 +4,7 @@ use crate::scenario::fault::UnplacedFault;
 use crate::scenario::gantry::GantryBlock;
 use crate::scenario::schema::RobotSpec;
 use robots::sense::{FluorometerSpec, FluorometersAsideSpec};
-use robots::track::{CrabSpec, ThresholdSpec};
+use robots::track::{CrabSpec, SurgeCastSpec, ThresholdSpec};
 
 /// Noise of a normal distribution rises above this many of its standard deviations once in 740 readings: at 10 Hz, about
 /// once a minute.
@@ -21,10 +21,12 @@ pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<UnplacedF
     }
 }
 
-/// A gantry's probes, against the least threshold of its tracker.
+/// A gantry's probes, against the least threshold of its searcher.
 pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<UnplacedFault>) {
-    if let Some(crab) = block.tracker.get::<CrabSpec>() {
-        let least_v = match &crab.threshold {
+    let crab = block.tracker.get::<CrabSpec>().map(|crab| &crab.threshold);
+    let surges = || block.tracker.get::<SurgeCastSpec>().map(|spec| &spec.threshold);
+    if let Some(threshold) = crab.or_else(surges) {
+        let least_v = match threshold {
             ThresholdSpec::HalfMean(rule) => rule.floor_v.get(),
             ThresholdSpec::Level(rule) => rule.level_v.get(),
         };
