@@ -7,7 +7,7 @@
 //! *Deviations*: none.
 
 use crate::error::RobotError;
-use crate::handoff::{Goal, Manoeuvre, Observation, Vertical};
+use crate::handoff::{Goal, Manoeuvre, Need, Observation, Vertical};
 use crate::memory::PlumeMemory;
 use std::fmt::Debug;
 use world::registry::Spec;
@@ -57,5 +57,10 @@ pub trait BehaviourParams: Spec {
     /// Its field that asks the vehicle to wait at a place, if it is set.
     fn waits(&self) -> Option<&'static str> {
         None
+    }
+
+    /// The instruments that it needs beside those of a search; paths below its field.
+    fn needs(&self) -> Vec<Need> {
+        Vec::new()
     }
 }

@@ -1,7 +1,9 @@
 //! The behaviours by name. Each place for a behaviour in a strategy has its own list of behaviours that can fill it.
 
 use super::behaviour::BehaviourParams;
-use super::{cast, climb, cloverleaf, find, lawnmower, random_points, reacquire, square_spiral, track_in, track_out};
+use super::{
+    bilateral, cast, climb, cloverleaf, find, lawnmower, random_points, reacquire, square_spiral, track_in, track_out,
+};
 use world::catalogue::Entry;
 use world::kind;
 
@@ -20,7 +22,7 @@ kind! {
     /// Behaviours that follow the plume towards its source while the vehicle detects it (Track-In).
     pub TrackInSpec = TracksIn of BehaviourParams {
         heading: HEADING,
-        rows: [track_in::Params, climb::Params],
+        rows: [track_in::Params, climb::Params, bilateral::Params],
         standard: track_in::Params,
     }
 }

@@ -2,6 +2,7 @@
 
 mod avoid;
 mod behaviour;
+mod bilateral;
 mod cast;
 mod catalogue;
 mod climb;

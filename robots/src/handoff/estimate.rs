@@ -78,6 +78,8 @@ pub struct Observation {
     pub estimate: Estimate,
     /// Chemical reading, if the sensor reported in this tick.
     pub chemical: Option<ChemicalReading>,
+    /// Readings of the pair of chemical sensors aside (left, right), if it reported in this tick.
+    pub sides: Option<[ChemicalReading; 2]>,
     /// The guidance's progress towards the last goal.
     pub guidance: GuidanceStatus,
     /// The operating area; the mission knows it beforehand.

@@ -125,6 +125,8 @@ impl RangeScan {
 pub struct Readings {
     /// Chemical sensor.
     pub chemical: Option<ChemicalReading>,
+    /// A pair of chemical sensors aside: the left one and the right one.
+    pub sides: Option<[ChemicalReading; 2]>,
     /// Bottom track.
     pub dvl: Option<DvlReading>,
     /// Water track, the cell used for the flow.

@@ -39,6 +39,7 @@ pub(crate) fn seen(t_s: f64, position: Vector2<f64>, heading_deg: f64, flow: Opt
             fix_jump: Vector2::zeros(),
         },
         chemical: None,
+        sides: None,
         guidance: GuidanceStatus::default(),
         area: area(),
         home: Vector2::new(10.0, -250.0),

@@ -36,7 +36,12 @@ impl WaysAhead {
 
     /// Points of way `k` at which dye could be met, m.
     pub fn points(&self, k: usize) -> [Vector2<f64>; POINTS] {
-        [1, 2, 3].map(|part| self.after(f64::from(part) / POINTS as f64)[k].0)
+        [1, 2, 3].map(|part| self.place(k, f64::from(part) / POINTS as f64))
+    }
+
+    /// The place on way `k` (east, north) after a share of its length, m.
+    pub fn place(&self, k: usize, share: f64) -> Vector2<f64> {
+        self.after(share)[k].0
     }
 
     /// Places and headings after a share of each way: straight on; turning with the tightest radius and three times it,

@@ -121,10 +121,21 @@ impl Fluorometer {
     /// # Errors
     /// If the rate does not fit the step, or if the converter has no or too many bits.
     pub fn new(spec: &FluorometerSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
+        Self::of(spec, ("fluorometer", "fluorometer"), p_BS, on)
+    }
+
+    /// The same whose parameters are at a field of the sensors, and that draws from a stream of this name.
+    pub(super) fn of(
+        spec: &FluorometerSpec,
+        (field, stream): (&str, &str),
+        p_BS: Vector3<f64>,
+        on: &OnBoard,
+    ) -> Result<Self, RobotError> {
         let bits = spec.adc_bits;
         let problem = format!("must be from 1 to 24, got {bits}");
-        require((1..=24).contains(&bits), "sensors.fluorometer.adc_bits", problem)?;
-        let at = Sampler::new("fluorometer", spec.rate_hz, p_BS, on)?;
+        require((1..=24).contains(&bits), format!("sensors.{field}.adc_bits"), problem)?;
+        let mut at = Sampler::new(field, spec.rate_hz, p_BS, on)?;
+        at.rng = on.stream(stream);
         Ok(Self {
             full_scale_kg_m3: spec.full_scale_ug_l.get() * KG_M3_PER_UG_L,
             levels: f64::from((1_u32 << bits) - 1),

@@ -30,9 +30,14 @@ impl Fitting<'_> {
     /// # Errors
     /// If the vehicle has none.
     pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
+        self.mount_for(name, name)
+    }
+
+    /// The mount of a name for the instrument `sensor`.
+    pub(super) fn mount_for(&self, sensor: &str, name: &str) -> Result<Pose, RobotError> {
         (self.mounts)(name).ok_or_else(|| {
             RobotError::invalid(
-                format!("sensors.{name}"),
+                format!("sensors.{sensor}"),
                 format!(
                     "the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"
                 ),

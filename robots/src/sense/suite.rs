@@ -4,8 +4,8 @@ use super::camera::spec::CameraSpec;
 use super::on_board::OnBoard;
 use super::sensor::{Fitting, Sensor, SensorParams, Surroundings};
 use super::{
-    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec, RangingSpec,
-    SidescanSpec,
+    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, FluorometersAsideSpec, LblSpec,
+    RangingSpec, SidescanSpec,
 };
 use crate::error::RobotError;
 use crate::handoff::Readings;
@@ -34,6 +34,7 @@ impl Kind for Sensors {
     fn built_in() -> Vec<Row<Self>> {
         vec![
             Row::new::<FluorometerSpec>(),
+            Row::new::<FluorometersAsideSpec>(),
             Row::new::<DvlSpec>(),
             Row::new::<AdcpSpec>(),
             Row::new::<CompassSpec>(),
@@ -148,13 +149,25 @@ mod tests {
     fn taking_an_instrument_off_shifts_no_other() {
         let whole = readings(&all(), "auv0");
         let mut lost = 0;
-        for name in ["fluorometer", "dvl", "adcp", "compass", "depth", "ctd", "altimeter", "lbl", "ranging", "sidescan"]
-        {
+        for name in [
+            "fluorometer",
+            "fluorometers_aside",
+            "dvl",
+            "adcp",
+            "compass",
+            "depth",
+            "ctd",
+            "altimeter",
+            "lbl",
+            "ranging",
+            "sidescan",
+        ] {
             let (spec, mut want) = (all().without(name), whole.clone());
             for r in &mut want {
                 let before = r.clone();
                 match name {
                     "fluorometer" => r.chemical = None,
+                    "fluorometers_aside" => r.sides = None,
                     "dvl" => r.dvl = None,
                     "adcp" => r.adcp = None,
                     "compass" => r.attitude = None,
@@ -169,9 +182,9 @@ mod tests {
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and the successful ones of 3 fixes.
+        // 100 s at 10, 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and the successful ones of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
-        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + 100 + fixes);
+        assert_eq!(lost, 1000 + 1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + 100 + fixes);
     }
 
     #[test]

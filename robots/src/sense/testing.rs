@@ -3,8 +3,9 @@
 
 use super::tools::EchoTarget;
 use super::{
-    AdcpSpec, AltimeterSpec, CameraSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, Imaging, LblSpec,
-    OnBoard, RangingSpec, SensorRequests, SensorSuite, SensorsSpec, SidescanSpec, Surroundings,
+    AdcpSpec, AltimeterSpec, CameraSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec,
+    FluorometersAsideSpec, Imaging, LblSpec, OnBoard, RangingSpec, SensorRequests, SensorSuite, SensorsSpec,
+    SidescanSpec, Surroundings,
 };
 use image::RgbImage;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector2, Vector3};
@@ -66,6 +67,7 @@ pub(crate) fn around<'a>(clock: &'a Clock, truth: &'a Truth) -> Surroundings<'a>
 pub(crate) fn all() -> SensorsSpec {
     SensorsSpec::default()
         .with(FluorometerSpec::default())
+        .with(FluorometersAsideSpec::default())
         .with(DvlSpec::default())
         .with(AdcpSpec::default())
         .with(CompassSpec::default())

@@ -5,11 +5,14 @@
 //! the moves, make one. What is weighed is the policy's matter.
 //!
 //! *Parameters*: speed over ground `speed_m_s`, m/s, 1.5; length of a way, `way_m`, m, 48: the published moves of 1
-//! to 2 m times 24 m, the turning circle of a REMUS; find, policy and declaration rule by name.
+//! to 2 m times 24 m, the turning circle of a REMUS; distance to keep from charted solids, `clearance_m`, m, 5 (ours):
+//! the hull of `MapAndPlan` and the clearance of its planners; find, policy and declaration rule by name.
 //!
 //! *Deviations*: moves are arcs that a vehicle can turn (see `handoff/ways.rs`), not steps to four neighbours, and
-//! the chance of a detection is that on the whole way. Ways that leave the area are left out. A vehicle that passes
-//! over the source does not notice it: the rule declares, from the map. Obstacles are not planned round.
+//! the chance of a detection is that on the whole way. Ways that leave the area are left out, and those that come too
+//! near to a charted solid at the vehicle's present depth; solids that the chart lacks are not noticed. Without a way
+//! left, the vehicle goes towards the middle of the area, whatever lies between. A vehicle that passes over the source
+//! does not notice it: the rule declares, from the map.
 
 use super::about::About;
 use super::setting::Setting;
@@ -29,10 +32,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use smart_default::SmartDefault;
 use world::catalogue::Entry;
-use world::ranges::Positive;
+use world::obstacles::Obstacles;
+use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
+/// A place on a way is at most this far from the next one that is checked, m, unless solids are farther away.
+const STRIDE_M: f64 = 0.5;
 /// A way is left when it takes longer than this many times its length at the commanded speed.
 const PATIENCE: f64 = 2.0;
 
@@ -53,6 +59,9 @@ pub struct PolicySearchSpec {
     /// Length of a way, m.
     #[default(Positive::new(48.0))]
     pub way_m: Positive,
+    /// Ways that come nearer to a solid of the chart are left out, m.
+    #[default(NonNegative::new(5.0))]
+    pub clearance_m: NonNegative,
     /// The declaration rule.
     pub declare: BeliefRuleSpec,
 }
@@ -79,6 +88,7 @@ impl StrategyParams for PolicySearchSpec {
 #[derive(Debug)]
 pub struct PolicySearch {
     spec: PolicySearchSpec,
+    chart: Obstacles,
     find: Box<dyn Behave>,
     policy: Box<dyn Policy>,
     rule: Box<dyn BeliefRule>,
@@ -102,6 +112,7 @@ impl PolicySearch {
             "PolicySearch needs a source map that looks ahead, and the robot has none; use for example map: Pomdp()",
         )?;
         Ok(Self {
+            chart: setting.chart.clone(),
             find: spec.find.build()?,
             policy: spec.policy.build(),
             rule: spec.declare.build(),
@@ -146,15 +157,32 @@ impl PolicySearch {
         });
     }
 
+    /// Whether a way keeps clear of charted solids. A vehicle that is already too near to one must not come nearer.
+    fn clear(&self, ways: &WaysAhead, k: usize) -> bool {
+        let to_solid_m = |p: Vector2<f64>| self.chart.distance(&p.push(ways.z_m));
+        let least_m = self.spec.clearance_m.get().min(to_solid_m(ways.from));
+        let mut gone_m = 0.0;
+        while gone_m < ways.length_m {
+            // No place within the spare distance is too near.
+            let spare_m = to_solid_m(ways.place(k, gone_m / ways.length_m)) - least_m;
+            if spare_m < 0.0 {
+                return false;
+            }
+            gone_m += spare_m.max(STRIDE_M);
+        }
+        to_solid_m(ways.place(k, 1.0)) >= least_m
+    }
+
     /// Goes the way that the policy chooses.
     fn choose(&mut self, seen: &Observation, belief: &Belief, outlook: &Outlook, rng: &mut Stream) {
         let ends = outlook.ways.ends();
         let within = |p: &Vector2<f64>| (inside(&seen.area, *p, MARGIN_M) - p).norm() < 1e-9;
-        let free: Vec<usize> = (0..WAYS).filter(|k| outlook.ways.points(*k).iter().all(within)).collect();
+        let free = |k: &usize| outlook.ways.points(*k).iter().all(within) && self.clear(&outlook.ways, *k);
+        let free: Vec<usize> = (0..WAYS).filter(free).collect();
         let way = |k: &usize| Way::with_detection(ends[*k].0, &outlook.chances[*k]);
         let ways: Vec<Way> = free.iter().map(way).collect();
         let point = if ways.is_empty() {
-            // Only a vehicle at the area's edge that heads outward has no way left.
+            // It heads outward at the area's edge, or for a solid.
             inside(&seen.area, seen.area.centre, MARGIN_M)
         } else {
             let cells: Vec<_> = (0..belief.grid.len()).map(|cell| belief.grid.centre(cell).xy()).collect();
@@ -207,8 +235,8 @@ impl Strategy for PolicySearch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::BeliefGrid;
-    use crate::handoff::testing::{area, seen, smelling, sure_of};
+    use crate::handoff::testing::{area, block, seen, smelling, sure_of};
+    use crate::handoff::{BeliefGrid, Capabilities};
     use crate::strategy::testing::{point_of, setting};
     use std::sync::Arc;
 
@@ -270,5 +298,53 @@ mod tests {
         assert!((place - o.belief.expect("there").grid.centre(7).xy()).norm() < 1e-9);
         let e = PolicySearchSpec::default().build(&setting(8.0, false)).expect_err("no map").to_string();
         assert!(e.contains("needs a source map that looks ahead"), "{e}");
+    }
+
+    /// Where the vehicle goes from the origin, heading for a source in the east, by a chart.
+    fn chosen(chart: &[([f64; 2], [f64; 3])], able: Capabilities) -> (WaysAhead, Vector2<f64>) {
+        let mut mission = setting(20.0, true);
+        let pile = |(at, size_m): &([f64; 2], [f64; 3])| block(&mission.bed, "pile", *at, *size_m);
+        mission.chart = Obstacles(chart.iter().map(pile).collect());
+        let mut s = PolicySearchSpec::default().build(&mission).expect("legal");
+        let mut rng = Stream::new(1, "auv0", "strategy");
+        let mut o = Observation { able, ..seen(0.0, Vector2::zeros(), 90.0, None) };
+        let grid = BeliefGrid::over(&area(), 0.0, 8.0, [60, 40, 1]);
+        let cell = grid.cell(&nalgebra::Vector3::new(100.0, 0.0, -3.0)).expect("inside");
+        let belief = sure_of(grid, cell, 0.9);
+        o.belief = Some(belief.clone());
+        let ways = s.step(&o, &mut rng).ways.expect("asks");
+        o.belief = Some(answer(belief, ways));
+        (ways, point_of(&s.step(&o, &mut rng)))
+    }
+
+    #[test]
+    fn a_way_past_a_charted_pile_is_never_chosen() {
+        for turning_radius_m in [12.0, 0.0] {
+            let able = Capabilities { turning_radius_m, ..Default::default() };
+            let (ways, open) = chosen(&[], able);
+            // A pile of a metre anywhere on the way: between its points, too.
+            let way = (0..WAYS).find(|k| ways.ends()[*k].0 == open).expect("one of them");
+            for share in [0.35, 0.43, 0.5, 0.9, 1.0] {
+                let at = ways.place(way, share);
+                let (again, other) = chosen(&[([at.x, at.y], [1.0, 1.0, 19.0])], able);
+                assert_eq!(again, ways);
+                let taken = (0..WAYS).find(|k| ways.ends()[*k].0 == other).expect("one of them");
+                let nearest = (0..=1000).map(|i| (ways.place(taken, f64::from(i) / 1000.0) - at).norm());
+                assert!(nearest.fold(f64::INFINITY, f64::min) > 5.2, "{share}: {other:?}");
+                // One that ends 7 m below the vehicle is none.
+                let (_, over) = chosen(&[([at.x, at.y], [1.0, 1.0, 10.0])], able);
+                assert_eq!((over, other == open), (open, false));
+            }
+        }
+    }
+
+    #[test]
+    fn who_is_too_near_may_go_away_and_who_is_shut_in_makes_for_the_middle() {
+        let able = Capabilities { turning_radius_m: 12.0, ..Default::default() };
+        // A wall 2 m to the west of a vehicle that heads east.
+        let (ways, goes) = chosen(&[([-3.0, 0.0], [2.0, 40.0, 19.0])], able);
+        assert_eq!(goes, chosen(&[], able).1);
+        assert!(ways.ends().iter().any(|(end, _)| *end == goes));
+        assert_eq!(chosen(&[([12.0, 0.0], [2.0, 60.0, 19.0])], able).1, area().centre);
     }
 }

@@ -4,6 +4,7 @@ use super::chemotaxis::ChemotaxisSpec;
 use super::crab::spec::CrabSpec;
 use super::external::ExternalSpec;
 use super::spec::GantryStrategyParams;
+use super::surge_cast::SurgeCastSpec;
 use world::catalogue::Entry;
 use world::kind;
 
@@ -11,7 +12,7 @@ kind! {
     /// Searchers that move a gantry's head by what its probes read.
     pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
         heading: "Searchers of a gantry (gantries: tracker)",
-        rows: [CrabSpec, ChemotaxisSpec, ExternalSpec],
+        rows: [CrabSpec, SurgeCastSpec, ChemotaxisSpec, ExternalSpec],
     }
 }
 

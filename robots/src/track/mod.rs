@@ -1,4 +1,4 @@
-//! Searchers of a gantry: the blue-crab tracker, one file per unit, and a baseline.
+//! Searchers of a gantry: the blue-crab tracker, one file per unit, a surge-cast, and a baseline.
 
 pub mod acquire;
 mod catalogue;
@@ -8,6 +8,7 @@ pub mod crab;
 pub mod data;
 mod external;
 mod spec;
+mod surge_cast;
 #[cfg(test)]
 mod testing;
 
@@ -27,3 +28,4 @@ pub use crab::stop::{Experience, SpikeRate, StopSpec};
 pub use crab::threshold::{HalfMean, Level, ThresholdSpec};
 pub use external::{ExternalSpec, OnLate};
 pub use spec::GantryStrategyParams;
+pub use surge_cast::{SurgeCast, SurgeCastSpec};

@@ -1,6 +1,6 @@
 //! Finds readings of an instrument of another crate that say nothing.
 
-use super::Readings;
+use super::{ChemicalReading, Readings};
 
 /// No reading of an instrument is greater.
 const MOST: f64 = 1e9;
@@ -12,14 +12,14 @@ impl Readings {
             let wrong = values.iter().find(|v| !(v.abs() <= MOST))?;
             Some(format!("`{field}` must be within ±{MOST}, got {wrong}"))
         };
-        let chemical = || {
-            let c = self.chemical?;
+        let chemical = |name: &str, c: &ChemicalReading| {
             let share = (!(0.0..=1.0).contains(&c.of_full_scale)).then(|| {
                 let got = c.of_full_scale;
-                format!("`chemical.of_full_scale` must be from 0 to 1, got {got}")
+                format!("`{name}.of_full_scale` must be from 0 to 1, got {got}")
             });
-            number("chemical.volts", &[c.volts]).or(share)
+            number(&format!("{name}.volts"), &[c.volts]).or(share)
         };
+        let sides = || self.sides.as_ref()?.iter().find_map(|c| chemical("sides", c));
         let attitude = || {
             let a = self.attitude?;
             let [x, y, z]: [f64; 3] = a.rates_rad_s.into();
@@ -67,7 +67,8 @@ impl Readings {
         let other = || (self.other.iter()).find_map(|(name, value)| number(name, &[*value]));
         let dvl = self.dvl.filter(|d| d.valid);
         let altimeter = self.altimeter.filter(|a| a.valid);
-        (chemical())
+        (self.chemical.as_ref().and_then(|c| chemical("chemical", c)))
+            .or_else(sides)
             .or_else(|| number("dvl.v_body_m_s", dvl?.v_body_m_s.as_slice()))
             .or_else(adcp)
             .or_else(attitude)
@@ -85,7 +86,7 @@ impl Readings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::{AltimeterReading, ChemicalReading, DepthReading, LblFix};
+    use crate::handoff::{AltimeterReading, DepthReading, LblFix};
     use nalgebra::Vector2;
 
     #[test]
@@ -94,7 +95,9 @@ mod tests {
         let chemical = |volts, of_full_scale| Some(ChemicalReading { volts, of_full_scale, detected: false });
         let altimeter = |altitude_m, valid| Some(AltimeterReading { altitude_m, valid });
         let position = Vector2::new(0.0, f64::INFINITY);
-        let all: [(Readings, &str); 8] = [
+        let sides = chemical(1.0, 0.5).zip(chemical(1.0, nan)).map(Into::into);
+        let all: [(Readings, &str); 9] = [
+            (Readings { sides, ..Readings::default() }, "`sides.of_full_scale`"),
             (Readings { chemical: chemical(nan, 0.5), ..Readings::default() }, "`chemical.volts`"),
             (Readings { chemical: chemical(1.0, 1e9), ..Readings::default() }, "`chemical.of_full_scale`"),
             (Readings { depth: Some(DepthReading { depth_m: nan }), ..Readings::default() }, "`depth.depth_m`"),

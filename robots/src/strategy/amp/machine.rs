@@ -178,6 +178,7 @@ impl StrategyParams for AmpSpec {
     fn about(&self) -> About {
         let mut needs = self.after_declaration.needs();
         needs.extend(self.fixes.needs());
+        needs.extend(self.track_in.needs().into_iter().map(|n| n.within("track_in")));
         let wishes = Wishes::mission(self.speed_m_s, self.vertical)
             .after(&self.after_declaration)
             .waiting("track_out", self.track_out.waits());

@@ -311,6 +311,8 @@ impl StrategyParams for SubsumptionSpec {
             if let LayerSpec::Maintain(maintain) = layer {
                 let waits = maintain.track_out.as_ref().and_then(|t| t.waits());
                 wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
+                let path = format!("layers[{k}].track_in");
+                needs.extend(maintain.track_in.needs().into_iter().map(|n| n.within(&path)));
             }
         }
         if let Some(survey) = &self.survey {

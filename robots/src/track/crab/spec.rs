@@ -1,7 +1,7 @@
 //! Parameters of the blue-crab tracker: its units, each replaceable, and what a machine must be able to do.
 
 use super::advance::{self, AdvanceSpec};
-use super::builder::{KEPT, SweepSpec};
+use super::builder::SweepSpec;
 use super::decide::{AtEnd, Rules};
 use super::history::HistorySpec;
 use super::pace::{self, PaceSpec};
@@ -108,15 +108,7 @@ impl CrabSpec {
         for (name, v) in speeds_l {
             most(&format!("speed.{name}"), v.get(), max_l, "speed across the stream in m/s")?;
         }
-        if let StopSpec::Experience(p) = &self.stop {
-            let n = p.points.get();
-            require(n <= KEPT, "tracker.Crab.stop.points", format!("must be from 1 to {KEPT}, got {n}"))?;
-            require(
-                p.least_hz <= p.most_hz,
-                "tracker.Crab.stop.least_hz",
-                format!("must not exceed most_hz, {}", p.most_hz.get()),
-            )?;
-        }
+        self.stop.check("tracker.Crab.stop")?;
         let middle = (across[0] + across[1]) / 2.0;
         Ok(Rules {
             step_m: Vector2::new(step_f, step_l),

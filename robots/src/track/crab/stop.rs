@@ -22,7 +22,9 @@
 //! *Deviations*: all of `Experience` is ours. The end of the trail rests on a certainty of the flow: dye is never
 //! up-stream of its source.
 
+use super::builder::KEPT;
 use super::rate::{Count, RateWindow};
+use crate::error::{RobotError, require};
 use crate::track::data::{Sample, Spike};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,6 +41,21 @@ pub enum StopSpec {
     SpikeRate(SpikeRate),
     /// A frequency relative to the first steps, and the end of the trail.
     Experience(Experience),
+}
+
+impl StopSpec {
+    /// Checks what its parameters say together; `path` is its field.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] if they contradict each other.
+    pub(in crate::track) fn check(&self, path: &str) -> Result<(), RobotError> {
+        let Self::Experience(p) = self else {
+            return Ok(());
+        };
+        let (n, most) = (p.points.get(), p.most_hz.get());
+        require(n <= KEPT, format!("{path}.points"), format!("must be from 1 to {KEPT}, got {n}"))?;
+        require(p.least_hz <= p.most_hz, format!("{path}.least_hz"), format!("must not exceed most_hz, {most}"))
+    }
 }
 
 /// Parameters of the fixed frequency.

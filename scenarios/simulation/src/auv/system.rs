@@ -91,6 +91,7 @@ impl SearcherKind for Goal {
             t_s: estimate.t_s,
             estimate: **estimate,
             chemical: readings.chemical,
+            sides: readings.sides,
             guidance: **guidance,
             area: briefing.area,
             home: briefing.home,

@@ -140,6 +140,15 @@ mod tests {
         }
         let said = told("dalian_bay", &[(VERTICAL, "Altitude(2)")]);
         assert_eq!(said, [format!("{VERTICAL}: robot \"auv0\" carries no altimeter: it cannot hold an altitude")]);
+        // A behaviour needs what its strategy does not.
+        for (strategy, field) in [
+            ("Amp(track_in: Bilateral())", "track_in"),
+            ("Subsumption(layers: [Find(ZigZag()), Maintain(track_in: Bilateral())])", "layers[1].track_in"),
+        ] {
+            let said = told(CHANNEL, &[("robots[0].strategy", strategy)]);
+            let problem = "robot \"auv0\" carries no fluorometers_aside: it has no two sides to compare";
+            assert_eq!(said[0], format!("robots[0].strategy.{field}: {problem}"));
+        }
     }
 
     /// A search within another strategy, one that stands in for an answer, a route.

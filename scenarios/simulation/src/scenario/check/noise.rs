@@ -3,26 +3,30 @@
 use crate::scenario::fault::UnplacedFault;
 use crate::scenario::gantry::GantryBlock;
 use crate::scenario::schema::RobotSpec;
-use robots::sense::FluorometerSpec;
-use robots::track::{CrabSpec, ThresholdSpec};
+use robots::sense::{FluorometerSpec, FluorometersAsideSpec};
+use robots::track::{CrabSpec, SurgeCastSpec, ThresholdSpec};
 
 /// Noise of a normal distribution rises above this many of its standard deviations once in 740 readings: at 10 Hz, about
 /// once a minute.
 const SIGMAS: f64 = 3.0;
 
-/// A robot's fluorometer.
+/// A robot's fluorometers.
 pub(super) fn fluorometer(i: usize, robot: &RobotSpec, found: &mut Vec<UnplacedFault>) {
-    if let Some(spec) = robot.sensors.get::<FluorometerSpec>() {
+    let own = robot.sensors.get::<FluorometerSpec>().map(|spec| ("fluorometer", spec));
+    let aside = robot.sensors.get::<FluorometersAsideSpec>().map(|pair| ("fluorometers_aside.each", &pair.each));
+    for (field, spec) in own.into_iter().chain(aside) {
         let above_v = spec.threshold.get() * spec.full_scale_v.get();
-        let path = format!("robots[{i}].sensors.fluorometer.noise_v");
+        let path = format!("robots[{i}].sensors.{field}.noise_v");
         loud(path, spec.noise_v.get(), above_v, found);
     }
 }
 
-/// A gantry's probes, against the least threshold of its tracker.
+/// A gantry's probes, against the least threshold of its searcher.
 pub(super) fn probes(i: usize, block: &GantryBlock, found: &mut Vec<UnplacedFault>) {
-    if let Some(crab) = block.tracker.get::<CrabSpec>() {
-        let least_v = match &crab.threshold {
+    let crab = block.tracker.get::<CrabSpec>().map(|crab| &crab.threshold);
+    let surges = || block.tracker.get::<SurgeCastSpec>().map(|spec| &spec.threshold);
+    if let Some(threshold) = crab.or_else(surges) {
+        let least_v = match threshold {
             ThresholdSpec::HalfMean(rule) => rule.floor_v.get(),
             ThresholdSpec::Level(rule) => rule.level_v.get(),
         };
@@ -63,6 +67,8 @@ mod tests {
         for fine in ["(noise_v: 0.06)", "(threshold: 0.01, noise_v: 0.01)", "(threshold: 0, noise_v: 0)"] {
             assert_eq!(told(CHANNEL, &[(fluorometer, fine)]), NOTHING);
         }
+        let aside = told_once(CHANNEL, &[("robots[0].sensors.fluorometers_aside", "(each: (noise_v: 0.3))")]);
+        assert!(aside.starts_with("robots[0].sensors.fluorometers_aside.each.noise_v: noise of 0.3 V "), "{aside}");
         let said = told("flume_crab_paper", &[("gantries[0].probes.noise_v", "0.01")]);
         assert!(said[0].starts_with("gantries[0].probes.noise_v: noise of 0.01 V"), "{said:?}");
     }
