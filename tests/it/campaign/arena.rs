@@ -1,6 +1,6 @@
 //! The arena: searchers against each other, its results, and what goes wrong in it.
 
-use crate::common::{command, rheotaxis_in, root, says, with_little_room, Ended};
+use crate::common::{Ended, command, rheotaxis_in, root, says, with_little_room};
 use rheotaxis::control::{Controller, Question, Response, read_answer};
 use std::fs;
 use std::path::{Path, PathBuf};
