@@ -172,7 +172,7 @@ pub(crate) fn timeless_rows(dir: &Path) -> Vec<RunRow> {
 
 /// A row without what the wall clock says.
 pub(crate) fn timeless(row: RunRow) -> RunRow {
-    RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..row }
+    RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, own_wall_s: None, ..row }
 }
 
 /// An endpoint of zenoh at a port that nobody has at the moment.

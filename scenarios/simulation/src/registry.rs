@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn every_entry_that_is_named_is_used_by_a_scenario() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let rows = ["tests/reference/rows", "scenarios/catalog/campaigns"]
+        let rows = ["tests/reference/rows", "scenarios/catalog/campaigns", "scenarios/catalog/arena"]
             .into_iter()
             .flat_map(|folder| std::fs::read_dir(root.join(folder)).expect("a folder of arms"))
             .map(|e| std::fs::read_to_string(e.expect("a row").path()).expect("text"));

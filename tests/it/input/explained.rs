@@ -55,6 +55,8 @@ fn campaigns_vehicles_and_tables_are_explained_as_a_scenario_is() {
         ("campaign.seeds.Literal", "\n  first: whole number, >= 0; must be given\n"),
         ("campaign.conditions", "default  Single\n"),
         ("campaign.conditions.draw", "a path in the scenario and a distribution"),
+        ("family.machine", "Gantry"),
+        ("searchers.searchers[].privileged", "in no ranking"),
         ("track.csv", "\n  est_depth_m, m\n"),
         ("probes-crab0.csv", "\n  <probe>_threshold_v, V\n"),
         ("part-0001.parquet", "\n  traced_m, m\n"),

@@ -45,6 +45,12 @@ fn give_ocean_back(world: &mut World) {
     world.insert_resource(ocean);
 }
 
+/// The motors of a gantry are set in the bodies themselves.
+fn give_bodies_back(world: &mut World) {
+    let physics = world.resource_mut::<Hidden>().physics.take().expect("hidden before");
+    world.insert_resource(physics);
+}
+
 /// Before the physics: all is as it was.
 fn restore(world: &mut World) {
     let hidden = world.remove_resource::<Hidden>().expect("scrambled before");
@@ -52,12 +58,12 @@ fn restore(world: &mut World) {
     for mut truth in world.query::<&mut Truth>().iter_mut(world) {
         *truth = states.next().expect("as many as before");
     }
-    world.insert_resource(hidden.physics.expect("hidden before"));
 }
 
 fn scrambled(registry: Registry) -> Registry {
     registry.with_systems(|systems: &mut Systems| {
-        systems.add(Stage::Sense, scramble).add(Stage::Map, give_ocean_back).add(Stage::Actuate, restore);
+        systems.add(Stage::Sense, scramble).add(Stage::Map, give_ocean_back);
+        systems.add(Stage::Guide, give_bodies_back).add(Stage::Actuate, restore);
     })
 }
 

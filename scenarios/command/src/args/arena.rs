@@ -61,7 +61,7 @@ pub struct ArenaArgs {
 }
 
 /// What the help of this command begins with.
-pub(in crate::args) const ABOUT: &str = "Lets searchers compete on equal terms. A family of water is a scenario and what differs in it from seed to seed: \
+pub(super) const ABOUT: &str = "Lets searchers compete on equal terms. A family of water is a scenario and what differs in it from seed to seed: \
      flow, source, start. In each family all searchers have the same vehicle, instruments and limits, and those of a \
      seed meet one and the same plume. `rheotaxis list searchers` lists searchers and families with their sources.\n\n\
      Each family becomes a campaign in DIR/FAMILY: the same command continues what was interrupted, any number of \

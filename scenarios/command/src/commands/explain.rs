@@ -1,4 +1,4 @@
-//! `rheotaxis explain`: explains the fields of a scenario, a campaign and a vehicle, and the columns of tables.
+//! `rheotaxis explain`: explains the fields of a scenario, a campaign, the arena and a vehicle, and the columns of tables.
 
 use crate::args::explain::ExplainArgs;
 use crate::exit::Exit;
@@ -7,11 +7,12 @@ use crate::say;
 use output::columns::TableInfo;
 use output::report;
 use rheotaxis::explain::{self, FileKind};
+use studies::arena::{FAMILY_FILE, SEARCHERS_FILE};
 use studies::campaign;
 use world::registry::Registry;
 
 /// The files that this command knows beside those of the library.
-const MORE: &[FileKind] = &[campaign::FILE];
+const MORE: &[FileKind] = &[campaign::FILE, FAMILY_FILE, SEARCHERS_FILE];
 
 /// The tables of runs and campaigns.
 fn tables() -> Vec<TableInfo> {

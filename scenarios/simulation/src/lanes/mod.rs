@@ -237,21 +237,25 @@ impl<O: Observer> Lanes<O> {
         let mut n = 0;
         while let Some(lane) = self.lanes.get_mut(n) {
             let going = lane.with(&mut self.ocean, |trial, observer| {
-                if first {
+                observer.turn(true);
+                let going = if first {
                     let going = trial.going();
                     if going {
                         trial.search(observer);
                     }
-                    return going;
-                }
-                let quiet = quiet_steps(trial);
-                through(trial, quiet, |trial| {
-                    let going = trial.close_tick(observer);
-                    if going {
-                        trial.search(observer);
-                    }
                     going
-                })
+                } else {
+                    let quiet = quiet_steps(trial);
+                    through(trial, quiet, |trial| {
+                        let going = trial.close_tick(observer);
+                        if going {
+                            trial.search(observer);
+                        }
+                        going
+                    })
+                };
+                observer.turn(false);
+                going
             });
             if going == Some(true) {
                 n += 1;

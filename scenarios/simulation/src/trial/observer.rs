@@ -53,6 +53,8 @@ pub trait Observer {
     fn goes_on(&mut self) -> bool {
         true
     }
+    /// A turn of the run begins or ends: between turns the ocean makes its step, and other lanes have theirs.
+    fn turn(&mut self, _begins: bool) {}
     /// What it wants to see beside what is made anyway.
     fn wants(&self) -> Wants {
         Wants::default()

@@ -9,7 +9,7 @@ use std::num::NonZeroU64;
 
 /// Family files, for `rheotaxis explain`.
 pub const FAMILY_FILE: FileKind =
-    FileKind::new::<FamilySpec>("arena family", "A family of water, which `rheotaxis arena --family` reads.");
+    FileKind::new::<FamilySpec>("family", "A family of water, which `rheotaxis arena --family` reads.");
 
 /// A family: water, a source and a machine that looks for it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Files of searchers, for `rheotaxis explain`.
 pub const SEARCHERS_FILE: FileKind =
-    FileKind::new::<SearchersSpec>("arena searchers", "Searchers, which `rheotaxis arena --searcher` reads.");
+    FileKind::new::<SearchersSpec>("searchers", "Searchers, which `rheotaxis arena --searcher` reads.");
 
 /// A file of searchers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

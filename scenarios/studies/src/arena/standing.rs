@@ -53,6 +53,8 @@ pub struct Figures {
     pub error_m: Option<Estimated>,
     /// Success weighted by path length, if there is an oracle.
     pub spl: Option<Estimated>,
+    /// Wall time a simulated second beyond that of the oracle, which decides nothing: what maps and decisions cost, ms.
+    pub cost_ms: Option<f64>,
     /// Its rank by the restricted mean; none of a privileged one.
     pub rank: Option<Rank>,
     /// Time to success, s, of the runs that had any, in order.
@@ -102,8 +104,8 @@ pub fn standing(
     let mut figures: Vec<Figures> = Vec::new();
     for (k, name) in arms.clone().enumerate() {
         let own: Vec<&RunRow> = by_seed.values().map(|rows| rows[k]).collect();
-        let paths: Option<Vec<f64>> = oracle.map(|o| by_seed.values().map(|rows| rows[o].travelled_m).collect());
-        figures.push(one(name, privileged(name), &own, paths.as_deref(), limit_s));
+        let told: Option<Vec<&RunRow>> = oracle.map(|o| by_seed.values().map(|rows| rows[o]).collect());
+        figures.push(one(name, privileged(name), &own, told.as_deref(), limit_s));
     }
     let ranked: Vec<usize> = (0..figures.len()).filter(|k| !figures[*k].privileged).collect();
     let score = |row: &RunRow| time_s(row, limit_s).unwrap_or(limit_s) / limit_s;
@@ -123,15 +125,23 @@ pub fn standing(
     })
 }
 
-fn one(name: &str, privileged: bool, rows: &[&RunRow], paths: Option<&[f64]>, limit_s: f64) -> Figures {
+/// Wall time of the runs' own parts for each simulated second, ms; `None` if nothing was simulated.
+fn own_ms(rows: &[&RunRow]) -> Option<f64> {
+    let own_s: f64 = rows.iter().filter_map(|row| row.own_wall_s).sum();
+    let simulated_s: f64 = rows.iter().filter(|row| row.own_wall_s.is_some()).map(|row| row.mission_s).sum();
+    (simulated_s > 0.0).then(|| 1000.0 * own_s / simulated_s)
+}
+
+/// The figures of a searcher, beside the runs of the oracle, if there is one.
+fn one(name: &str, privileged: bool, rows: &[&RunRow], told: Option<&[&RunRow]>, limit_s: f64) -> Figures {
     let count = |what: &dyn Fn(&RunRow) -> bool| Count {
         of: rows.iter().filter(|row| what(row)).count() as u64,
         n: rows.len() as u64,
     };
     let errors = finite_sorted(rows.iter().filter_map(|row| row.error_m));
-    let spl: Option<Vec<f64>> = paths.map(|paths| {
-        let each = rows.iter().zip(paths);
-        let weighed = |(row, path): (&&RunRow, &f64)| if row.success { path / path.max(row.travelled_m) } else { 0.0 };
+    let spl: Option<Vec<f64>> = told.map(|told| {
+        let each = rows.iter().zip(told.iter().map(|row| row.travelled_m));
+        let weighed = |(row, path): (&&RunRow, f64)| if row.success { path / path.max(row.travelled_m) } else { 0.0 };
         each.map(weighed).collect()
     });
     let found = rows.iter().filter(|row| row.success);
@@ -147,6 +157,7 @@ fn one(name: &str, privileged: bool, rows: &[&RunRow], paths: Option<&[f64]>, li
             let mean = spl.iter().sum::<f64>() / spl.len() as f64;
             (mean, positive_mean_interval(&spl).map(|i| Interval { high: i.high.min(1.0), ..i }))
         }),
+        cost_ms: told.and_then(|told| Some(own_ms(rows)? - own_ms(told)?)).filter(|_| !privileged),
         rank: None,
         times_s: finite_sorted(found.filter_map(|row| time_s(row, limit_s)).filter(|t| *t < limit_s)),
     }

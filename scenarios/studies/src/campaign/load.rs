@@ -28,9 +28,7 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "crab_flow",
     "wp_maps",
     "moth_plus",
-    "kinematic_steps",
-    "reactive",
-    "cognitive"
+    "kinematic_steps"
 ];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario may

@@ -84,7 +84,7 @@ impl Table {
     pub fn merge(&mut self, row: &RowResult) {
         self.hash.clone_from(&row.scenario.1);
         for run in &row.runs {
-            let run = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, ..run.clone() };
+            let run = RunRow { spin_up_wall_s: 0.0, mission_wall_s: 0.0, own_wall_s: None, ..run.clone() };
             self.runs.insert((run.seed, run.arm.clone()), run);
         }
     }

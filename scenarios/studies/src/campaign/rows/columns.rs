@@ -36,7 +36,7 @@ pub(in crate::campaign) fn csv_fields<T: Record>(record: &T) -> impl Iterator<It
 }
 
 /// Columns that say where in a table a run stands, and how long it took.
-const OF_THE_TABLE: [&str; 4] = ["run", "seed_index", "spin_up_wall_s", "mission_wall_s"];
+const OF_THE_TABLE: [&str; 5] = ["run", "seed_index", "spin_up_wall_s", "mission_wall_s", "own_wall_s"];
 
 /// The first column in which two records of the same run differ, with both values.
 pub(crate) fn difference<T: Record>(a: &T, b: &T) -> Option<(&'static str, [String; 2])> {
@@ -53,8 +53,9 @@ fn csv<'a, T: Record>(records: impl IntoIterator<Item = &'a T>) -> String {
     csv_text(&names.join(","), records.into_iter().map(csv_fields))
 }
 
-/// Reads records from a table of CSV with the names of all columns in its first line. What is wrong is told with line
-/// and column; `before` is the number of lines before the table.
+/// Reads records from a table of CSV with the names of all columns in its first line; of an older table the last ones may
+/// be missing, if they may be empty. What is wrong is told with line and column; `before` is the number of lines before
+/// the table.
 pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, String> {
     let mut table = csv::ReaderBuilder::new();
     let mut table = table.has_headers(false).from_reader(text.as_bytes());
@@ -67,7 +68,8 @@ pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, Str
                 return Err(format!("line {at}: a column must be called {name}, not `{field}`"));
             }
         }
-        if line.len() != T::COLUMNS.len() {
+        let missing = T::COLUMNS.iter().skip(line.len());
+        if line.len() > T::COLUMNS.len() || missing.into_iter().any(|(_, optional, _)| !optional) {
             let (want, got) = (T::COLUMNS.len(), line.len());
             return Err(format!("line {at}: must have {want} fields, has {got}"));
         }

@@ -85,6 +85,8 @@ record! {
     spin_up_wall_s: Real "s",
     /// Wall time of the mission. Of runs in lanes each has its share.
     mission_wall_s: Real "s",
+    /// Wall time of the mission's own part, without the water and the plume that runs in lanes share.
+    own_wall_s: Maybe "s",
     beside:
     /// All declarations of all robots and gantries, in order of time. They stand in a table of their own.
     declarations: Vec<DeclarationRow>,

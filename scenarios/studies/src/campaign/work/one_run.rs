@@ -1,4 +1,5 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
+#![allow(clippy::disallowed_methods, reason = "wall times are columns of the table; nothing of them enters a run")]
 
 use crate::campaign::contained::contained;
 use crate::campaign::rows::row::{DeclarationRow, RunRow};
@@ -10,7 +11,7 @@ use rheotaxis::control::Response;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Event, Observer, Trial};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use world::seeds::Seed;
 
 /// What identifies a run in the table.
@@ -40,6 +41,8 @@ pub(super) struct Gatherer<'a> {
     /// Why nobody outside decides any more.
     pub(super) deserted: Option<String>,
     builder: SummaryBuilder,
+    /// Wall time of its turns so far, and when the present one began.
+    own: (Duration, Instant),
     go_on: &'a dyn Fn() -> bool,
 }
 
@@ -54,7 +57,7 @@ impl<'a> Gatherer<'a> {
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         });
-        Self { run, deserted: None, builder, go_on }
+        Self { run, deserted: None, builder, own: (Duration::ZERO, Instant::now()), go_on }
     }
 
     /// The row of the run at its end, with the wall times of its spin-up and mission.
@@ -79,7 +82,8 @@ impl<'a> Gatherer<'a> {
             },
         };
         let summary = self.builder.finish(&end, &SourceTruth::from_run(trial, &ended));
-        row(name, &summary, loaded.scenario.success.declared_within_m())
+        let own_wall_s = Some(self.own.0.as_secs_f64());
+        RunRow { own_wall_s, ..row(name, &summary, loaded.scenario.success.declared_within_m()) }
     }
 }
 
@@ -92,6 +96,14 @@ impl Observer for Gatherer<'_> {
                 self.deserted = Some(format!("{robot} asked at {:.1} s: {heard}", exchange.t_s));
             }
             _ => {}
+        }
+    }
+
+    fn turn(&mut self, begins: bool) {
+        if begins {
+            self.own.1 = Instant::now();
+        } else {
+            self.own.0 += self.own.1.elapsed();
         }
     }
 
