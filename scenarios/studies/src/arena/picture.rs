@@ -84,7 +84,7 @@ pub(super) fn curves(standings: &[&Standing], total: &Total) -> String {
             c.polyline(panel.all(&points), &style);
         }
         panel.axes(&mut c, 60.0, 10.0);
-        panel.names(&mut c, 11.0, ["Mission time (s)", "Share"], [34.0, panel.left - 40.0]);
+        panel.names(&mut c, 11.0, ["Mission time (s)", "Share"], [34.0, 34.0]);
     }
     for (k, name) in best.iter().enumerate() {
         let y = keys + 17.0 * k as f64;
@@ -119,7 +119,7 @@ pub(super) fn profile(standings: &[&Standing], total: &Total) -> String {
         c.polyline(panel.all(&points), &style);
     }
     panel.axes(&mut c, 60.0, 11.0);
-    panel.names(&mut c, 12.0, ["Share of the time limit", "Share of runs"], [38.0, 16.0]);
+    panel.names(&mut c, 12.0, ["Share of the time limit", "Share of runs"], [38.0, 40.0]);
     for (k, (name, _)) in total.searchers.iter().enumerate().take(COLOURS.len() + 1) {
         let y = 50.0 + 17.0 * k as f64;
         let (style, name) = match COLOURS.get(k) {

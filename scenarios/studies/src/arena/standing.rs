@@ -162,3 +162,54 @@ fn one(name: &str, privileged: bool, rows: &[&RunRow], told: Option<&[&RunRow]>,
         times_s: finite_sorted(found.filter_map(|row| time_s(row, limit_s)).filter(|t| *t < limit_s)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arena::load::families;
+    use crate::arena::{Contest, campaign, searchers};
+    use crate::campaign::report::sample::row;
+    use std::path::PathBuf;
+    use world::registry::Registry;
+    use world::seeds::Key;
+
+    /// Three seeds, of the last of which a searcher has no row yet: found after 910 and 940 s, declared astray, not declared.
+    #[test]
+    fn figures_by_hand_of_whole_seeds() {
+        let asked = ["oracle", "surge-cast", "QMDP"].map(String::from);
+        let family = families(&Registry::default(), &[PathBuf::from("uniform")]).unwrap().remove(0);
+        let searchers = searchers(&asked).unwrap();
+        let contest = Contest { seeds: Some(3), first_seed: 1, key: Key::public() };
+        let planned = campaign(&family, &searchers, &contest).unwrap();
+        let of = |run: u64, found: Option<(f64, f64)>, travelled_m: f64, own_s: f64| RunRow {
+            run,
+            seed_index: run / 3,
+            travelled_m,
+            mission_s: 1000.0,
+            own_wall_s: Some(own_s),
+            ..row(run, found)
+        };
+        let (near, far) = (Some((3.0, 4.0)), Some((500.0, 0.0)));
+        let rows = [
+            of(0, None, 300.0, 0.1),
+            of(1, near, 600.0, 0.1),
+            of(2, far, 900.0, 1.1),
+            of(3, None, 200.0, 0.1),
+            of(4, near, 150.0, 0.1),
+            of(5, None, 900.0, 1.1),
+            of(6, None, 300.0, 0.1),
+            of(7, near, 600.0, 0.1),
+        ];
+        let s = standing(&family, &searchers, &planned, &rows).unwrap();
+        assert_eq!((s.done, s.limit_s, s.scores.len()), ([2, 3], 1800.0, 2));
+        let [told, cast, qmdp] = &s.figures[..] else { panic!("three searchers") };
+        assert!(told.privileged && told.rank.is_none() && told.spl.is_none());
+        assert_eq!((cast.success.of, cast.astray.of, qmdp.success.of, qmdp.astray.of), (2, 0, 0, 1));
+        // 300 of 600 m, and a path that is not longer than the oracle's counts as its own.
+        assert_eq!((cast.spl.unwrap().0, qmdp.spl.unwrap().0), (0.75, 0.0));
+        assert_eq!((cast.restricted.mean_s, qmdp.restricted.mean_s), (Some(925.0), Some(1800.0)));
+        assert_eq!((cast.error_m.unwrap().0, cast.times_s.len()), (5.0, 2));
+        assert!((qmdp.cost_ms.unwrap() - 1.0).abs() < 1e-9 && cast.cost_ms.unwrap().abs() < 1e-9);
+        assert_eq!(s.scores, [[910.0 / 1800.0, 1.0], [940.0 / 1800.0, 1.0]]);
+    }
+}
