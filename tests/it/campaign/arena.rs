@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use studies::arena::{Contest, campaign, families, searchers};
-use studies::campaign::{CampaignError, Outside, RunName, RunOptions, read_rows, run};
+use studies::arena::{Contest, Family, campaign, families, searchers};
+use studies::campaign::{CampaignError, Outside, RunName, RunOptions, RunRow, read_rows, run};
 use world::registry::Registry;
 use world::seeds::Key;
 
@@ -176,4 +176,21 @@ fn every_family_and_every_searcher_that_comes_with_the_program_can_compete() {
         planned.spec.arms = vec![planned.spec.arms.swap_remove(told)];
         planned.check().unwrap();
     }
+}
+
+/// Lochmatter & Martinoli 2009: in a laminar current surge-cast is ahead of casting, which turns only at the plume's edge.
+#[test]
+fn in_a_laminar_current_surge_cast_is_ahead_of_casting() {
+    let asked = ["surge-cast", "passive zigzag"].map(String::from);
+    let family = families(&Registry::default(), &[PathBuf::from("uniform_kinematic")]).unwrap().remove(0);
+    let laminar = crate::common::set(family.base, &[("water.currents[1].std_m_s", "0")]);
+    let family = Family { base: laminar, ..family };
+    let contest = Contest { seeds: Some(3), first_seed: 1, key: Key::public() };
+    let planned = campaign(&family, &searchers(&asked).unwrap(), &contest).unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    run(&planned, dir.path(), &RunOptions::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+    let rows = read_rows(dir.path()).unwrap();
+    let time_s = |row: &RunRow| if row.success { row.declared_s.unwrap() } else { 1800.0 };
+    let ahead: Vec<f64> = rows.chunks(2).map(|of_seed| time_s(&of_seed[1]) - time_s(&of_seed[0])).collect();
+    assert!(ahead.len() == 3 && ahead.iter().sum::<f64>() > 300.0, "{ahead:?}");
 }

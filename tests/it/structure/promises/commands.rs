@@ -43,6 +43,15 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
         "rheotaxis campaign identify round1 round2 --out found",
         In("scenarios/studies/src/identify/tests.rs", "fn a_further_round_takes_fresh_runs_of_what_remains"),
     ),
+    ("rheotaxis arena --quick", No("it takes some minutes")),
+    (
+        "rheotaxis arena --family uniform --searcher surge-cast --searcher infotaxis --seeds 40",
+        In("tests/it/campaign/arena.rs", "--seeds 4 --out out"),
+    ),
+    (
+        "rheotaxis list searchers",
+        Ends { code: 0, says: &["space-aware infotaxis", "Loisy & Eloy 2022", "tide_waves", "duck_st"], leaves: &[] },
+    ),
     (
         "rheotaxis vehicle init lauv my_auv",
         Ends { code: 0, says: &[], leaves: &["my_auv/vehicle.ron", "my_auv/lauv.urdf"] },
