@@ -8,7 +8,8 @@ use world::files;
 /// Longest file read, bytes: these are texts of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
 
-/// The text of a file or, if there is none, of the one of that name that comes with the program. `what` names such files.
+/// The text of a file or, if there is none, of the one of that name that comes with the program. `what` names such
+/// files.
 ///
 /// # Errors
 /// If there is neither, or the file cannot be read.

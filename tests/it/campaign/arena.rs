@@ -178,7 +178,8 @@ fn every_family_and_every_searcher_that_comes_with_the_program_can_compete() {
     }
 }
 
-/// Lochmatter & Martinoli 2009: in a laminar current surge-cast is ahead of casting, which turns only at the plume's edge.
+/// Lochmatter & Martinoli 2009: in a laminar current surge-cast is ahead of casting, which turns only at the plume's
+/// edge.
 #[test]
 fn in_a_laminar_current_surge_cast_is_ahead_of_casting() {
     let asked = ["surge-cast", "passive zigzag"].map(String::from);

@@ -61,16 +61,17 @@ pub struct ArenaArgs {
 }
 
 /// What the help of this command begins with.
-pub(super) const ABOUT: &str = "Lets searchers compete on equal terms. A family of water is a scenario and what differs in it from seed to seed: \
-     flow, source, start. In each family all searchers have the same vehicle, instruments and limits, and those of a \
-     seed meet one and the same plume. `rheotaxis list searchers` lists searchers and families with their sources.\n\n\
-     Each family becomes a campaign in DIR/FAMILY: the same command continues what was interrupted, any number of \
-     machines can share the folder, and `rheotaxis campaign report DIR/FAMILY` and `rerun` work there. DIR itself gets \
-     report.html, RANKING.md, arena.csv, figures and FAMILY.parquet.\n\n\
-     Seeds are public unless --key gives a secret: then flow, source, start and all noise depend on it, and nobody can \
-     have tuned on them.\n\n\
-     A searcher of your own is a file like those that come with the program (docs/arena.md): its strategy may be one of \
-     your own crate, or External, which asks another program (docs/interfaces.md), in Python for instance.";
+pub(super) const ABOUT: &str = "\
+    Lets searchers compete on equal terms. A family of water is a scenario and what differs in it from seed to seed: \
+    flow, source, start. In each family all searchers have the same vehicle, instruments and limits, and those of a \
+    seed meet one and the same plume. `rheotaxis list searchers` lists searchers and families with their sources.\n\n\
+    Each family becomes a campaign in DIR/FAMILY: the same command continues what was interrupted, any number of \
+    machines can share the folder, and `rheotaxis campaign report DIR/FAMILY` and `rerun` work there. DIR itself gets \
+    report.html, RANKING.md, arena.csv, figures and FAMILY.parquet.\n\n\
+    Seeds are public unless --key gives a secret: then flow, source, start and all noise depend on it, and nobody \
+    can have tuned on them.\n\n\
+    A searcher of your own is a file like those that come with the program (docs/arena.md): its strategy may be one of \
+    your own crate, or External, which asks another program (docs/interfaces.md), in Python for instance.";
 
 const AFTER: &str = "\
 Examples:

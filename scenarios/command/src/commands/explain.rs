@@ -1,4 +1,4 @@
-//! `rheotaxis explain`: explains the fields of a scenario, a campaign, the arena and a vehicle, and the columns of tables.
+//! `rheotaxis explain`: explains the fields of scenarios, campaigns, the arena and vehicles, and columns of tables.
 
 use crate::args::explain::ExplainArgs;
 use crate::exit::Exit;

@@ -1,7 +1,7 @@
 //! Texts in braces: what a family gives its searchers.
 
-/// A text with `{name}` replaced by what is given by this name, and `{0.5 name}` by half of it. What stands in braces and
-/// is a path that is `drawn` stays as it is.
+/// A text with `{name}` replaced by what is given by this name, and `{0.5 name}` by half of it. What stands in braces
+/// and is a path that is `drawn` stays as it is.
 ///
 /// # Errors
 /// The text in braces for which nothing is given, and what is.

@@ -1,8 +1,8 @@
 //! The arena: published searchers in the same water, with the same hull, instruments and limits.
 //!
-//! A [`FamilySpec`] is a scenario and what varies in it from seed to seed; a [`SearcherSpec`] is what makes a machine of
-//! a family search in its own way. Both together are a campaign ([`campaign`]), an arm a searcher, so that all searchers
-//! of a seed meet one and the same plume, and rows, shards and resumption are those of campaigns.
+//! A [`FamilySpec`] is a scenario and what varies in it from seed to seed; a [`SearcherSpec`] is what makes a machine
+//! of a family search in its own way. Both together are a campaign ([`campaign`]), an arm a searcher, so that all
+//! searchers of a seed meet one and the same plume, and rows, shards and resumption are those of campaigns.
 
 mod design;
 mod family;

@@ -7,9 +7,9 @@
 //!
 //! *Parameters*: 95 %; resamples, `RESAMPLES`.
 //!
-//! *Deviations*: one step, where the paper has a refinement in several. A difference without any spread is separable if it
-//! is one. Of fewer than five seeds in a family nothing is said: they show almost nothing of their spread. Who cannot be
-//! told apart shares ranks: a tie is shown as a tie.
+//! *Deviations*: one step, where the paper has a refinement in several. A difference without any spread is separable
+//! if it is one. Of fewer than five seeds in a family nothing is said: they show almost nothing of their spread. Who
+//! cannot be told apart shares ranks: a tie is shown as a tie.
 
 use crate::campaign::stats::{LEAST_VALUES, quantile};
 use world::seeds::Stream;

@@ -1,8 +1,8 @@
 //! How the searchers of a family did.
 //!
-//! *Source*: restricted mean time, Royston & Parmar 2013 (see `campaign::report`); success weighted by path length, SPL,
-//! Anderson et al. 2018 (arXiv:1807.06757): the mean over all runs of S · L / max(L, P), where L is the path of the
-//! oracle, which is told where the source is, in the same water from the same start.
+//! *Source*: restricted mean time, Royston & Parmar 2013 (see `campaign::report`); success weighted by path length,
+//! SPL, Anderson et al. 2018 (arXiv:1807.06757): the mean over all runs of S · L / max(L, P), where L is the path of
+//! the oracle, which is told where the source is, in the same water from the same start.
 //!
 //! *Deviations*: L is the path that the oracle went on the same vehicle, not a shortest path by computation. It may end
 //! within the radius in which a way point counts as reached.
@@ -173,7 +173,8 @@ mod tests {
     use world::registry::Registry;
     use world::seeds::Key;
 
-    /// Three seeds, of the last of which a searcher has no row yet: found after 910 and 940 s, declared astray, not declared.
+    /// Three seeds, of the last of which a searcher has no row yet: found after 910 and 940 s, declared astray, not
+    /// declared.
     #[test]
     fn figures_by_hand_of_whole_seeds() {
         let asked = ["oracle", "surge-cast", "QMDP"].map(String::from);

@@ -31,8 +31,8 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "kinematic_steps"
 ];
 
-/// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario may
-/// use what a registry adds.
+/// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario
+/// may use what a registry adds.
 ///
 /// # Errors
 /// If it or its base scenario cannot be read. [`Campaign::check`] checks the scenarios of the arms.

@@ -8,9 +8,9 @@ use std::fmt;
 
 /// Whoever decides for robots and gantries whose strategy is `External`.
 ///
-/// A run whose searcher is not there, or goes away, has no row, and the campaign stops: what it would have done otherwise
-/// says nothing of the searcher. A searcher that answers too late is answered by the scenario (`on_late`), and its row
-/// counts.
+/// A run whose searcher is not there, or goes away, has no row, and the campaign stops: what it would have done
+/// otherwise says nothing of the searcher. A searcher that answers too late is answered by the scenario (`on_late`),
+/// and its row counts.
 pub trait Outside: Send + Sync {
     /// Who decides for a robot in a run; each question waits so long for an answer, s of real time.
     ///

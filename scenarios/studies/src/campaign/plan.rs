@@ -147,8 +147,8 @@ impl Campaign {
         Ok(self.base.with_text(Path::new(&shown), text)?)
     }
 
-    /// What errors call the scenario of an arm under a condition, and its text, where `number` is the number from 0 to 1
-    /// of a path that is drawn for a seed.
+    /// What errors call the scenario of an arm under a condition, and its text, where `number` is the number from 0
+    /// to 1 of a path that is drawn for a seed.
     fn text_of(
         &self,
         condition: u64,

@@ -42,8 +42,8 @@ pub struct CampaignSpec {
     /// Further arms, drawn at random and called `draw 1`, `draw 2`, ...
     #[serde(default)]
     pub drawn_arms: Option<RandomDraws>,
-    /// Values that are drawn anew for every seed, from the seed and the key. An arm may set what depends on them: in its
-    /// values, `{PATH}` is the value that was drawn for this path.
+    /// Values that are drawn anew for every seed, from the seed and the key. An arm may set what depends on them: in
+    /// its values, `{PATH}` is the value that was drawn for this path.
     #[serde(default)]
     pub draw: Vec<Draw>,
     /// The conditions under which they are compared.

@@ -196,8 +196,8 @@ impl Work<'_> {
         }
     }
 
-    /// The scenarios of a run and of those that differ from it only in their arm, by arm. Where nothing is drawn for each
-    /// seed, those of a condition are kept.
+    /// The scenarios of a run and of those that differ from it only in their arm, by arm. Where nothing is drawn for
+    /// each seed, those of a condition are kept.
     fn scenarios(&self, run: u64) -> Result<Arc<Vec<Loaded>>, CampaignError> {
         let place = self.campaign.place(run);
         let load = || {
