@@ -82,6 +82,16 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
     let pond = pond();
     let dir = pond.path();
     fs::write(dir.join("odd.ron"), TWO.replace("{0.5 speed}", "{pace}")).unwrap();
+    // Who is ranked must not be told the truth, nor change the contest.
+    fs::write(dir.join("told.ron"), TWO.replace("privileged: true, ", "")).unwrap();
+    fs::write(
+        dir.join("eased.ron"),
+        TWO.replace(
+            "(\"robots[0].strategy\", \"Amp(speed_m_s: {0.5",
+            "(\"success\", \"Completed\"), (\"robots[0].strategy\", \"Amp(speed_m_s: {0.5",
+        ),
+    )
+    .unwrap();
     fs::write(dir.join("gone.ron"), POND.replace("title: \"pond\",", "")).unwrap();
     fs::write(dir.join("wide.ron"), POND.replace("Uniform(-170, -110)", "Uniform(-110, -170)")).unwrap();
     fs::write(dir.join("far.ron"), POND.replace("Uniform(-170, -110)", "Uniform(-9000, -110)")).unwrap();
@@ -91,6 +101,12 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
         (&format!("{BOTH} --seeds 0"), 2, &["--seeds", "0 is not in 1.."]),
         ("--family flume --searcher surge-cast", 1, &["flume: none of the searchers asked for moves a gantry"]),
         ("--family pond.ron --searcher odd.ron", 1, &["slow in pond.ron: `{pace}` is not given; there are: speed"]),
+        ("--family pond.ron --searcher told.ron", 1, &["told in pond.ron: `{sources[0].east_m}` is not given"]),
+        (
+            "--family pond.ron --searcher eased.ron",
+            1,
+            &["slow in pond.ron: `success`: a searcher may set only robots[0]"],
+        ),
         ("--family gone.ron --searcher two.ron", 1, &["gone.ron", "title"]),
         ("--family wide.ron --searcher two.ron", 1, &["wide.ron", "draw[0]", "the smaller first"]),
         ("--family far.ron --searcher two.ron", 1, &["sources[0].east_m", "outside the area"]),

@@ -50,9 +50,16 @@ pub fn campaign(family: &Family, searchers: &[SearcherSpec], contest: &Contest) 
     text.push_str("],\narms: [\n");
     for searcher in fitting {
         writeln!(text, "  (name: {:?}, set: [", searcher.name).expect(TEXT);
+        // What is drawn is the truth: only who stands in no ranking may be told it, or change the contest.
+        let told: &[&str] = if searcher.privileged { &drawn } else { &[] };
         for (path, value) in &searcher.set {
             let whose = format!("{} in {}", searcher.name, family.shown);
-            let value = fill(value, &given, &drawn).map_err(wrong(whose))?;
+            let own = machine.own_paths();
+            if !searcher.privileged && !own.iter().any(|of| path == of || path.starts_with(&format!("{of}."))) {
+                let problem = format!("`{path}`: a searcher may set only {}", own.join(", "));
+                return Err(ArenaError::Fill { whose, problem });
+            }
+            let value = fill(value, &given, told).map_err(wrong(whose))?;
             writeln!(text, "    ({path:?}, {value:?}),").expect(TEXT);
         }
         text.push_str("  ]),\n");
@@ -80,6 +87,14 @@ impl Machine {
         match self {
             Machine::Robot => "vehicle",
             Machine::Gantry => "gantry",
+        }
+    }
+
+    /// What a searcher that is ranked may set; hull, other instruments, start, water and limits are the family's.
+    fn own_paths(self) -> &'static [&'static str] {
+        match self {
+            Machine::Robot => &["robots[0].strategy", "robots[0].map", "robots[0].sensors.fluorometers_aside"],
+            Machine::Gantry => &["gantries[0].tracker"],
         }
     }
 }

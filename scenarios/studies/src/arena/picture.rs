@@ -9,7 +9,9 @@ use output::charts::panel::Panel;
 /// Colours that the colour-blind can tell apart (Okabe & Ito 2008); who ranks behind these is grey.
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 
+/// Space for names to the left of the cells, px.
 const NAMES: f64 = 190.0;
+/// Width and height of a cell, px.
 const CELL: [f64; 2] = [104.0, 22.0];
 
 /// Searchers against families: the range of ranks, and the mean time to success by the colour.

@@ -33,7 +33,9 @@ pub struct SearcherSpec {
     /// It is told what no searcher can know, such as the place of the source: it stands in no ranking.
     #[serde(default)]
     pub privileged: bool,
-    /// Changes to the scenario: a path and the new value in RON. `{NAME}` is what the family gives by this name, with a
-    /// number before the name so many times that, and `{PATH}` the value that was drawn for this path.
+    /// Changes to the scenario: a path and the new value in RON. Who is ranked may set `robots[0].strategy`,
+    /// `robots[0].map`, `robots[0].sensors.fluorometers_aside` and `gantries[0].tracker`. `{NAME}` is what the family
+    /// gives by this name, with a number before the name so many times that. Only for who is privileged, `{PATH}` is
+    /// the value that was drawn for this path.
     pub set: Vec<(String, String)>,
 }
