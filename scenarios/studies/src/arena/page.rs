@@ -18,10 +18,10 @@ pub struct WrittenArena {
 }
 
 const NOTES: &str = "All searchers of a family have the same machine, instruments and limits, and those of a seed one \
-    and the same plume. Success: the source is declared within the family's radius by the limit; astray: another place \
-    is. Time: restricted mean, where a run without success counts as the limit. SPL: success weighted by the path of \
-    the oracle over the searcher's (Anderson et al. 2018). Cost: wall time of one core a simulated second beyond that \
-    of the oracle, which decides nothing; a few tenths of a millisecond are the processor's caches and other work. \
+    and the same plume. Success: the source is declared within the family's radius by the limit; false declaration: \
+    another place is. Time: restricted mean, where a run without success counts as the limit. SPL: success weighted by \
+    the path of the oracle over the searcher's (Anderson et al. 2018). Cost: wall time of one core a simulated second \
+    beyond that of the oracle, which decides nothing; a few tenths of a millisecond are caches and other work. \
     Intervals of 95 %: Wilson; of the mean on the scale of the logarithm; bootstrap of the median. Rank: by the mean \
     time, as the range of ranks that cannot be excluded (Mogstad et al. 2024, 2000 resamples of whole seeds): who \
     shares ranks is tied, and so are all with fewer than five seeds.";
@@ -145,7 +145,7 @@ fn of_family(s: &Standing) -> Table {
             ("searcher", &|f| f.searcher.clone()),
             ("rank", &|f| f.rank.map_or("told the source".to_string(), |rank| ranks(rank.interval))),
             ("success", &|f| if f.privileged { "–".to_string() } else { share(f.success) }),
-            ("astray", &|f| if f.privileged { "–".to_string() } else { share(f.astray) }),
+            ("false declarations", &|f| if f.privileged { "–".to_string() } else { share(f.false_declarations) }),
             ("failed", &|f| f.failed.to_string()),
             ("time, s", &|f| {
                 let mean = f.restricted.mean_s.filter(|_| !f.privileged);
@@ -162,7 +162,7 @@ fn csv(standings: &[Standing]) -> String {
     let number = |v: Option<f64>| output::files::csv_number(v);
     let rows = standings.iter().flat_map(|s| {
         s.figures.iter().map(move |f| {
-            let [success, astray] = [f.success.share(), f.astray.share()];
+            let [success, wrong] = [f.success.share(), f.false_declarations.share()];
             let spl = f.spl.map(|(v, _)| v);
             let error = f.error_m.map(|(v, _)| v);
             let rank = f.rank.map(|rank| rank.interval);
@@ -174,9 +174,9 @@ fn csv(standings: &[Standing]) -> String {
                 f.success.of.to_string(),
                 number(Some(success.1.low)),
                 number(Some(success.1.high)),
-                f.astray.of.to_string(),
-                number(Some(astray.1.low)),
-                number(Some(astray.1.high)),
+                f.false_declarations.of.to_string(),
+                number(Some(wrong.1.low)),
+                number(Some(wrong.1.high)),
                 f.failed.to_string(),
                 number(f.restricted.mean_s),
                 number(f.restricted.interval.map(|i| i.low)),
@@ -190,8 +190,8 @@ fn csv(standings: &[Standing]) -> String {
         })
     });
     output::files::csv_text(
-        "family,searcher,privileged,n,success,success_low,success_high,astray,astray_low,astray_high,failed,time_s,\
-         time_low_s,time_high_s,error_m,spl,cost_ms,rank_best,rank_worst",
+        "family,searcher,privileged,n,success,success_low,success_high,false_declarations,false_low,false_high,failed,\
+         time_s,time_low_s,time_high_s,error_m,spl,cost_ms,rank_best,rank_worst",
         rows,
     )
 }

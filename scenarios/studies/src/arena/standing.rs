@@ -44,7 +44,7 @@ pub struct Figures {
     /// Runs that declared the source within the family's radius.
     pub success: Count,
     /// Runs that declared another place.
-    pub astray: Count,
+    pub false_declarations: Count,
     /// Runs that failed: they count as neither.
     pub failed: u64,
     /// Mean time to success, at most the limit.
@@ -149,7 +149,7 @@ fn one(name: &str, privileged: bool, rows: &[&RunRow], told: Option<&[&RunRow]>,
         searcher: name.to_string(),
         privileged,
         success: count(&|row| row.success),
-        astray: count(&|row| !row.success && row.declared_s.is_some()),
+        false_declarations: count(&|row| !row.success && row.declared_s.is_some()),
         failed: count(&|row| row.error.is_some()).of,
         restricted: restricted(rows, limit_s),
         error_m: quantile(&errors, 0.5).map(|m| (m, quantile_interval(&errors, 0.5, 1, name))),
@@ -173,7 +173,7 @@ mod tests {
     use world::registry::Registry;
     use world::seeds::Key;
 
-    /// Three seeds, of the last of which a searcher has no row yet: found after 910 and 940 s, declared astray, not
+    /// Three seeds, of the last of which a searcher has no row yet: found after 910 and 940 s, declared elsewhere, not
     /// declared.
     #[test]
     fn figures_by_hand_of_whole_seeds() {
@@ -205,7 +205,10 @@ mod tests {
         assert_eq!((s.done, s.limit_s, s.scores.len()), ([2, 3], 1800.0, 2));
         let [told, cast, qmdp] = &s.figures[..] else { panic!("three searchers") };
         assert!(told.privileged && told.rank.is_none() && told.spl.is_none());
-        assert_eq!((cast.success.of, cast.astray.of, qmdp.success.of, qmdp.astray.of), (2, 0, 0, 1));
+        assert_eq!(
+            (cast.success.of, cast.false_declarations.of, qmdp.success.of, qmdp.false_declarations.of),
+            (2, 0, 0, 1)
+        );
         // 300 of 600 m, and a path that is not longer than the oracle's counts as its own.
         assert_eq!((cast.spl.unwrap().0, qmdp.spl.unwrap().0), (0.75, 0.0));
         assert_eq!((cast.restricted.mean_s, qmdp.restricted.mean_s), (Some(925.0), Some(1800.0)));
