@@ -2,6 +2,7 @@
 
 use crate::common::{Ended, command, rheotaxis_in, root, says, with_little_room};
 use rheotaxis::control::{Controller, Question, Response, read_answer};
+use rheotaxis::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -173,6 +174,56 @@ fn without_anybody_outside_the_arena_says_so_and_keeps_what_it_has() {
     let ended = Ended::of(&mut command(pond.path(), &args)).with(1);
     says(&ended.err, &["searchers outside are asked at tcp/127.0.0.1:", "auv0 asked at 0.0 s: absent"]);
     assert_eq!(read_rows(&pond.path().join("out/pond")).unwrap().len(), 3);
+}
+
+params! {
+    /// Goes straight on, for a while.
+    struct Straight as "Straight", "straight on", from "a crate of its own" {
+        /// When it declares, s.
+        until_s: Positive = Positive::new(10.0),
+    }
+}
+
+impl StrategyParams for Straight {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(self.clone()))
+    }
+}
+
+impl Strategy for Straight {
+    fn step(&mut self, seen: &Observation, _: &mut Stream) -> Decision {
+        let manoeuvre = Manoeuvre::Course { course: Heading::from_deg(270.0) };
+        let goal = Goal { id: 1, manoeuvre, vertical: Vertical::Altitude(2.0), speed_m_s: 1.5 };
+        let done = seen.t_s >= self.until_s.get();
+        Decision {
+            declared: done.then(|| Declaration::first(seen.t_s, seen.estimate.position, "far enough")),
+            outcome: done.then_some(Outcome::Completed),
+            ..Decision::new(Behaviour::Other("straight"), goal)
+        }
+    }
+}
+
+#[test]
+fn a_strategy_of_another_crate_competes_by_its_name() {
+    let pond = pond();
+    let dir = pond.path();
+    let mine = OUTSIDE.replace("External(period_s: 1, on_late: Abort)", "Straight(until_s: {0.25 step})");
+    fs::write(dir.join("mine.ron"), mine).unwrap();
+    let family = [dir.join("pond.ron")];
+    let asked = [dir.join("mine.ron"), dir.join("two.ron")].map(|p| p.display().to_string());
+    let contest = Contest { seeds: Some(2), first_seed: 1, key: Key::public() };
+    let planned = |registry: &Registry| {
+        let family = families(registry, &family).unwrap().remove(0);
+        campaign(&family, &searchers(&asked).unwrap(), &contest).unwrap()
+    };
+    says(&planned(&Registry::default()).check().unwrap_err().to_string(), &["Straight"]);
+    let planned = planned(&Registry::default().with::<Strategies, Straight>().unwrap());
+    let out = dir.join("out");
+    run(&planned, &out, &RunOptions::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+    let rows = read_rows(&out).unwrap();
+    let declared: Vec<_> = rows.iter().filter(|row| row.arm == "mine").map(|row| row.declared_s).collect();
+    assert_eq!(declared.len(), 2);
+    assert!(declared.iter().all(|at| at.is_some_and(|s| (s - 6.0).abs() < 0.1)), "{declared:?}");
 }
 
 /// All that comes with the program can compete: searchers name what each family gives, and the ends of all draws are

