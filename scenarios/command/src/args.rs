@@ -11,6 +11,7 @@ pub(super) mod live;
 pub(super) mod picture;
 pub(super) mod reproduce;
 mod ros2;
+pub(super) mod share;
 pub(super) mod values;
 pub(super) mod vehicle;
 pub(super) mod vision;

@@ -5,6 +5,7 @@ pub mod arena;
 pub mod campaign;
 pub mod distribution;
 pub mod draw;
+mod fill;
 pub mod identify;
 pub mod reproduce;
 pub mod score_vision;

@@ -174,6 +174,13 @@ fn without_anybody_outside_the_arena_says_so_and_keeps_what_it_has() {
     let ended = Ended::of(&mut command(pond.path(), &args)).with(1);
     says(&ended.err, &["searchers outside are asked at tcp/127.0.0.1:", "auv0 asked at 0.0 s: absent"]);
     assert_eq!(read_rows(&pond.path().join("out/pond")).unwrap().len(), 3);
+    // Where anybody could answer, it has to be allowed.
+    let open: Vec<&str> = args.iter().map(|arg| if arg.starts_with("tcp/") { "tcp/0.0.0.0:0" } else { arg }).collect();
+    let refused = Ended::of(&mut command(pond.path(), &open)).with(1);
+    says(&refused.err, &["anybody on the network", "--control-from-anywhere"]);
+    let open: Vec<&str> = open.into_iter().chain(["--control-from-anywhere"]).collect();
+    let warned = Ended::of(&mut command(pond.path(), &open)).with(1);
+    says(&warned.err, &["warning", "anybody", "auv0 asked at 0.0 s: absent"]);
 }
 
 params! {

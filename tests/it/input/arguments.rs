@@ -43,7 +43,7 @@ fn read(argument: &str, text: &str) -> Option<f64> {
         },
         "--max-wall" => match parsed(&["campaign", "run", "c.ron", "--out", "o", "--max-wall", text])? {
             Command::Campaign(CampaignArgs { command: CampaignCommand::Run(args) }) => {
-                args.max_wall.map(|d| d.as_secs_f64())
+                args.share.max_wall.map(|d| d.as_secs_f64())
             }
             other => panic!("{other:?}"),
         },

@@ -1,11 +1,9 @@
 //! Arguments of `rheotaxis arena`.
 
-use super::cache::CacheArgs;
 use super::key::KeyArgs;
-use super::values::{wall_time, within};
+use super::share::ShareArgs;
+use super::values::within;
 use std::path::PathBuf;
-use std::time::Duration;
-use studies::campaign::Shard;
 
 /// Arguments of `arena`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -33,18 +31,9 @@ pub struct ArenaArgs {
     /// Folder for the results: a campaign for each family, the page, tables and figures.
     #[arg(long, value_name = "DIR", default_value = "runs/arena")]
     pub out: PathBuf,
-    /// The cache of spin-ups.
+    /// Which runs are made, and how.
     #[command(flatten)]
-    pub cache: CacheArgs,
-    /// Do the I-th of N shares of each family, counted from 1 [default: what the cluster's scheduler says, else all].
-    #[arg(long, value_name = "I/N")]
-    pub shard: Option<Shard>,
-    /// Runs at the same time; 0 means one on each core.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub jobs: usize,
-    /// Stop early enough to end within this time, such as 90s, 55m or 1h30m.
-    #[arg(long, value_name = "TIME", value_parser = wall_time)]
-    pub max_wall: Option<Duration>,
+    pub share: ShareArgs,
     /// How long a question waits until the first program that answers for a searcher outside is there, s of real time.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0,
         value_parser = within(0.0..=1e6, "must be a number of seconds from 0 to 1e6"))]
@@ -55,9 +44,9 @@ pub struct ArenaArgs {
     /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].
     #[arg(long, value_name = "ENDPOINT")]
     pub zenoh_listen: Option<String>,
-    /// Do not show progress.
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// Let anybody on the network answer for searchers outside, if that is what endpoint and configuration come to.
+    #[arg(long)]
+    pub control_from_anywhere: bool,
 }
 
 /// What the help of this command begins with.

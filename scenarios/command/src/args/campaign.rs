@@ -1,12 +1,9 @@
 //! Arguments of `rheotaxis campaign`.
 
-use super::cache::CacheArgs;
 use super::key::KeyArgs;
-use super::values::wall_time;
+use super::share::ShareArgs;
 use clap::Subcommand;
 use std::path::PathBuf;
-use std::time::Duration;
-use studies::campaign::Shard;
 
 /// Arguments of `campaign`.
 #[derive(Clone, Debug, clap::Args)]
@@ -78,28 +75,16 @@ pub struct CampaignRunArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
-    /// The cache of spin-ups.
+    /// Which runs are made, and how.
     #[command(flatten)]
-    pub cache: CacheArgs,
-    /// Do the I-th of N shares, counted from 1 [default: what the cluster's scheduler says, else all].
-    #[arg(long, value_name = "I/N")]
-    pub shard: Option<Shard>,
-    /// Runs at the same time; 0 means one on each core.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub jobs: usize,
+    pub share: ShareArgs,
     /// Runs in a block, rounded up to a multiple of the arms [default: as the folder has it; in a new folder, what one
     /// thread does in half a minute, at most 256].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub block: Option<u64>,
-    /// Stop early enough to end within this time, such as 90s, 55m or 1h30m.
-    #[arg(long, value_name = "TIME", value_parser = wall_time)]
-    pub max_wall: Option<Duration>,
     /// Continue in a folder that was begun with another scenario, campaign or version, and keep its blocks.
     #[arg(long)]
     pub force: bool,
-    /// Do not show progress.
-    #[arg(long, short)]
-    pub quiet: bool,
 }
 
 const RUN_AFTER: &str = "\

@@ -1,7 +1,7 @@
 //! `rheotaxis arena`: searchers against each other, in several kinds of water.
 
 use super::cache;
-use super::campaign::{run_shown, share_of};
+use super::campaign::run_shown;
 use crate::args::arena::ArenaArgs;
 use crate::exit::Exit;
 use crate::failure::{Failure, hinted};
@@ -39,25 +39,25 @@ pub(crate) fn arena(registry: &Registry, args: &ArenaArgs) -> Result<Exit, Failu
     }
     make_folder(&args.out)?;
     let outside = if asked.is_empty() { None } else { Some(open(args)?) };
-    let shard = share_of(args.shard)?;
-    let kept = cache::opened(&args.cache).map(Arc::new);
+    let shard = args.share.shard()?;
+    let kept = cache::opened(&args.share.cache).map(Arc::new);
     let begun = now();
     let mut exit = Exit::Success;
     for (family, planned) in &all {
-        let left = args.max_wall.map(|most| most.saturating_sub(begun.elapsed()));
+        let left = args.share.max_wall.map(|most| most.saturating_sub(begun.elapsed()));
         if exit != Exit::Success || left == Some(Duration::ZERO) {
             exit = Exit::Unfinished;
             break;
         }
         let options = RunOptions {
             shard,
-            jobs: args.jobs,
+            jobs: args.share.jobs,
             max_wall: left,
             kept: kept.clone(),
             outside: outside.clone(),
             ..RunOptions::default()
         };
-        let ended = run_shown(planned, &args.out.join(&family.name), &options, args.quiet);
+        let ended = run_shown(planned, &args.out.join(&family.name), &options, args.share.quiet);
         exit = ended.map_err(|e| match e.downcast_ref() {
             Some(CampaignError::Differs { .. }) => hinted(e, "give another --out: other searchers, seeds or a key"),
             _ => e,
@@ -90,7 +90,9 @@ fn open(args: &ArenaArgs) -> Result<Arc<dyn Outside>, Failure> {
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
     options.plane = Arc::new(Plane::new(true, None));
+    options.control_from_anywhere = args.control_from_anywhere;
     let ask = LiveAsk::open(&options)?;
+    ask.notices().for_each(say::note);
     say::note(format_args!(
         "searchers outside are asked at {} under rheotaxis/*/ask/*; each run waits up to {} s for one",
         ask.endpoint(),

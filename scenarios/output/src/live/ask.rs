@@ -1,6 +1,6 @@
 //! A session that asks searchers outside in many runs, without publishing these runs.
 
-use super::config::{Open, OpenedSession, endpoint, opened, plain};
+use super::config::{Notices, Open, OpenedSession, endpoint, opened, plain};
 use super::controller::{Going, LiveController};
 use super::{LiveError, LiveOptions};
 use rheotaxis::topic::chunk;
@@ -17,6 +17,7 @@ pub struct LiveAsk {
     _alive: LivelinessToken,
     open: Arc<Open>,
     endpoint: String,
+    told: Notices,
 }
 
 impl LiveAsk {
@@ -27,16 +28,22 @@ impl LiveAsk {
     pub fn open(options: &LiveOptions) -> Result<Self, LiveError> {
         options.check()?;
         let from_env = std::env::var_os("ZENOH_CONFIG").map(PathBuf::from);
-        let OpenedSession { session, .. } = opened(options, from_env)?;
+        let OpenedSession { session, told } = opened(options, from_env)?;
         let token = session.liveliness().declare_token(format!("rheotaxis/{}/@live/sim", options.run_id));
         let alive = token.wait().map_err(|e| LiveError::Open { why: plain(&e) })?;
         let endpoint = endpoint(&session);
-        Ok(Self { _alive: alive, open: Arc::new(Open(session)), endpoint })
+        Ok(Self { _alive: alive, open: Arc::new(Open(session)), endpoint, told })
     }
 
     /// Where clients connect, as a zenoh endpoint.
     pub fn endpoint(&self) -> &str {
         &self.endpoint
+    }
+
+    /// What the user has to know: that another port was taken, that anybody may answer.
+    pub fn notices(&self) -> impl Iterator<Item = String> {
+        let warning = self.told.warning.as_ref().map(|warning| format!("warning: {warning}"));
+        self.told.notice.clone().into_iter().chain(warning)
     }
 
     /// Whoever decides for a robot of a run: as [`Live::controller`](super::Live::controller).

@@ -18,9 +18,9 @@ pub enum LiveError {
     },
     /// Whoever comes from another machine could control the run.
     #[error(
-        "--allow-control would let anybody on the network control this run, without a user, a client certificate or \
-         access control: {ways}. Close that (docs/interfaces.md has configurations that tell who may), or allow it \
-         with --control-from-anywhere"
+        "anybody on the network could control this, without a user, a client certificate or access control: {ways}. \
+         Close that (docs/interfaces.md has configurations that tell who may), or allow it with \
+         --control-from-anywhere"
     )]
     Exposed {
         /// By which ways.

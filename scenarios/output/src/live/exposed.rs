@@ -29,8 +29,8 @@ pub(super) fn warning(config: &Config, options: &LiveOptions) -> Result<Option<S
         return Err(LiveError::Exposed { ways });
     }
     Ok(Some(format!(
-        "--allow-control without users or access control: anybody on the network can control this run: {ways}; see \
-         docs/interfaces.md for configurations that tell who may"
+        "without users or access control, anybody on the network can control this: {ways}; see docs/interfaces.md for \
+         configurations that tell who may"
     )))
 }
 

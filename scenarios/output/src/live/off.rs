@@ -31,6 +31,11 @@ impl LiveAsk {
         ""
     }
 
+    /// Nothing.
+    pub fn notices(&self) -> impl Iterator<Item = String> {
+        std::iter::empty()
+    }
+
     /// Fails.
     ///
     /// # Errors

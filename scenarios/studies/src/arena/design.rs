@@ -1,11 +1,11 @@
 //! The campaign of a family: its arms are the searchers.
 
 use super::family::Machine;
-use super::fill::fill;
 use super::load::{ArenaError, Family};
 use super::searcher::SearcherSpec;
 use crate::campaign::Campaign;
 use crate::distribution::Distribution;
+use crate::fill::fill;
 use std::fmt::Write as _;
 use world::seeds::Key;
 

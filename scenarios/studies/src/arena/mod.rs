@@ -6,7 +6,6 @@
 
 mod design;
 mod family;
-mod fill;
 mod load;
 mod page;
 mod picture;

@@ -4,6 +4,7 @@ use super::error::CampaignError;
 use super::spec::{Arm, CampaignSpec, Conditions};
 use super::threads::with_threads;
 use crate::draw::number;
+use crate::fill::fill;
 use rayon::prelude::*;
 pub(super) use rheotaxis::scenario::hash;
 use rheotaxis::scenario::{Loaded, set_value};
@@ -161,19 +162,19 @@ impl Campaign {
             shown.push_str(&format!(", {named}"));
         }
         shown.push(')');
+        let wrong =
+            |path: &str, problem| CampaignError::Override { variant: shown.clone(), path: path.to_string(), problem };
         let mut text = self.base.text().into_owned();
         let mut all = self.condition(condition);
         let arm = self.arm(arm);
         let drawn = self.spec.draw.iter().filter(|draw| draw.in_arm(&arm.name));
         let drawn: Vec<_> = drawn.map(|draw| (draw.path.clone(), draw.value(number(&draw.path)))).collect();
         all.extend_from_slice(&drawn);
-        all.extend(arm.set.iter().map(|(path, value)| (path.clone(), filled(value, &drawn))));
+        for (path, value) in &arm.set {
+            all.push((path.clone(), fill(value, &drawn, &[]).map_err(|problem| wrong(path, problem))?));
+        }
         for (path, value) in &all {
-            text = set_value(&text, path, value).map_err(|problem| CampaignError::Override {
-                variant: shown.clone(),
-                path: path.clone(),
-                problem,
-            })?;
+            text = set_value(&text, path, value).map_err(|problem| wrong(path, problem))?;
         }
         Ok((shown, text))
     }
@@ -235,11 +236,6 @@ impl Campaign {
             .min_by_key(|(i, _)| *i);
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
-}
-
-/// A value of an arm, with `{PATH}` replaced by what was drawn for this path.
-fn filled(value: &str, drawn: &[(String, String)]) -> String {
-    drawn.iter().fold(value.to_string(), |value, (path, v)| value.replace(&format!("{{{path}}}"), v))
 }
 
 #[cfg(test)]
@@ -326,6 +322,12 @@ mod tests {
         sealed.key = Key::secret("of the contest");
         assert_ne!(sealed.of_run(&sealed.place(0)).unwrap().scenario.sources, of(0).sources);
         c.check().unwrap();
+        let astray = campaign(
+            r#"seeds: 1, draw: [(path: "time.limit_s", of: Uniform(5, 9))],
+            arms: [(name: "a", set: [("time.spin_up_s", "{time.limit}")])]"#,
+        );
+        let said = astray.check().unwrap_err().to_string();
+        assert!(said.contains("`{time.limit}` is not given; there are: time.limit_s"), "{said}");
         let beyond = campaign(r#"seeds: 1, arms: [(name: "a")], draw: [(path: "time.limit_s", of: Uniform(-1, 9))]"#);
         assert!(beyond.check().is_err(), "an end that is not legal");
     }

@@ -43,7 +43,7 @@ pub struct CampaignSpec {
     #[serde(default)]
     pub drawn_arms: Option<RandomDraws>,
     /// Values that are drawn anew for every seed, from the seed and the key. An arm may set what depends on them: in
-    /// its values, `{PATH}` is the value that was drawn for this path.
+    /// its values, `{PATH}` is the value that was drawn for this path, and `{0.5 PATH}` half of it.
     #[serde(default)]
     pub draw: Vec<Draw>,
     /// The conditions under which they are compared.

@@ -25,7 +25,7 @@ use rheotaxis::trial::Trial;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use studies::campaign::{Campaign, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run};
+use studies::campaign::{Campaign, Event, Manifest, RunEnded, RunOptions, Status, load, merge, read_row, run};
 use world::registry::Registry;
 
 /// Runs one of its subcommands.
@@ -44,27 +44,19 @@ pub(crate) fn campaign(registry: &Registry, command: &CampaignCommand) -> Result
 fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failure> {
     let mut campaign = load(registry, &args.file)?;
     campaign.key = args.key.get();
-    let kept = cache::opened(&args.cache).map(Arc::new);
+    let kept = cache::opened(&args.share.cache).map(Arc::new);
     let options = RunOptions {
-        shard: share_of(args.shard)?,
-        jobs: args.jobs,
+        shard: args.share.shard()?,
+        jobs: args.share.jobs,
         block: args.block,
-        max_wall: args.max_wall,
+        max_wall: args.share.max_wall,
         force: args.force,
         kept: kept.clone(),
         outside: None,
     };
-    let exit = run_shown(&campaign, &args.out, &options, args.quiet);
+    let exit = run_shown(&campaign, &args.out, &options, args.share.quiet);
     cache::tell_fault(kept.as_deref());
     exit
-}
-
-/// The share that was asked for, or that of the cluster's scheduler.
-pub(super) fn share_of(asked: Option<Shard>) -> Result<Shard, Failure> {
-    match asked {
-        Some(shard) => Ok(shard),
-        None => Ok(Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default()),
-    }
 }
 
 /// Runs what is left of a campaign and shows its progress.

@@ -1,11 +1,11 @@
-//! Texts in braces: what a family gives its searchers.
+//! Texts in braces: what a family gives its searchers, and what is drawn for a seed.
 
 /// A text with `{name}` replaced by what is given by this name, and `{0.5 name}` by half of it. What stands in braces
 /// and is a path that is `drawn` stays as it is.
 ///
 /// # Errors
 /// The text in braces for which nothing is given, and what is.
-pub(super) fn fill(text: &str, given: &[(String, String)], drawn: &[&str]) -> Result<String, String> {
+pub(crate) fn fill(text: &str, given: &[(String, String)], drawn: &[&str]) -> Result<String, String> {
     let mut out = String::new();
     let mut rest = text;
     while let Some((before, after)) = rest.split_once('{') {
