@@ -55,6 +55,7 @@ pub(crate) fn arena(registry: &Registry, args: &ArenaArgs) -> Result<Exit, Failu
             max_wall: left,
             kept: kept.clone(),
             outside: outside.clone(),
+            checked: true,
             ..RunOptions::default()
         };
         let ended = run_shown(planned, &args.out.join(&family.name), &options, args.share.quiet);

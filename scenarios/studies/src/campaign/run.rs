@@ -42,6 +42,8 @@ pub struct RunOptions {
     pub kept: Option<Arc<SpinUps>>,
     /// Who decides for robots and gantries whose strategy is `External`; without it, such an arm is refused.
     pub outside: Option<Arc<dyn Outside>>,
+    /// Whether [`Campaign::check_with`] was called before, so that a new folder is begun without it.
+    pub checked: bool,
 }
 
 /// How the campaign ended.
@@ -185,7 +187,9 @@ fn settle(campaign: &Campaign, dir: &Path, options: &RunOptions) -> Result<Optio
             return Err(CampaignError::Differs { dir, what });
         }
     }
-    campaign.check_with(options.outside.is_some())?;
+    if !options.checked {
+        campaign.check_with(options.outside.is_some())?;
+    }
     make_folder(dir).map_err(|e| OutputError::new(dir, e))?;
     if found.is_none() {
         if !present(dir, &ours)?.is_empty() {

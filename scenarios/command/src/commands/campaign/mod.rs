@@ -52,7 +52,7 @@ fn run_share(registry: &Registry, args: &CampaignRunArgs) -> Result<Exit, Failur
         max_wall: args.share.max_wall,
         force: args.force,
         kept: kept.clone(),
-        outside: None,
+        ..RunOptions::default()
     };
     let exit = run_shown(&campaign, &args.out, &options, args.share.quiet);
     cache::tell_fault(kept.as_deref());
