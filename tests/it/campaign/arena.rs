@@ -260,12 +260,12 @@ fn in_a_laminar_current_surge_cast_is_ahead_of_casting() {
     let family = families(&Registry::default(), &[PathBuf::from("uniform_kinematic")]).unwrap().remove(0);
     let laminar = crate::common::set(family.base, &[("water.currents[1].std_m_s", "0")]);
     let family = Family { base: laminar, ..family };
-    let contest = Contest { seeds: Some(3), first_seed: 1, key: Key::public() };
+    let contest = Contest { seeds: Some(5), first_seed: 1, key: Key::public() };
     let planned = campaign(&family, &searchers(&asked).unwrap(), &contest).unwrap();
     let dir = tempfile::tempdir().unwrap();
     run(&planned, dir.path(), &RunOptions::default(), &AtomicBool::new(false), &|_| {}).unwrap();
     let rows = read_rows(dir.path()).unwrap();
     let time_s = |row: &RunRow| if row.success { row.declared_s.unwrap() } else { 1800.0 };
     let ahead: Vec<f64> = rows.chunks(2).map(|of_seed| time_s(&of_seed[1]) - time_s(&of_seed[0])).collect();
-    assert!(ahead.len() == 3 && ahead.iter().sum::<f64>() > 300.0, "{ahead:?}");
+    assert!(ahead.len() == 5 && ahead.iter().all(|s| *s > 100.0), "{ahead:?}");
 }
