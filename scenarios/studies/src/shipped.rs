@@ -8,26 +8,25 @@ use world::files;
 /// Longest file read, bytes: these are texts of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
 
-/// The text of a file or, if there is none, of the one of that name that comes with the program. `what` names such
-/// files.
+/// The text of what comes with the program by this name or, if nothing does, of a file. `what` names such files.
 ///
 /// # Errors
 /// If there is neither, or the file cannot be read.
 pub(crate) fn text_of(path: &Path, shipped: &[Template], what: &str) -> Result<String, ScenarioError> {
     let shown = path.display().to_string();
     let refused = |problem: String, help: Option<String>| ScenarioError::File { path: shown.clone(), problem, help };
-    match files::read_text(path, LONGEST) {
-        Ok(text) => Ok(text),
-        Err(e) if e.kind() == ErrorKind::NotFound => {
-            let template = shipped.iter().find(|t| t.name == shown);
-            let names: Vec<&str> = shipped.iter().map(|t| t.name).collect();
-            template.map(|t| t.text.to_string()).ok_or_else(|| {
-                let known = format!("{what} that come with the program: {}", names.join(", "));
-                refused("there is no such file".to_string(), Some(known))
-            })
-        }
-        Err(e) => Err(refused(format!("cannot be read: {e}"), None)),
+    // First, so that a folder or file that happens to have this name stands for nothing else.
+    if let Some(template) = shipped.iter().find(|t| t.name == shown) {
+        return Ok(template.text.to_string());
     }
+    files::read_text(path, LONGEST).map_err(|e| match e.kind() {
+        ErrorKind::NotFound => {
+            let names: Vec<&str> = shipped.iter().map(|t| t.name).collect();
+            let known = format!("{what} that come with the program: {}", names.join(", "));
+            refused("there is no such file".to_string(), Some(known))
+        }
+        _ => refused(format!("cannot be read: {e}"), None),
+    })
 }
 
 /// A file that a file beside it names; what is no file there is a name.

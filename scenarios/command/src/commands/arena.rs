@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 use studies::arena::{Contest, Family, campaign, families, searchers, standing, write};
-use studies::campaign::{Campaign, CampaignError, Outside, RunName, RunOptions, merge, read_rows};
+use studies::campaign::{Campaign, CampaignError, Manifest, Outside, RunName, RunOptions, merge, read_rows};
 use world::registry::Registry;
 
 /// Runs what is left of each family, then shows all that there is.
@@ -112,10 +112,15 @@ fn show(
     let mut standings = Vec::new();
     for (family, planned) in all {
         let dir = args.out.join(&family.name);
-        if dir.join("campaign.json").is_file() {
-            standings.push(standing(family, searchers, planned, &read_rows(&dir)?)?);
-            merge(registry, &dir, &args.out.join(format!("{}.parquet", family.name)), None)?;
+        let Some(found) = Manifest::find(&dir)? else { continue };
+        let differs = found.differences(&Manifest::new(planned, found.block));
+        if !differs.is_empty() {
+            let differs = differs.join(", ");
+            say::note(format_args!("{} is left out: it holds another contest ({differs})", dir.display()));
+            continue;
         }
+        standings.push(standing(family, searchers, planned, &read_rows(&dir)?)?);
+        merge(registry, &dir, &args.out.join(format!("{}.parquet", family.name)), None)?;
     }
     let key = args.key.get().mark();
     let written = write(&args.out, &standings, searchers, key.as_deref(), &made_by(args))?;

@@ -37,7 +37,7 @@ pub fn campaign(family: &Family, searchers: &[SearcherSpec], contest: &Contest) 
     let wrong = |whose: String| move |problem| ArenaError::Fill { whose, problem };
     let mut given: Vec<(String, String)> = Vec::new();
     for (name, value) in &spec.given {
-        let filled = fill(value, &given, &drawn).map_err(wrong(format!("{}: given {name}", family.shown)))?;
+        let filled = fill(value, &given, &[]).map_err(wrong(format!("{}: given {name}", family.shown)))?;
         given.push((name.clone(), filled));
     }
     let count = contest.seeds.unwrap_or(spec.quick.get());
@@ -57,6 +57,11 @@ pub fn campaign(family: &Family, searchers: &[SearcherSpec], contest: &Contest) 
             let own = machine.own_paths();
             if !searcher.privileged && !own.iter().any(|of| path == of || path.starts_with(&format!("{of}."))) {
                 let problem = format!("`{path}`: a searcher may set only {}", own.join(", "));
+                return Err(ArenaError::Fill { whose, problem });
+            }
+            // The pair is the same instrument for all; its noise and span are not the searcher's.
+            if !searcher.privileged && path == "robots[0].sensors.fluorometers_aside" && value != "()" {
+                let problem = format!("`{path}` is `()` or not there: instruments are the family's");
                 return Err(ArenaError::Fill { whose, problem });
             }
             let value = fill(value, &given, told).map_err(wrong(whose))?;

@@ -19,12 +19,14 @@ pub struct WrittenArena {
 
 const NOTES: &str = "All searchers of a family have the same machine, instruments and limits, and those of a seed one \
     and the same plume. Success: the source is declared within the family's radius by the limit; false declaration: \
-    another place is. Time: restricted mean, where a run without success counts as the limit. SPL: success weighted by \
-    the path of the oracle over the searcher's (Anderson et al. 2018). Cost: wall time of one core a simulated second \
-    beyond that of the oracle, which decides nothing; a few tenths of a millisecond are caches and other work. \
+    another place is. Time: restricted mean, where a run without success counts as the limit. SPL: success weighted \
+    by the path of the oracle over the searcher's (Anderson et al. 2018). Cost: wall time of one core a simulated \
+    second beyond that of the oracle, which decides nothing; a few tenths of a millisecond are caches and other work. \
     Intervals of 95 %: Wilson; of the mean on the scale of the logarithm; bootstrap of the median. Rank: by the mean \
-    time, as the range of ranks that cannot be excluded (Mogstad et al. 2024, 2000 resamples of whole seeds): who \
-    shares ranks is tied, and so are all with fewer than five seeds.";
+    time, as the range of ranks that cannot be excluded (Mogstad et al. 2024, 2000 resamples of whole seeds), each \
+    range by itself. With fewer than five seeds nobody is told apart. Only the first declaration of a run counts, and \
+    a run that failed counts as one without success. Two searchers are compared by their paired difference: \
+    `rheotaxis campaign report`.";
 
 /// Writes `report.html`, `RANKING.md`, `arena.csv` and figures into a folder; `made` is the command that makes the runs
 /// and `key` the mark of their key.

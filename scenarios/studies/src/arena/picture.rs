@@ -43,7 +43,7 @@ pub(super) fn ranking(standings: &[&Standing], total: &Total) -> String {
         }
     }
     let below = 86.0 + CELL[1] * rows.len() as f64 + 20.0;
-    let words = "Light: found at once; dark: not found by the limit. Ranges that overlap cannot be told apart.";
+    let words = "Light: found at once; dark: not found by the limit. Each range of ranks holds with 95 % by itself.";
     c.text([16.0, below], 11.0, Anchor::Start, words);
     c.svg("ranking")
 }

@@ -4,14 +4,18 @@
 //! SPL, Anderson et al. 2018 (arXiv:1807.06757): the mean over all runs of S · L / max(L, P), where L is the path of
 //! the oracle, which is told where the source is, in the same water from the same start.
 //!
-//! *Deviations*: L is the path that the oracle went on the same vehicle, not a shortest path by computation. It may end
-//! within the radius in which a way point counts as reached.
+//! *Deviations*: L is the path that the oracle went on the same vehicle, not a shortest path by computation. It may
+//! end within the radius in which a way point counts as reached. A seed on which the oracle did not arrive is left
+//! out. Only the first declaration counts, whatever a searcher declares later. A run that failed counts as one
+//! without success.
 
 use super::load::Family;
 use super::ranks::{Rank, Scores, ranks};
 use super::searcher::SearcherSpec;
-use crate::campaign::report::{RestrictedMean, restricted, time_s};
-use crate::campaign::stats::{Interval, finite_sorted, positive_mean_interval, quantile, quantile_interval, wilson};
+use crate::campaign::report::{RestrictedMean, SuccessTime, restricted};
+use crate::campaign::stats::{
+    Interval, LEAST_VALUES, finite_sorted, positive_mean_interval, quantile, quantile_interval, wilson,
+};
 use crate::campaign::{Campaign, CampaignError, RunRow};
 use std::collections::BTreeMap;
 
@@ -93,9 +97,10 @@ pub fn standing(
     campaign: &Campaign,
     rows: &[RunRow],
 ) -> Result<Standing, CampaignError> {
-    let limit_s = campaign.limit_s()?;
-    let mut by_seed: BTreeMap<u64, Vec<&RunRow>> = BTreeMap::new();
-    rows.iter().for_each(|row| by_seed.entry(row.seed_index).or_default().push(row));
+    let time = campaign.success_time()?;
+    let limit_s = time.limit_s;
+    let mut by_seed: BTreeMap<u64, Vec<RunRow>> = BTreeMap::new();
+    rows.iter().for_each(|row| by_seed.entry(row.seed_index).or_default().push(judged(row, time)));
     by_seed.retain(|_, rows| rows.len() as u64 == campaign.n_arms());
     by_seed.values_mut().for_each(|rows| rows.sort_by_key(|row| row.run));
     let arms = campaign.spec.arms.iter().map(|arm| &arm.name);
@@ -103,13 +108,17 @@ pub fn standing(
     let oracle = arms.clone().position(privileged);
     let mut figures: Vec<Figures> = Vec::new();
     for (k, name) in arms.clone().enumerate() {
-        let own: Vec<&RunRow> = by_seed.values().map(|rows| rows[k]).collect();
-        let told: Option<Vec<&RunRow>> = oracle.map(|o| by_seed.values().map(|rows| rows[o]).collect());
-        figures.push(one(name, privileged(name), &own, told.as_deref(), limit_s));
+        let own: Vec<&RunRow> = by_seed.values().map(|rows| &rows[k]).collect();
+        let told: Option<Vec<&RunRow>> = oracle.map(|o| by_seed.values().map(|rows| &rows[o]).collect());
+        figures.push(one(name, privileged(name), &own, told.as_deref(), time));
     }
     let ranked: Vec<usize> = (0..figures.len()).filter(|k| !figures[*k].privileged).collect();
-    let score = |row: &RunRow| time_s(row, limit_s).unwrap_or(limit_s) / limit_s;
-    let scores: Scores = (by_seed.values()).map(|rows| ranked.iter().map(|k| score(rows[*k])).collect()).collect();
+    let score = |row: &RunRow| time.of(row).unwrap_or(limit_s) / limit_s;
+    let scores = Scores {
+        family: family.name.clone(),
+        seeds: by_seed.keys().copied().collect(),
+        of_seeds: by_seed.values().map(|rows| ranked.iter().map(|k| score(&rows[*k])).collect()).collect(),
+    };
     for (k, rank) in ranked.iter().zip(ranks(std::slice::from_ref(&scores))) {
         figures[*k].rank = Some(rank);
     }
@@ -125,6 +134,12 @@ pub fn standing(
     })
 }
 
+/// A run as the arena sees it: by its first declaration.
+fn judged(row: &RunRow, time: SuccessTime) -> RunRow {
+    let first_is_near = time.within_m.zip(row.error_m).is_none_or(|(most, error_m)| error_m <= most);
+    RunRow { success: row.success && first_is_near && row.error.is_none(), ..row.clone() }
+}
+
 /// Wall time of the runs' own parts for each simulated second, ms; `None` if nothing was simulated.
 fn own_ms(rows: &[&RunRow]) -> Option<f64> {
     let own_s: f64 = rows.iter().filter_map(|row| row.own_wall_s).sum();
@@ -133,33 +148,42 @@ fn own_ms(rows: &[&RunRow]) -> Option<f64> {
 }
 
 /// The figures of a searcher, beside the runs of the oracle, if there is one.
-fn one(name: &str, privileged: bool, rows: &[&RunRow], told: Option<&[&RunRow]>, limit_s: f64) -> Figures {
+fn one(name: &str, privileged: bool, rows: &[&RunRow], told: Option<&[&RunRow]>, time: SuccessTime) -> Figures {
     let count = |what: &dyn Fn(&RunRow) -> bool| Count {
         of: rows.iter().filter(|row| what(row)).count() as u64,
         n: rows.len() as u64,
     };
     let errors = finite_sorted(rows.iter().filter_map(|row| row.error_m));
     let spl: Option<Vec<f64>> = told.map(|told| {
-        let each = rows.iter().zip(told.iter().map(|row| row.travelled_m));
-        let weighed = |(row, path): (&&RunRow, f64)| if row.success { path / path.max(row.travelled_m) } else { 0.0 };
+        let arrived = |oracle: &RunRow| oracle.error.is_none() && oracle.mission_s < time.limit_s;
+        let each = rows.iter().zip(told.iter()).filter(|(_, oracle)| arrived(oracle));
+        let weighed = |(row, oracle): (&&RunRow, &&RunRow)| {
+            let path = oracle.travelled_m;
+            if row.success { path / path.max(row.travelled_m) } else { 0.0 }
+        };
         each.map(weighed).collect()
     });
     let found = rows.iter().filter(|row| row.success);
+    let whole: Vec<RunRow> = rows.iter().map(|row| RunRow { error: None, ..(*row).clone() }).collect();
     Figures {
         searcher: name.to_string(),
         privileged,
         success: count(&|row| row.success),
         false_declarations: count(&|row| !row.success && row.declared_s.is_some()),
         failed: count(&|row| row.error.is_some()).of,
-        restricted: restricted(rows, limit_s),
-        error_m: quantile(&errors, 0.5).map(|m| (m, quantile_interval(&errors, 0.5, 1, name))),
-        spl: spl.filter(|_| !rows.is_empty() && !privileged).map(|spl| {
+        restricted: restricted(&whole.iter().collect::<Vec<_>>(), time),
+        error_m: quantile(&errors, 0.5).map(|m| {
+            let enough = errors.len() >= LEAST_VALUES;
+            (m, quantile_interval(&errors, 0.5, 1, name).filter(|_| enough))
+        }),
+        spl: spl.filter(|spl| !spl.is_empty() && !privileged).map(|spl| {
             let mean = spl.iter().sum::<f64>() / spl.len() as f64;
-            (mean, positive_mean_interval(&spl).map(|i| Interval { high: i.high.min(1.0), ..i }))
+            let interval = positive_mean_interval(&spl).filter(|_| mean > 0.0);
+            (mean, interval.map(|i| Interval { high: i.high.min(1.0), ..i }))
         }),
         cost_ms: told.and_then(|told| Some(own_ms(rows)? - own_ms(told)?)).filter(|_| !privileged),
         rank: None,
-        times_s: finite_sorted(found.filter_map(|row| time_s(row, limit_s)).filter(|t| *t < limit_s)),
+        times_s: finite_sorted(found.filter_map(|row| time.of(row)).filter(|t| *t < time.limit_s)),
     }
 }
 
@@ -202,7 +226,7 @@ mod tests {
             of(7, near, 600.0, 0.1),
         ];
         let s = standing(&family, &searchers, &planned, &rows).unwrap();
-        assert_eq!((s.done, s.limit_s, s.scores.len()), ([2, 3], 1800.0, 2));
+        assert_eq!((s.done, s.limit_s, &s.scores.seeds[..]), ([2, 3], 1800.0, &[0, 1][..]));
         let [told, cast, qmdp] = &s.figures[..] else { panic!("three searchers") };
         assert!(told.privileged && told.rank.is_none() && told.spl.is_none());
         assert_eq!(
@@ -214,6 +238,6 @@ mod tests {
         assert_eq!((cast.restricted.mean_s, qmdp.restricted.mean_s), (Some(925.0), Some(1800.0)));
         assert_eq!((cast.error_m.unwrap().0, cast.times_s.len()), (5.0, 2));
         assert!((qmdp.cost_ms.unwrap() - 1.0).abs() < 1e-9 && cast.cost_ms.unwrap().abs() < 1e-9);
-        assert_eq!(s.scores, [[910.0 / 1800.0, 1.0], [940.0 / 1800.0, 1.0]]);
+        assert_eq!(s.scores.of_seeds, [[910.0 / 1800.0, 1.0], [940.0 / 1800.0, 1.0]]);
     }
 }

@@ -18,7 +18,7 @@ pub(super) fn totals(standings: &[Standing]) -> Vec<Total> {
         s.figures.iter().filter(|f| !f.privileged).map(|f| f.searcher.clone()).collect()
     };
     let mut sets: Vec<(Vec<String>, Vec<usize>)> = Vec::new();
-    for (k, s) in standings.iter().enumerate().filter(|(_, s)| !s.scores.is_empty()) {
+    for (k, s) in standings.iter().enumerate().filter(|(_, s)| !s.scores.of_seeds.is_empty()) {
         match sets.iter_mut().find(|(searchers, _)| *searchers == names(s)) {
             Some((_, families)) => families.push(k),
             None => sets.push((names(s), vec![k])),

@@ -28,7 +28,8 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "crab_flow",
     "wp_maps",
     "moth_plus",
-    "kinematic_steps"
+    "kinematic_steps",
+    "meander_memory",
 ];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program. Its scenario

@@ -2,6 +2,7 @@
 
 use super::error::CampaignError;
 use super::plan::Campaign;
+use super::report::SuccessTime;
 use rheotaxis::scenario::Scenario;
 
 impl Campaign {
@@ -15,6 +16,20 @@ impl Campaign {
             least = least.min(scenario.time.limit_s.get());
         })?;
         Ok(least)
+    }
+
+    /// By when a success counts in its scenarios, and how near a declaration has to be: the largest distance, if arms or
+    /// conditions set it.
+    ///
+    /// # Errors
+    /// If a scenario cannot be made.
+    pub fn success_time(&self) -> Result<SuccessTime, CampaignError> {
+        let mut within_m: Option<f64> = None;
+        self.each("success", |scenario| {
+            let m = scenario.success.declared_within_m();
+            within_m = within_m.map_or(m, |most| m.map(|m| m.max(most)).or(Some(most)));
+        })?;
+        Ok(SuccessTime { limit_s: self.limit_s()?, within_m })
     }
 
     /// What counts as a success in its scenarios, in words: one rule, unless arms or conditions set it.

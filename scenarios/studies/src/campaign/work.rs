@@ -10,10 +10,11 @@ use super::error::CampaignError;
 use super::outside::Outside;
 use super::plan::{Campaign, RunPlace};
 use super::rows::row::RunRow;
-use in_lanes::{LaneLimits, PlannedRun, in_lanes, one_run};
+use in_lanes::{LaneLimits, PlannedRun, in_lanes};
 use one_run::RunName;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -168,12 +169,15 @@ impl Work<'_> {
 
     /// Makes a run alone.
     pub(super) fn one(&self, run: u64) -> Result<RunRow, CampaignError> {
-        let place = self.campaign.place(run);
-        let scenarios = self.scenarios(run)?;
-        let begun = Instant::now();
-        let row = one_run(&scenarios[place.arm], &self.name(run));
-        self.limits.took(begun.elapsed());
-        Ok(row)
+        let gone = RefCell::new(None);
+        let deserted = |run: &RunName, why| {
+            *gone.borrow_mut() = Some(CampaignError::Deserted { run: run.run, arm: run.arm.clone(), why });
+        };
+        let took = |wall| self.limits.took(wall);
+        let heed = LaneLimits { took: &took, outside: self.outside, deserted: &deserted, ..LaneLimits::NONE };
+        let mut made = None;
+        self.seed(&[run], heed, &mut |row| made = Some(row))?;
+        made.ok_or_else(|| gone.take().unwrap_or_else(|| CampaignError::Shard("the first run did not end".to_string())))
     }
 
     /// Makes runs of one seed and condition.

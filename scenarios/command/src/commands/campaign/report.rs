@@ -13,7 +13,7 @@ use world::registry::Registry;
 pub(super) fn report(registry: &Registry, args: &ReportArgs) -> Result<Exit, Failure> {
     let manifest = Manifest::open(&args.dir)?;
     let campaign = manifest.campaign(registry)?;
-    let (limit_s, success) = (campaign.limit_s()?, campaign.success_rules()?);
+    let (time, success) = (campaign.success_time()?, campaign.success_rules()?);
     let rows = read_rows(&args.dir)?;
     let spec = &campaign.spec;
     let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
@@ -35,7 +35,8 @@ pub(super) fn report(registry: &Registry, args: &ReportArgs) -> Result<Exit, Fai
         success: &success,
         against: args.against.as_deref(),
         columns: say::columns(),
-        limit_s: Some(limit_s),
+        limit_s: Some(time.limit_s),
+        within_m: time.within_m,
         planned: wanted(&campaign, &args.dir, &manifest).runs,
         shown: &shown,
     };

@@ -1,6 +1,6 @@
 //! The figures of each arm, over all conditions and under each.
 
-use super::restricted::{RestrictedMean, restricted};
+use super::restricted::{RestrictedMean, SuccessTime, restricted};
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson};
@@ -128,13 +128,13 @@ pub(super) fn of_arm<'a>(rows: &'a [RunRow], arm: &str) -> Vec<&'a RunRow> {
     rows.iter().filter(|r| r.arm == arm).collect()
 }
 
-pub(super) fn figures(arm: &str, rows: &[&RunRow], limit_s: f64) -> ArmFigures {
+pub(super) fn figures(arm: &str, rows: &[&RunRow], success: SuccessTime) -> ArmFigures {
     ArmFigures {
         arm: arm.to_string(),
         failed: rows.iter().filter(|r| r.error.is_some()).count() as u64,
         success: Share::count(rows, |r| r.success),
         declared: Share::count(rows, |r| r.declared_s.is_some()),
-        restricted: restricted(rows, limit_s),
+        restricted: restricted(rows, success),
         measured: ArmMeasure::ALL.map(|m| measured(m, rows)).to_vec(),
     }
 }

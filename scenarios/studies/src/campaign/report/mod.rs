@@ -28,8 +28,8 @@ pub(crate) mod reliable {
     pub(crate) use super::reliability::{csv, notes, picture, table};
 }
 pub use pairs::{Compares, Comparison};
-pub use restricted::RestrictedMean;
-pub(crate) use restricted::{restricted, time_s};
+pub(crate) use restricted::restricted;
+pub use restricted::{RestrictedMean, SuccessTime};
 pub use screen::Film;
 pub(crate) use tables::range;
 pub(crate) use text::{Table, TableColumn, wrapped};

@@ -1,7 +1,7 @@
 //! Comparison of arms on the same seeds and conditions.
 
 use super::arms::{ArmMeasure, SEED, of_arm};
-use super::restricted::time_s;
+use super::restricted::SuccessTime;
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Better, Difference, Separation, paired_mean, paired_median, paired_share};
@@ -68,10 +68,15 @@ pub struct Comparison {
 }
 
 /// All comparisons of a campaign; `against` names the arm with which each other one is compared.
-pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64, against: Option<&str>) -> Vec<Comparison> {
+pub(super) fn comparisons(
+    arms: &[String],
+    rows: &[RunRow],
+    success: SuccessTime,
+    against: Option<&str>,
+) -> Vec<Comparison> {
     if let Some(second) = against {
         let others = arms.iter().filter(|a| *a != second);
-        return (others.flat_map(|first| compared(first, second, rows, limit_s))).collect();
+        return (others.flat_map(|first| compared(first, second, rows, success))).collect();
     }
     let mut out = Vec::new();
     for (i, first) in arms.iter().enumerate() {
@@ -79,7 +84,7 @@ pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64, agains
             if i > 0 && arms.len() > EACH_WITH_EACH {
                 continue;
             }
-            out.extend(compared(first, second, rows, limit_s));
+            out.extend(compared(first, second, rows, success));
         }
     }
     out
@@ -87,7 +92,7 @@ pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64, agains
 
 type Pair<'a> = (&'a RunRow, &'a RunRow);
 
-fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Comparison> {
+fn compared(first: &str, second: &str, rows: &[RunRow], success: SuccessTime) -> Vec<Comparison> {
     type Key<'a> = (&'a str, u64);
     let others: BTreeMap<Key<'_>, &RunRow> =
         of_arm(rows, second).into_iter().map(|r| ((r.condition.as_str(), r.seed_index), r)).collect();
@@ -95,8 +100,7 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
         .into_iter()
         .filter_map(|r| Some((r, *others.get(&(r.condition.as_str(), r.seed_index))?)))
         .collect();
-    let restricted =
-        paired_mean((pairs.iter()).filter_map(|(a, b)| time_s(a, limit_s).zip(time_s(b, limit_s))), Better::Less);
+    let restricted = paired_mean((pairs.iter()).filter_map(|(a, b)| success.of(a).zip(success.of(b))), Better::Less);
     let difference = |by: Compares| match by {
         Compares::Success => paired_share(pairs.iter().map(|(a, b)| (a.success, b.success)), Better::More),
         Compares::Restricted => restricted,
@@ -116,7 +120,7 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
             rests_on: match by {
                 Compares::Success => format!("all {n} pairs"),
                 Compares::Restricted => {
-                    format!("{k} of {n} pairs; no success counts as {limit_s:.0} s")
+                    format!("{k} of {n} pairs; no success counts as {:.0} s", success.limit_s)
                 }
                 Compares::Measure(ArmMeasure::Path) => format!("{k} of {n} pairs: both ran"),
                 Compares::Measure(_) => format!("{k} of {n} pairs: both declared"),

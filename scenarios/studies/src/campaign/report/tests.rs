@@ -20,6 +20,7 @@ fn about(planned: u64) -> About<'static> {
         against: None,
         columns: None,
         limit_s: Some(1500.0),
+        within_m: None,
         scenario: "duck_st",
         hash: "00",
         version: "0",

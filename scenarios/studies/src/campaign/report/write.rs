@@ -1,6 +1,7 @@
 //! Writes all parts of a campaign's report into one folder.
 
 use super::arms::{self, ConditionFigures, arm_names, of_arm};
+use super::restricted::SuccessTime;
 use super::screen::Shown;
 use super::text::Table;
 use super::tracks::{self, RemadeRun};
@@ -29,6 +30,8 @@ pub struct About<'a> {
     pub columns: Option<usize>,
     /// The shortest time limit of its scenarios, s; without it, the longest mission counts.
     pub limit_s: Option<f64>,
+    /// How near a declaration has to be for success, m, if success asks for any.
+    pub within_m: Option<f64>,
     /// Base scenario.
     pub scenario: &'a str,
     /// Hash of what was run.
@@ -77,9 +80,10 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<WrittenRe
     let grouped: Vec<(&String, Vec<&RunRow>)> = names.iter().map(|name| (name, of_arm(rows, name))).collect();
     let longest = (rows.iter().map(|r| r.mission_s)).fold(0.0, f64::max);
     let limit_s = about.limit_s.unwrap_or(longest);
-    let figures: Vec<_> = grouped.iter().map(|(name, rows)| arms::figures(name, rows, limit_s)).collect();
+    let success = SuccessTime { limit_s, within_m: about.within_m };
+    let figures: Vec<_> = grouped.iter().map(|(name, rows)| arms::figures(name, rows, success)).collect();
     let conditions = arms::conditions(&names, rows);
-    let comparisons = pairs::comparisons(&names, rows, limit_s, about.against);
+    let comparisons = pairs::comparisons(&names, rows, success, about.against);
     let waiting: Vec<_> = grouped.iter().map(|(name, rows)| curves::not_yet_declared(name, rows)).collect();
     let errors: Vec<_> = grouped.iter().map(|(name, rows)| curves::errors(name, rows)).collect();
 
