@@ -6,7 +6,9 @@
 //! after the outcome, x is the vehicle's place.
 //!
 //! *Deviations*: outcomes are whether there is a detection on the way, weighed exactly, instead of sampled
-//! concentrations.
+//! concentrations. Weighed exactly, the two terms add up to the mean square distance of the source from the vehicle by
+//! the belief of today, whatever could be detected (law of total variance). So it goes to the mean of its belief, and
+//! what it learns, it learns on the way there.
 
 use super::choice::{Policy, PolicyParams};
 use super::prospect::{Prospect, Way};

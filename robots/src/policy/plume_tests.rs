@@ -170,13 +170,34 @@ fn entrotaxis_wants_surprise_and_dual_control_the_source() {
     let mut chosen = |policy: PolicySpec| policy.build().choose(&prospect, &mut rng);
     assert_eq!(chosen(PolicySpec::new(super::entrotaxis::Entrotaxis {})), 2);
     assert_eq!(chosen(PolicySpec::new(super::infotaxis::Infotaxis {})), 2);
-    // The third way tells all and is far: 50² + 300² against 2 · 50² for the one in the middle.
+    // The mean square distance is 2500 m² from the middle, 5000 m² from the first end.
     assert_eq!(chosen(PolicySpec::new(super::dcee::Dcee {})), 1);
     // Where nothing more can be learned, it goes to the source.
     let sure = [0.0, 1.0];
     let prospect = Prospect::new(&sure, &cells, 10.0, &ways);
     let mut dual = PolicySpec::new(super::dual::Dual::default()).build();
     assert_eq!(dual.choose(&prospect, &mut rng), 1);
+}
+
+/// The law of total variance: what could be detected on a way cancels out of dual control's cost.
+#[test]
+fn dual_control_goes_to_the_mean_of_its_belief_whatever_could_be_detected() {
+    let mut rng = Stream::new(1, "dual", "test");
+    let cells: Vec<_> = (0..20).map(|i| Vector2::new(f64::from(i % 5), f64::from(i / 5)) * 10.0).collect();
+    for _ in 0..50 {
+        let raw: Vec<f64> = cells.iter().map(|_| rng.uniform()).collect();
+        let sum: f64 = raw.iter().sum();
+        let p: Vec<f64> = raw.iter().map(|v| v / sum).collect();
+        let mean: Vector2<f64> = p.iter().zip(&cells).map(|(p, cell)| cell * *p).sum();
+        let mut way = || {
+            let end = Vector2::new(rng.uniform(), rng.uniform()) * 40.0;
+            Way::with_detection(end, &cells.iter().map(|_| rng.uniform()).collect::<Vec<_>>())
+        };
+        let ways: Vec<Way> = (0..6).map(|_| way()).collect();
+        let prospect = Prospect::new(&p, &cells, 10.0, &ways);
+        let chosen = super::dcee::Dcee {}.choose(&prospect, &mut Stream::new(1, "policy", "test"));
+        assert_eq!(chosen, prospect.towards(mean));
+    }
 }
 
 #[test]
