@@ -71,6 +71,12 @@ fn its_results_stand_in_one_folder_and_the_same_command_continues() {
     // Other seeds are another contest.
     let other = arena(dir, &format!("{BOTH} --seeds 5 --out out")).with(1);
     says(&other.err, &["out/pond holds runs of another campaign", "give another --out"]);
+    // Nor does a page show its rows, if the time is over before it comes to them.
+    fs::write(dir.join("lake.ron"), POND).unwrap();
+    let late = format!("--family lake.ron {BOTH} --seeds 100000 --out out --max-wall 1s");
+    let late = arena(dir, &late).with(75);
+    says(&late.err, &["out/pond is left out: it holds another contest (campaign"]);
+    assert!(late.out.contains("lake: pond") && !late.out.contains("pond: pond\n"), "{}", late.out);
     let sealed = arena(dir, &format!("{BOTH} --quick --key secret-of-this-contest --out sealed")).with(0);
     says(&sealed.out, &["2 of 2 seeds are whole"]);
     says(&fs::read_to_string(dir.join("sealed/RANKING.md")).unwrap(), &["Sealed seeds, under the key with the mark"]);
@@ -82,6 +88,10 @@ fn its_results_stand_in_one_folder_and_the_same_command_continues() {
 fn what_cannot_compete_is_refused_before_anything_runs() {
     let pond = pond();
     let dir = pond.path();
+    // What happens to have the name of something that comes with the program is not taken for it.
+    for name in ["uniform", "searchers"] {
+        fs::create_dir(dir.join(name)).unwrap();
+    }
     fs::write(dir.join("odd.ron"), TWO.replace("{0.5 speed}", "{pace}")).unwrap();
     // Who is ranked must not be told the truth, nor change the contest.
     fs::write(dir.join("told.ron"), TWO.replace("privileged: true, ", "")).unwrap();
@@ -93,11 +103,22 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
         ),
     )
     .unwrap();
+    let slow = "(\"robots[0].strategy\", \"Amp(speed_m_s: {0.5";
+    let aside = "(\"robots[0].sensors.fluorometers_aside\", \"(span_m: 9)\"), ";
+    fs::write(dir.join("aside.ron"), TWO.replace(slow, &format!("{aside}{slow}"))).unwrap();
+    let hint = "(\"hint\", \"{sources[0].east_m}\"), (\"step\"";
+    fs::write(dir.join("hint.ron"), POND.replace("(\"step\"", hint)).unwrap();
     fs::write(dir.join("gone.ron"), POND.replace("title: \"pond\",", "")).unwrap();
     fs::write(dir.join("wide.ron"), POND.replace("Uniform(-170, -110)", "Uniform(-110, -170)")).unwrap();
     fs::write(dir.join("far.ron"), POND.replace("Uniform(-170, -110)", "Uniform(-9000, -110)")).unwrap();
     for (args, code, parts) in [
-        ("--searcher nobody", 1, &["there is no searcher `nobody`; there are: oracle, Pang 2009"][..]),
+        (
+            "--family pond.ron --searcher aside.ron",
+            1,
+            &["slow in pond.ron: `robots[0].sensors.fluorometers_aside` is `()`"][..],
+        ),
+        ("--family hint.ron --searcher two.ron", 1, &["given hint: `{sources[0].east_m}` is not given"]),
+        ("--searcher nobody", 1, &["there is no searcher `nobody`; there are: oracle, Pang 2009"]),
         ("--family nowhere", 1, &["nowhere", "families that come with the program: uniform"]),
         (&format!("{BOTH} --seeds 0"), 2, &["--seeds", "0 is not in 1.."]),
         ("--family flume --searcher surge-cast", 1, &["flume: none of the searchers asked for moves a gantry"]),
@@ -174,6 +195,10 @@ fn without_anybody_outside_the_arena_says_so_and_keeps_what_it_has() {
     let ended = Ended::of(&mut command(pond.path(), &args)).with(1);
     says(&ended.err, &["searchers outside are asked at tcp/127.0.0.1:", "auv0 asked at 0.0 s: absent"]);
     assert_eq!(read_rows(&pond.path().join("out/pond")).unwrap().len(), 3);
+    // A share that makes one run to learn how long they are asks, too.
+    let share: Vec<&str> = args.iter().map(|arg| if *arg == "out" { "share" } else { arg }).collect();
+    let share = Ended::of(&mut command(pond.path(), &[&share[..], &["--shard", "1/2"]].concat())).with(1);
+    says(&share.err, &["auv0 asked at 0.0 s: absent"]);
     // Where anybody could answer, it has to be allowed.
     let open: Vec<&str> = args.iter().map(|arg| if arg.starts_with("tcp/") { "tcp/0.0.0.0:0" } else { arg }).collect();
     let refused = Ended::of(&mut command(pond.path(), &open)).with(1);
