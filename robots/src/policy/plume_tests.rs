@@ -151,7 +151,7 @@ fn the_most_surprise_is_the_most_information_where_noise_is_the_same_everywhere(
         };
         let ways: Vec<Way> = (0..5).map(|_| way()).collect();
         let prospect = Prospect::new(&p, &cells, 1.0, &ways);
-        let mut chosen = |policy: PolicySpec| policy.build().choose(&prospect, &mut Stream::new(1, "policy", "test"));
+        let chosen = |policy: PolicySpec| policy.build().choose(&prospect, &mut Stream::new(1, "policy", "test"));
         let surprise = chosen(PolicySpec::new(super::entrotaxis::Entrotaxis {}));
         assert_eq!(surprise, chosen(PolicySpec::new(super::infotaxis::Infotaxis {})));
     }
