@@ -118,7 +118,7 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
             &["slow in pond.ron: `robots[0].sensors.fluorometers_aside` is `()`"][..],
         ),
         ("--family hint.ron --searcher two.ron", 1, &["given hint: `{sources[0].east_m}` is not given"]),
-        ("--searcher nobody", 1, &["there is no searcher `nobody`; there are: oracle, Pang 2009"]),
+        ("--searcher nobody", 1, &["there is no searcher `nobody`; there are: oracle; Pang 2009"]),
         ("--family nowhere", 1, &["nowhere", "families that come with the program: uniform"]),
         (&format!("{BOTH} --seeds 0"), 2, &["--seeds", "0 is not in 1.."]),
         ("--family flume --searcher surge-cast", 1, &["flume: none of the searchers asked for moves a gantry"]),

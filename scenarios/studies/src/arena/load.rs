@@ -133,7 +133,7 @@ pub fn searchers(asked: &[String]) -> Result<Vec<SearcherSpec>, ArenaError> {
             found.extend(file_of_searchers(Path::new(name))?);
         } else {
             let known: Vec<&str> = shipped.iter().map(|s| s.name.as_str()).collect();
-            return Err(ArenaError::Searcher { name: name.clone(), known: known.join(", ") });
+            return Err(ArenaError::Searcher { name: name.clone(), known: known.join("; ") });
         }
     }
     no_two("searchers", found.iter().map(|s| &s.name))?;

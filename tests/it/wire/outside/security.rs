@@ -269,7 +269,7 @@ fn a_run_that_anybody_may_control_from_elsewhere_says_so() {
     let warned = |run: Run| {
         let endpoint = run.endpoint.clone();
         let said = run.end().said;
-        let warned = said.contains("warning: --allow-control");
+        let warned = said.contains("warning: without users or access control");
         assert_eq!(said.contains("warning"), warned && said.contains(&endpoint), "{said}");
         warned
     };
