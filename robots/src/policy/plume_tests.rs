@@ -72,6 +72,7 @@ impl Plume {
         let mut rng = Stream::new(seed, "plume", "test");
         let mut p = vec![1.0 / self.cells.len() as f64; self.cells.len()];
         let source = Vector2::new(30.0 + 60.0 * rng.uniform(), 25.0 + 50.0 * rng.uniform());
+        // Not in the middle: there the belief stays the same on both sides, and who goes to its mean learns no side.
         let mut here = (18, 3);
         for _ in 0..moves {
             let (places, ways): (Vec<_>, Vec<_>) = self.ways(here).into_iter().unzip();

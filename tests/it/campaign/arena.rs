@@ -106,6 +106,8 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
     let slow = "(\"robots[0].strategy\", \"Amp(speed_m_s: {0.5";
     let aside = "(\"robots[0].sensors.fluorometers_aside\", \"(span_m: 9)\"), ";
     fs::write(dir.join("aside.ron"), TWO.replace(slow, &format!("{aside}{slow}"))).unwrap();
+    let span = "(\"robots[0].sensors.fluorometers_aside.span_m\", \"9\"), ";
+    fs::write(dir.join("span.ron"), TWO.replace(slow, &format!("{span}{slow}"))).unwrap();
     let hint = "(\"hint\", \"{sources[0].east_m}\"), (\"step\"";
     fs::write(dir.join("hint.ron"), POND.replace("(\"step\"", hint)).unwrap();
     fs::write(dir.join("gone.ron"), POND.replace("title: \"pond\",", "")).unwrap();
@@ -115,7 +117,12 @@ fn what_cannot_compete_is_refused_before_anything_runs() {
         (
             "--family pond.ron --searcher aside.ron",
             1,
-            &["slow in pond.ron: `robots[0].sensors.fluorometers_aside` is `()`"][..],
+            &["slow in pond.ron: `robots[0].sensors.fluorometers_aside`: "][..],
+        ),
+        (
+            "--family pond.ron --searcher span.ron",
+            1,
+            &["slow in pond.ron: `robots[0].sensors.fluorometers_aside.span_m`: ", "instruments are the family's"],
         ),
         ("--family hint.ron --searcher two.ron", 1, &["given hint: `{sources[0].east_m}` is not given"]),
         ("--searcher nobody", 1, &["there is no searcher `nobody`; there are: oracle; Pang 2009"]),

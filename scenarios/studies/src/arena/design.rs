@@ -10,6 +10,8 @@ use std::fmt::Write as _;
 use world::seeds::Key;
 
 const TEXT: &str = "writing to a String succeeds";
+/// The pair of fluorometers that bilateral chemotaxis needs.
+const PAIR: &str = "robots[0].sensors.fluorometers_aside";
 
 /// Seeds and key, the same for every family.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +62,8 @@ pub fn campaign(family: &Family, searchers: &[SearcherSpec], contest: &Contest) 
                 return Err(ArenaError::Fill { whose, problem });
             }
             // The pair is the same instrument for all; its noise and span are not the searcher's.
-            if !searcher.privileged && path == "robots[0].sensors.fluorometers_aside" && value != "()" {
-                let problem = format!("`{path}` is `()` or not there: instruments are the family's");
+            if !searcher.privileged && path.starts_with(PAIR) && (path != PAIR || value != "()") {
+                let problem = format!("`{path}`: `{PAIR}` is `()` or not there, for instruments are the family's");
                 return Err(ArenaError::Fill { whose, problem });
             }
             let value = fill(value, &given, told).map_err(wrong(whose))?;
@@ -98,7 +100,7 @@ impl Machine {
     /// What a searcher that is ranked may set; hull, other instruments, start, water and limits are the family's.
     fn own_paths(self) -> &'static [&'static str] {
         match self {
-            Machine::Robot => &["robots[0].strategy", "robots[0].map", "robots[0].sensors.fluorometers_aside"],
+            Machine::Robot => &["robots[0].strategy", "robots[0].map", PAIR],
             Machine::Gantry => &["gantries[0].tracker"],
         }
     }

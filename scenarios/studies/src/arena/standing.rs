@@ -138,7 +138,7 @@ pub fn standing(
 fn judged(row: &RunRow, time: SuccessTime) -> RunRow {
     let first_m = row.declarations.iter().find(|d| d.stands()).map_or(row.error_m, |d| d.error_m);
     let first_is_near = time.within_m.zip(first_m).is_none_or(|(most, error_m)| error_m <= most);
-    RunRow { success: row.success && first_is_near && row.error.is_none(), ..row.clone() }
+    RunRow { success: row.success && first_is_near && row.error.is_none(), error_m: first_m, ..row.clone() }
 }
 
 /// Wall time of the runs' own parts for each simulated second, ms; `None` if nothing was simulated.

@@ -154,10 +154,10 @@ fn pilots_steer_and_watchers_watch(mut run: Run, pilot: &Session, watcher: Sessi
     }
     assert_eq!(end.code, 130, "{}", end.said);
     assert_eq!(never.load(Ordering::SeqCst), 0, "a watcher was asked");
-    if !over_tls {
-        assert_eq!(end.count(0, "answered"), end.count(0, "asked"));
-        assert!(!end.said.contains("warning"), "{}", end.said);
-    }
+    // All are answered; over TLS, all that reached the pilot but the one under way when a link broke.
+    let (told, answered) = (end.count(0, "asked"), end.count(0, "answered"));
+    assert!(answered == told || over_tls && answered + 1 >= asked(), "{answered} of {told}");
+    assert!(answered < told || !end.said.contains("warning"), "{}", end.said);
 }
 
 #[test]
